@@ -13,13 +13,13 @@
 
 namespace terracut::baselines {
 
-/// A method that ours is compared with. Has ground::Segmenter's contracts; takes all memory in the
+/// A method to compare ours with. Has ground::Segmenter's contracts; takes all memory in the
 /// constructor.
 class Baseline {
  public:
   virtual ~Baseline() = default;
 
-  /// Labels one frame of the shape given. Real-time safe.
+  /// Labels one frame of the given shape. Real-time safe.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept {
     label_cells(image, observer);
@@ -31,14 +31,15 @@ class Baseline {
     return report;
   }
 
-  /// As Segmenter::labels() and planes().
+  /// See Segmenter::labels() and planes().
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
     return return_labels_.labels();
   }
   [[nodiscard]] const stage::CellPlanes& planes() const noexcept { return planes_; }
 
  protected:
-  /// `last_stage`: of ours, the one most like it. `obstacle_height_m`: of second returns of a cell.
+  /// `last_stage` is the stage of ours most like it. `obstacle_height_m` applies to a cell's second
+  /// returns.
   Baseline(stage::Stage last_stage, float obstacle_height_m, frame::ImageShape shape,
            std::size_t return_capacity, memory::FixedMemory& memory)
       : planes_(shape, memory),

@@ -46,7 +46,7 @@ void BeliefPropagation::add_up(std::size_t node, std::span<float> belief) const 
   }
 }
 
-/// To every side: message(x) = min over x' of [belief(x') - what came from that side(x') +
+/// Sends to every side: message(x) = min over x' of [belief(x') - the message from that side(x') +
 /// cost(x - x')], less its minimum.
 void BeliefPropagation::send_all(int row, int column) noexcept {
   const std::size_t here = node(row, column);
@@ -73,7 +73,7 @@ void BeliefPropagation::send_all(int row, int column) noexcept {
     per_label[side] = step[side]->per_label;
     most_free = std::max(most_free, step[side]->free_labels);
   }
-  // What is free to reach: the least of a window, one label wider on both sides each time.
+  // Applies the free labels: takes the minimum of a window that widens by one label on both sides.
   for (int width = 0; width < most_free; ++width) {
     for (std::size_t l = 0; l < count; ++l) {
       const std::size_t lower = (l == 0 ? l : l - 1) * kSides;
@@ -86,7 +86,7 @@ void BeliefPropagation::send_all(int row, int column) noexcept {
     }
     std::swap(costs, wider);
   }
-  // Cones of slope per_label on top of every value: one pass up, one down.
+  // Puts a cone of slope per_label on every value: one pass up, one down.
   for (std::size_t i = kSides; i < count * kSides; i += kSides) {
     for (std::size_t side = 0; side < kSides; ++side) {
       costs[i + side] = std::min(costs[i + side], costs[i - kSides + side] + per_label[side]);
@@ -111,11 +111,11 @@ void BeliefPropagation::send_all(int row, int column) noexcept {
   }
 }
 
-/// `to`: where the neighbour lies; it hears from the opposite side.
+/// Sends to the neighbour on side `to`, which receives it from the opposite side.
 void BeliefPropagation::deliver(const FourCosts& costs, Side to, float limit,
                                 std::size_t neighbour) noexcept {
   constexpr std::array<Side, kSides> kOpposite{kAbove, kBelow, kRight, kLeft};
-  float least = costs[to];  // the cones have not changed it
+  float least = costs[to];  // the cones have not changed the least
   for (std::size_t l = 1; l < labels(); ++l) least = std::min(least, costs[l * kSides + to]);
   float* message = message_.data() + neighbour * labels() * kSides + kOpposite[to];
   for (std::size_t l = 0; l < labels(); ++l) {
@@ -123,8 +123,7 @@ void BeliefPropagation::deliver(const FourCosts& costs, Side to, float limit,
   }
 }
 
-/// Between the ends of a free slope all labels between are equally good but for rounding; the
-/// middle of them leans to neither side.
+/// Labels within a free slope are equally good but for rounding; takes the middle one of the best.
 int BeliefPropagation::least_label(std::span<const float> belief) const noexcept {
   constexpr float kEqual = 1e-4F;
   const auto least = std::min_element(belief.begin(), belief.end());

@@ -10,14 +10,14 @@
 
 namespace terracut::baselines {
 
-/// Min-sum loopy belief propagation over a grid of nodes with ordered labels, as Felzenszwalb and
-/// Huttenlocher make it fast ("Efficient belief propagation for early vision", IJCV 70(1), 2006):
-/// nodes of one colour of the chequerboard send while those of the other listen, and a message
-/// costs time linear in the labels.
+/// Min-sum loopy belief propagation over a grid of nodes with ordered labels, by the fast method of
+/// Felzenszwalb and Huttenlocher ("Efficient belief propagation for early vision", IJCV 70(1),
+/// 2006): nodes of one colour of the chequerboard send while the others receive, and a message
+/// takes time linear in the labels.
 ///
-/// Looks for labels x that make  sum data_cost(node, x) + sum step_cost(x - x')  small, the second
-/// sum over neighbours in a row and in a column of the grid. Exact on a chain once there were as
-/// many iterations as the chain has nodes; on a grid without any guarantee.
+/// Seeks labels x that make  sum data_cost(node, x) + sum step_cost(x - x')  small, the second sum
+/// over neighbours in a row and in a column of the grid. Exact on a chain after as many iterations
+/// as it has nodes; without guarantee on a grid.
 class BeliefPropagation {
  public:
   static constexpr int kMaxLabels = 128;
@@ -26,7 +26,7 @@ class BeliefPropagation {
     int rows = 1;
     int columns = 1;
     int labels = 2;       ///< [2, kMaxLabels]
-    bool cyclic = false;  ///< The first column neighbours the last one; needs 3 columns.
+    bool cyclic = false;  ///< The first column is next to the last one; needs 3 columns.
 
     [[nodiscard]] std::size_t nodes() const noexcept {
       return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
@@ -38,36 +38,36 @@ class BeliefPropagation {
   struct StepCost {
     float per_label = 1;  ///< >= 0
     int free_labels = 0;  ///< >= 0
-    float limit = 0;      ///< >= 0; 0: these neighbours have no say over each other.
+    float limit = 0;      ///< >= 0; 0: these neighbours do not influence each other.
   };
 
   BeliefPropagation(const Shape& shape, memory::FixedMemory& memory);
 
-  /// Costs of a node's labels, to be filled before run(). Finite.
+  /// The costs of a node's labels, to be filled before run(). Finite.
   [[nodiscard]] std::span<float> data_cost(int row, int column) noexcept {
     return data_cost_.subspan(node(row, column) * labels(), labels());
   }
-  /// Between `row` and the next one; row in [0, rows - 1).
+  /// Sets the cost between `row` and the next one; row in [0, rows - 1).
   void set_step_between_rows(int row, const StepCost& cost) noexcept {
     between_rows_[static_cast<std::size_t>(row)] = cost;
   }
-  /// Between neighbours of one row.
+  /// Sets the cost between neighbours of one row.
   void set_step_within_row(int row, const StepCost& cost) noexcept {
     within_row_[static_cast<std::size_t>(row)] = cost;
   }
 
-  /// Drops earlier messages and passes new ones `iterations` times. Real-time safe:
-  /// O(iterations * nodes * labels).
+  /// Drops earlier messages and runs `iterations` iterations. Real-time safe: O(iterations * nodes
+  /// * labels).
   void run(int iterations) noexcept;
 
-  /// The label of least belief, the middle one of several side by side.
+  /// Returns the label of least belief, the middle one of several adjacent ones.
   [[nodiscard]] int label(int row, int column) const noexcept { return label_[node(row, column)]; }
 
  private:
-  /// Where a message comes from, seen by the node that gets it; and so the neighbour itself.
+  /// The side that a message comes from, seen by the receiver; also the neighbour there.
   enum Side : std::uint8_t { kBelow, kAbove, kLeft, kRight, kSides };
-  /// Values of all labels for the four sides at once, label by label: four independent chains of
-  /// additions side by side are what a processor is fast at.
+  /// Values of all labels for the four sides, label by label: a processor runs four independent
+  /// chains of additions in parallel.
   using FourCosts = std::array<float, static_cast<std::size_t>(kMaxLabels) * kSides>;
 
   [[nodiscard]] std::size_t node(int row, int column) const noexcept {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
-/// A row index beyond the image, mirrored at its edge.
+/// Mirrors a row index beyond the image at its edge.
 int mirrored(int row, int rows) noexcept {
   if (row < 0) row = -row;
   if (row >= rows) row = 2 * (rows - 1) - row;
@@ -61,7 +61,7 @@ void ColumnAngles::repair_columns(const frame::RangeImage& image) noexcept {
   }
 }
 
-/// Fills a hole on the line between the nearest returns below and above it.
+/// Fills a hole by interpolation between the nearest returns below and above it.
 void ColumnAngles::bridge_hole(const frame::RangeImage& image, int row, int column) noexcept {
   const auto steps_to_return = [&](int direction) noexcept {
     for (int steps = 1; steps <= config_.repair_rows; ++steps) {
@@ -99,7 +99,7 @@ void ColumnAngles::measure_angles() noexcept {
                                            std::fabs(range_m_[here + stride] - range_m_[here]));
       } else if (row > 0) {
         raw_deg_[here] =
-            raw_deg_[here - stride];  // nothing above it: the line from below ends here
+            raw_deg_[here - stride];  // nothing lies above: the line from below ends here
       }
     }
   }
@@ -117,7 +117,7 @@ void ColumnAngles::smooth_angles() noexcept {
         out[column] += weight * raw_deg_[from + column];
       }
     }
-    // A window with holes is not smoothed.
+    // Windows with holes are not smoothed.
     for (std::size_t column = 0; column < out.size(); ++column) {
       if (std::isnan(out[column])) out[column] = raw_deg_[cell(row, 0) + column];
     }
@@ -148,12 +148,12 @@ void ColumnAngles::spread_from(std::uint32_t start) noexcept {
     const std::uint32_t here = queue_[taken++];
     const std::uint32_t column = here % stride;
     const std::array<std::uint32_t, 4> neighbours{
-        here - stride,  // below row 0: wraps to a number beyond the image
+        here - stride,  // below row 0 this wraps to beyond the image
         here + stride, column == 0 ? here + columns - 1 : here - 1,
         column + 1 == columns ? here + 1 - columns : here + 1};
     for (const std::uint32_t next : neighbours) {
       if (next >= cells || ground_[next] != 0) continue;
-      // False where there is nothing: its angle is NaN.
+      // False also for a NaN angle, where there is nothing.
       if (!(std::fabs(angle_deg_[next] - angle_deg_[here]) < config_.same_ground_deg)) continue;
       ground_[next] = 1;
       queue_[put++] = next;

@@ -14,28 +14,28 @@
 namespace terracut::baselines {
 
 /// The range image method of Bogoslavskyi and Stachniss ("Efficient online segmentation for sparse
-/// 3D laser scans", PFG 85, 2017): the inclination of the line from each return to the one above it
-/// in its column, smoothed along the column; ground is what can be reached from the lowest returns
-/// by steps to one of four neighbours over which that angle changes little. It knows no height of
-/// the ground: heights are 0 where the label is ground and above the mount's ground plane
-/// elsewhere. Reports kAdjacentPoints and kLabels.
+/// 3D laser scans", PFG 85, 2017). Takes the inclination of the line from each return to the one
+/// above it in its column, smoothed along the column. Ground is reached from the lowest returns by
+/// steps to one of four neighbours over which that angle changes little. It knows no ground height:
+/// `height_m` is 0 where the label is ground, else the height above the mount's ground plane.
+/// Reports kAdjacentPoints and kLabels.
 class ColumnAngles final : public Baseline {
  public:
   struct Config {
-    float start_deg = 45.0F;       ///< Ground starts at no steeper angle, (0, 90].
-    float same_ground_deg = 5.0F;  ///< A step between neighbours changes it by less, (0, 90].
+    float start_deg = 45.0F;       ///< Ground starts at angles up to this, (0, 90].
+    float same_ground_deg = 5.0F;  ///< A step on ground changes the angle by less, (0, 90].
     int smoothing_window = 5;      ///< Rows of the Savitzky-Golay filter, odd, [1, 15].
-    int repair_rows = 5;           ///< A hole is bridged from no farther away, [0, 32] ...
-    float repair_range_m = 1.0F;   ///< ... between ranges that differ by less, [0, 100].
-    int margin_rows = 0;           ///< Ground grows so many rows up and down at the end, [0, 16].
+    int repair_rows = 5;           ///< Most rows to a return that bridges a hole, [0, 32].
+    float repair_range_m = 1.0F;   ///< Largest difference of the ranges bridged, [0, 100].
+    int margin_rows = 0;           ///< Ground finally grows by so many rows up and down, [0, 16].
   };
 
-  /// `profile` is not looked at: the angles are measured. Takes all memory.
+  /// Takes all memory. `profile` is not used: the angles are measured.
   ColumnAngles(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                std::size_t return_capacity, memory::FixedMemory& memory);
 
-  /// Smoothed angle by cell, degrees in [0, 90] but for what smoothing overshoots; NaN where
-  /// neither a return nor a repaired hole is.
+  /// Returns the smoothed angle by cell, degrees in [0, 90] (smoothing may overshoot); NaN without
+  /// a return or repaired hole.
   [[nodiscard]] std::span<const float> angle_deg() const noexcept { return angle_deg_; }
 
  private:
@@ -57,9 +57,9 @@ class ColumnAngles final : public Baseline {
   Config config_;
   frame::ImageShape shape_;
   SavitzkyGolay filter_;
-  std::span<float> range_m_, z_m_;  // of the repaired image, NaN where nothing is
+  std::span<float> range_m_, z_m_;  // of the repaired image, NaN for no return
   std::span<float> raw_deg_, angle_deg_;
-  std::span<std::uint8_t> ground_;  // by cell: reached from the lowest returns
+  std::span<std::uint8_t> ground_;  // by cell: 1 if reached from the lowest returns
   std::span<std::uint32_t> queue_;  // of the breadth-first search
 };
 

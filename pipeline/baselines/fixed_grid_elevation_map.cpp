@@ -42,8 +42,8 @@ void FixedGridElevationMap::label_cells(const frame::RangeImage& image,
   if (observer != nullptr) observer->stage_done(stage::Stage::kElevationMap);
 }
 
-/// Counting sort: how many in each square, where each square ends, then every return to its
-/// place.
+/// Counting sort: counts the returns of each square, finds where each square ends, then puts every
+/// return in place.
 void FixedGridElevationMap::sort_returns_into_squares(const frame::RangeImage& image) noexcept {
   std::fill(end_.begin(), end_.end(), 0U);
   frame::for_each_return(image, [this](const frame::PlacedReturn& placed) {
@@ -52,7 +52,7 @@ void FixedGridElevationMap::sort_returns_into_squares(const frame::RangeImage& i
   std::uint32_t sum = 0;
   for (std::uint32_t& end : end_) {
     const std::uint32_t count = end;
-    end = sum;  // where the square begins; moved on to its end while it is filled
+    end = sum;  // where the square begins; moves to its end during filling
     sum += count;
   }
   frame::for_each_return(image, [this](const frame::PlacedReturn& placed) {
@@ -92,8 +92,8 @@ FixedGridElevationMap::Square FixedGridElevationMap::fit(std::span<Sample> sampl
   square.kind = level ? SquareKind::kLevel : SquareKind::kVertical;
   square.elevation_m = samples.front().height_m;
   if (!level) return square;
-  // One update of a Kalman filter per return, all of them of the same height, is this mean. It is
-  // taken from the first height on, so that few bits are lost.
+  // Kalman filter updates by returns of equal variance give this mean. It is computed relative to
+  // the first height, so that few bits are lost.
   float weights = 0, weighted_m = 0;
   for (const Sample& sample : samples) {
     weights += sample.weight;

@@ -15,44 +15,44 @@ namespace terracut::baselines {
 
 /// The extended elevation map of Pfaff, Triebel and Burgard ("An efficient extension to elevation
 /// maps for outdoor terrain mapping and loop closing", IJRR 26(2), 2007): squares of a fixed size,
-/// each with one elevation. Where the heights of a square vary much it looks for a gap the vehicle
-/// fits through; what is above the gap hangs over, and the elevation is that of the lowest
-/// interval. A lowest interval whose heights still vary much is a vertical object standing on its
-/// lowest return. Which sources say what, and what they leave open, is in
-/// docs/reference/evaluation.md. Reports kElevationMap and kLabels.
+/// each with one elevation. If the heights of a square vary much, it looks for a gap that the
+/// vehicle fits through: points above the gap are an overhang, and the elevation is that of the
+/// lowest interval. If the heights of the lowest interval still vary much, it is a vertical object
+/// standing on its lowest return. docs/reference/evaluation.md names the sources and what they
+/// leave open. Reports kElevationMap and kLabels.
 class FixedGridElevationMap final : public Baseline {
  public:
   struct Config {
     float cell_m = 0.5F;             ///< Side of a square, [0.05, 10].
     float extent_m = 120.0F;         ///< Half the side of the map, [10, 250]; returns farther out
                                      ///< belong to its outermost squares.
-    float sigma_m = 0.02F;           ///< Standard deviation of a height at range 0, (0, 1] ...
-    float sigma_per_metre = 0.001F;  ///< ... and its growth with range, [0, 0.1].
+    float sigma_m = 0.02F;           ///< Standard deviation of a height at range 0, (0, 1].
+    float sigma_per_metre = 0.001F;  ///< Its growth with range, [0, 0.1].
     float vertical_sigma_m = 0.06F;  ///< Heights that vary more are not one level, (0, 5].
-    float vehicle_height_m = 2.0F;   ///< A larger gap can be driven through, [0.1, 1e9].
-    float obstacle_height_m = 0.2F;  ///< Obstacle from this far above the elevation on, (0, 5].
+    float vehicle_height_m = 2.0F;   ///< The vehicle can drive through larger gaps, [0.1, 1e9].
+    float obstacle_height_m = 0.2F;  ///< Obstacles are this far above the elevation, (0, 5].
   };
 
   enum class SquareKind : std::uint8_t {
     kEmpty,     ///< No return.
     kLevel,     ///< One level, seen from above.
-    kVertical,  ///< Something upright.
+    kVertical,  ///< An upright object.
   };
   struct Square {
-    SquareKind kind = SquareKind::kEmpty;  ///< Of the lowest interval.
+    SquareKind kind = SquareKind::kEmpty;  ///< The lowest interval's.
     /// Elevation, metres above the mount's ground plane: the fused height of a level, the lowest
     /// return of a vertical object.
     float elevation_m = 0;
-    /// Lower edge of what hangs over the gap; infinite where there is no gap.
+    /// Lower edge of the overhang above the gap; infinite if there is no gap.
     float overhang_m = std::numeric_limits<float>::infinity();
   };
 
-  /// `profile` is not looked at: the map knows no rings. Takes all memory.
+  /// Takes all memory. `profile` is not used: the map has no rings.
   FixedGridElevationMap(const Config& config, const mount::RingProfile& profile,
                         frame::ImageShape shape, std::size_t return_capacity,
                         memory::FixedMemory& memory);
 
-  /// The square a place on the ground belongs to. Real-time safe, any floats.
+  /// Returns the square of a place on the ground. Real-time safe, any floats.
   [[nodiscard]] const Square& square_at(float x_m, float y_m) const noexcept {
     return squares_[square_of(x_m, y_m)];
   }
@@ -73,8 +73,8 @@ class FixedGridElevationMap final : public Baseline {
 
   Config config_;
   int side_;                      // squares
-  std::span<std::uint32_t> end_;  // by square: one past its last sample
-  std::span<Sample> samples_;     // of all returns, square by square
+  std::span<std::uint32_t> end_;  // by square: the index after its last sample
+  std::span<Sample> samples_;     // all returns, square by square
   std::span<Square> squares_;
 };
 

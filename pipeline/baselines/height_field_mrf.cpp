@@ -34,14 +34,14 @@ HeightFieldMrf::HeightFieldMrf(const Config& config, const mount::RingProfile& p
 int HeightFieldMrf::band_of(float ground_range_m) const noexcept {
   const float bands = ground_range_m / config_.band_m;
   const auto last = static_cast<float>(bands_ - 1);
-  return bands > 0 ? static_cast<int>(std::min(bands, last)) : 0;  // NaN too
+  return bands > 0 ? static_cast<int>(std::min(bands, last)) : 0;  // NaN gives 0 as well
 }
 
 int HeightFieldMrf::label_of(float height_m) const noexcept {
   const float steps =
       height_m / config_.height_step_m + static_cast<float>(config_.height_labels / 2) + 0.5F;
   const auto last = static_cast<float>(config_.height_labels - 1);
-  return steps > 0 ? static_cast<int>(std::min(steps, last)) : 0;  // NaN too
+  return steps > 0 ? static_cast<int>(std::min(steps, last)) : 0;  // NaN gives 0 as well
 }
 
 float HeightFieldMrf::height_of(int label) const noexcept {
@@ -73,7 +73,8 @@ void HeightFieldMrf::count_returns(const frame::RangeImage& image) noexcept {
   });
 }
 
-/// Sector by sector, from outside inwards: no ground is above the lowest beam that passed through.
+/// Goes through each sector from outside inwards: no ground lies above the lowest beam that passed
+/// through.
 void HeightFieldMrf::put_costs() noexcept {
   for (int sector = 0; sector < config_.sectors; ++sector) {
     float least_slope = std::numeric_limits<float>::infinity();
@@ -94,8 +95,8 @@ void HeightFieldMrf::put_costs() noexcept {
   }
 }
 
-/// A height is supported by the returns at it and, nearly as well, by those one step off. Those
-/// above are of obstacles then, those below cannot be.
+/// Sets the costs of a cell's heights. Returns at a height support it, those one step off nearly as
+/// well. Returns above it would be obstacles; returns below it are hardly possible.
 void HeightFieldMrf::put_cost(int band, int sector, float free_above_m) noexcept {
   const auto labels = static_cast<std::size_t>(config_.height_labels);
   const auto cost = field_.data_cost(band, sector);
@@ -104,7 +105,7 @@ void HeightFieldMrf::put_cost(int band, int sector, float free_above_m) noexcept
   for (const std::uint16_t count : at) all += count;
   const float say =
       all == 0 ? 0.0F : 1.0F / static_cast<float>(std::max(all, config_.full_returns));
-  int below = 0;  // returns below the label's neighbour below
+  int below = 0;  // returns more than one label below this one
   int near = at[0];
   for (std::size_t l = 0; l < labels; ++l) {
     near += l + 1 < labels ? at[l + 1] : 0;

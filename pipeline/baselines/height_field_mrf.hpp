@@ -13,42 +13,42 @@
 
 namespace terracut::baselines {
 
-/// The ground as a multi-label Markov random field, after Zhang, Morris and Fu ("Ground
-/// segmentation based on loopy belief propagation for sparse 3D point clouds", 3DV 2015): a polar
-/// map whose cells each ask for the height of the ground among a list of heights. What a column of
-/// returns says of a height is a cost, without any assumed distribution; neighbours ask for a slope
-/// the ground can have, and for not more than a limit where it has a step. Belief propagation
-/// settles it, and a return is ground when it is not far above its cell's height. Which sources say
-/// what, and what they leave open, is in docs/reference/evaluation.md. Reports kElevationMap when
-/// the costs are there, kMinCut when the field is solved, and kLabels.
+/// Models the ground as a multi-label Markov random field, after Zhang, Morris and Fu ("Ground
+/// segmentation based on loopy belief propagation for sparse 3D point clouds", 3DV 2015): each cell
+/// of a polar map gets one ground height of a list. A column's returns give each height a cost,
+/// without an assumed distribution. Neighbours cost more the more they differ beyond a possible
+/// slope, up to a limit for steps. Belief propagation solves the field; a return is ground if it is
+/// not far above its cell's height. docs/reference/evaluation.md names the sources and what they
+/// leave open. Reports kElevationMap when the costs are set, kMinCut when the field is solved, and
+/// kLabels.
 class HeightFieldMrf final : public Baseline {
  public:
   struct Config {
-    int sectors = 180;            ///< Of the polar map, [3, 2000].
+    int sectors = 180;            ///< Sectors of the polar map, [3, 2000].
     float band_m = 1.0F;          ///< Width of its rings, [0.2, 20].
-    float range_limit_m = 80.0F;  ///< Farther returns belong to the last ring, [10, 250].
-    int height_labels = 64;       ///< Heights to choose from, [2, 128] ...
-    float height_step_m = 0.1F;   ///< ... so far apart, around the mount's ground plane; [0.01, 1].
+    float range_limit_m = 80.0F;  ///< Farther returns count to the last ring, [10, 250].
+    int height_labels = 64;       ///< Number of heights to choose from, [2, 128].
+    float height_step_m = 0.1F;   ///< Their spacing, around the mount's plane; [0.01, 1].
 
-    float above_cost = 0.5F;   ///< A column all of whose returns are above the ground, [0, 1000].
-    float below_cost = 5.0F;   ///< A column all of whose returns are below it, [0, 1000].
-    float beside_cost = 0.1F;  ///< A column all of whose returns are one step off it, [0, 1000].
-    int full_returns = 5;      ///< Columns of fewer returns have less say, [1, 1000].
-    float hidden_cost = 2.0F;  ///< Ground where a beam passed through to something, [0, 1000].
+    float above_cost = 0.5F;   ///< Cost if all returns of a column are above, [0, 1000].
+    float below_cost = 5.0F;   ///< Cost if all returns of a column are below, [0, 1000].
+    float beside_cost = 0.1F;  ///< Cost if all are one step off, [0, 1000].
+    int full_returns = 5;      ///< Columns of fewer returns count less, [1, 1000].
+    float hidden_cost = 2.0F;  ///< Cost of ground where a beam passed, [0, 1000].
 
-    float step_cost_per_m = 10.0F;  ///< Neighbours that differ more than a slope, [0, 1000] ...
-    float step_cost_limit = 1.0F;   ///< ... up to this, [0, 1000].
-    float max_slope = 0.15F;        ///< What a slope of the ground may be, m/m; [0, 2].
+    float step_cost_per_m = 10.0F;  ///< Cost of a difference beyond a slope, [0, 1000].
+    float step_cost_limit = 1.0F;   ///< Its upper limit, [0, 1000].
+    float max_slope = 0.15F;        ///< Slope without cost, m/m; [0, 2].
     int iterations = 20;            ///< [0, 1000]
 
-    float obstacle_height_m = 0.2F;  ///< Obstacle from this far above the ground on, (0, 5].
+    float obstacle_height_m = 0.2F;  ///< Returns this far above the ground are obstacles, (0, 5].
   };
 
-  /// Takes all memory; of `profile` only the mount's height is used.
+  /// Takes all memory. Uses only the mount's height of `profile`.
   HeightFieldMrf(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                  std::size_t return_capacity, memory::FixedMemory& memory);
 
-  /// Height of the ground where an image column passes a range, metres above the mount's plane.
+  /// Returns the ground's height at an image column and a range, metres above the mount's plane.
   [[nodiscard]] float ground_m(int column, float ground_range_m) const noexcept {
     return height_of(field_.label(band_of(ground_range_m), sector_of(column)));
   }
@@ -78,7 +78,7 @@ class HeightFieldMrf final : public Baseline {
   int bands_;
   BeliefPropagation field_;              // rows: bands, columns: sectors
   std::span<std::uint16_t> returns_at_;  // [map cell][height label]
-  std::span<float> least_slope_;         // by map cell: of the beams that end in it
+  std::span<float> least_slope_;         // by map cell: the least slope of beams that end in it
   std::span<std::uint16_t> sector_of_column_;
 };
 

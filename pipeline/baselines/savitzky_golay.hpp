@@ -9,14 +9,14 @@
 
 namespace terracut::baselines {
 
-/// Weights of the Savitzky-Golay filter for the middle of a window: the value there of the
-/// quadratic that fits the window best. So quadratics pass unchanged, and noise is averaged.
+/// Weights of the Savitzky-Golay filter for the middle of a window: they give the value there of
+/// the best-fitting quadratic. Quadratics pass unchanged, noise is averaged.
 class SavitzkyGolay {
  public:
   static constexpr int kMaxWindow = 15;
 
-  /// `window`: [1, kMaxWindow]; an even one counts as the next odd one. Up to 3 nothing is
-  /// smoothed: three values fix a quadratic.
+  /// `window` in [1, kMaxWindow]; an even one counts as the next odd one. A window of up to 3
+  /// smooths nothing: three values fix a quadratic.
   explicit SavitzkyGolay(int window) noexcept : reach_(window / 2) {
     assert(window >= 1 && window <= kMaxWindow);
     weights_[0] = 1.0F;
@@ -29,8 +29,8 @@ class SavitzkyGolay {
     }
   }
 
-  [[nodiscard]] int reach() const noexcept { return reach_; }  ///< Values to each side.
-  /// Weights of the values from -reach() to reach(); their sum is 1.
+  [[nodiscard]] int reach() const noexcept { return reach_; }  ///< Values on each side.
+  /// Returns the weights of the values from -reach() to reach(); their sum is 1.
   [[nodiscard]] std::span<const float> weights() const noexcept {
     return std::span(weights_).first(static_cast<std::size_t>(2 * reach_ + 1));
   }

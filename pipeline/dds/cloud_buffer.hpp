@@ -10,7 +10,7 @@
 
 namespace terracut::dds {
 
-/// A cloud as the library takes it, whatever it says of itself. `fields`: where its fields are kept
+/// Views a cloud as the library takes it, without checks. `fields` stores its fields and must live
 /// as long as the result.
 [[nodiscard]] inline PointBuffer point_buffer_of(const RosCloud& cloud,
                                                  std::vector<PointField>& fields) {

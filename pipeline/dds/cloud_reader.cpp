@@ -8,7 +8,7 @@
 namespace terracut::dds {
 namespace {
 
-/// More than come while the thread that takes them is kept from the processor.
+/// More than come while the taking thread is kept from the processor.
 constexpr int kKeptClouds = 16;
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
@@ -28,7 +28,7 @@ Expected<CloudReader> CloudReader::open(const Participant& participant, const st
   if (reader.id() < 0) {
     return refused(ErrorCode::kInvalidArgument, "a reader of " + topic, reader.id());
   }
-  // The condition goes with its reader.
+  // The condition is deleted with its reader.
   const dds_entity_t has_clouds = dds_create_readcondition(reader.id(), DDS_ANY_STATE);
   Entity waiting(dds_create_waitset(participant.id()));
   if (const dds_return_t added = dds_waitset_attach(waiting.id(), has_clouds, 0); added < 0) {
@@ -51,7 +51,7 @@ TakenCloud CloudReader::take() {
                        void* back = const_cast<sensor_msgs_msg_dds__PointCloud2_*>(given);
                        (void)dds_return_loan(reader, &back, 1);
                      });
-    if (info[0].valid_data) return cloud;  // else it only says that a writer has gone
+    if (info[0].valid_data) return cloud;  // otherwise it only reports that a writer has gone
   }
 }
 

@@ -13,26 +13,25 @@
 
 namespace terracut::dds {
 
-/// A PointCloud2 that lies where Cyclone put it. It may be given back on any thread, while its
-/// reader lives.
+/// A PointCloud2 in Cyclone's own memory. May be given back on any thread while its reader lives.
 using TakenCloud = std::unique_ptr<const sensor_msgs_msg_dds__PointCloud2_,
                                    std::function<void(const sensor_msgs_msg_dds__PointCloud2_*)>>;
 
 /// Takes clouds of one topic. One thread.
 class CloudReader {
  public:
-  /// `topic`: of dds_topic(). `reliable`: lost parts are asked for again, and writers that do not
-  /// offer that are not heard.
+  /// `topic` is from dds_topic(). `reliable`: lost parts are requested again, and writers that do
+  /// not offer that are not received.
   [[nodiscard]] static Expected<CloudReader> open(const Participant& participant,
                                                   const std::string& topic, bool reliable);
 
   /// Waits for a cloud, or until the time is up.
   void wait(std::int64_t timeout_ns);
-  /// The oldest cloud that has not been taken; null where there is none.
+  /// Returns the oldest cloud not taken yet; null if there is none.
   [[nodiscard]] TakenCloud take();
-  /// Clouds that a writer sent and that did not come, as far as that is known.
+  /// Returns how many clouds were sent but did not arrive, as far as known.
   [[nodiscard]] std::uint64_t lost() const;
-  /// How many writers there are now.
+  /// Returns the current number of writers.
   [[nodiscard]] std::uint32_t writers() const;
 
  private:
@@ -40,8 +39,8 @@ class CloudReader {
       : topic_(std::move(topic)), reader_(std::move(reader)), waiting_(std::move(waiting)) {}
 
   Entity topic_;
-  Entity reader_;   ///< After its topic, so that it goes before it.
-  Entity waiting_;  ///< For a cloud of the reader.
+  Entity reader_;   ///< Declared after its topic, to be deleted before it.
+  Entity waiting_;  ///< Waits for a cloud of the reader.
 };
 
 }  // namespace terracut::dds

@@ -15,7 +15,7 @@ namespace {
 using ros_messages::CloudOf;
 using ros_messages::CloudPoint;
 
-/// As the C type has them. Its texts are not const, but nobody writes to them.
+/// The fields as C structures. Their texts are not const, but nobody writes to them.
 std::vector<sensor_msgs_msg_dds__PointField_> cloud_fields(bool with_label) {
   std::vector<sensor_msgs_msg_dds__PointField_> fields;
   for (const ros_messages::CloudField& field : ros_messages::kCloudFields) {
@@ -25,7 +25,7 @@ std::vector<sensor_msgs_msg_dds__PointField_> cloud_fields(bool with_label) {
   return fields;
 }
 
-/// Of the frame's first packet, after the stamp of its header.
+/// Returns the time of the frame's first packet after the stamp of its header.
 float time_of_first_s_of(const publish::LabelledFrame& frame) noexcept {
   const std::int64_t stamp_ns = ros_messages::stamp_ns_of(frame.record);
   return static_cast<float>(frame.record.info.first_packet_ns - stamp_ns) * 1e-9F;
@@ -90,7 +90,7 @@ Status DdsSink::write_mount(const publish::Stream& stream) {
 
 Status DdsSink::put(const publish::LabelledFrame& frame) {
   await_readers();
-  // What a planner stops for goes first.
+  // Obstacles go first: a planner stops for them.
   put_points(obstacles_, frame, CloudOf::kObstacles);
   put_points(ground_, frame, CloudOf::kGround);
   put_points(road_, frame, CloudOf::kRoad);
@@ -99,7 +99,7 @@ Status DdsSink::put(const publish::LabelledFrame& frame) {
   return {};
 }
 
-/// A history that overflows loses a frame for the reader that is behind, and does not say so.
+/// Waits, because a history that overflows silently loses frames for slow readers.
 void DdsSink::await_readers() {
   const auto all_have_it = [&](Writer& writer) {
     return !writer || writer->is_acknowledged(config_.patience_ns);
@@ -165,7 +165,7 @@ Status DdsSink::put_figures(const status::MonitorSnapshot& figures) {
 }
 
 Status DdsSink::finish() {
-  // What was written last is still on its way to reliable readers when the writers go.
+  // The last messages may still be on their way to reliable readers.
   constexpr std::int64_t kPatience_ns = 1'000'000'000;
   for (Writer* writer : {&points_, &obstacles_, &ground_, &road_, &raw_}) {
     if (*writer) (void)(*writer)->is_acknowledged(kPatience_ns);

@@ -20,21 +20,21 @@
 
 namespace terracut::dds {
 
-/// Publishes labelled frames as ROS 2 messages: points, each with its label; ground, obstacles and
-/// road by themselves; points without labels, in the sensor's frame, as its driver would send them;
-/// diagnostics, and where the sensor stands.
+/// Publishes labelled frames as ROS 2 messages: labelled points; ground, obstacles and road
+/// separately; points without labels in the sensor frame, as its driver would send them;
+/// diagnostics; and the sensor's transform.
 class DdsSink final : public publish::FrameSink {
  public:
   struct Config {
     Participant::Config participant{};
     Quality quality{};
-    /// Of dds_topic(); empty: not published.
+    /// Topics from dds_topic(); empty: not published.
     std::string points{}, ground{}, obstacles{}, road{}, raw{}, diagnostics{}, tf_static{};
-    /// How long a frame waits for reliable readers of those before it; 0: not at all.
+    /// How long a frame waits for reliable readers of earlier ones; 0: not at all.
     std::int64_t patience_ns = 0;
   };
 
-  /// The errors of Participant and TopicWriter.
+  /// Errors of Participant and TopicWriter.
   [[nodiscard]] static Expected<std::unique_ptr<DdsSink>> open(const Config& config,
                                                                const publish::Stream& stream);
 
@@ -44,7 +44,7 @@ class DdsSink final : public publish::FrameSink {
   [[nodiscard]] Status finish() override;
   [[nodiscard]] std::vector<status::NamedCount> losses() const override;
 
-  /// Of `points`, now.
+  /// Returns the current number of readers of `points`.
   [[nodiscard]] std::uint32_t readers() const { return points_ ? points_->readers() : 0; }
   [[nodiscard]] int domain() const noexcept { return participant_.domain(); }
 
@@ -56,7 +56,7 @@ class DdsSink final : public publish::FrameSink {
   void await_readers();
   void put_points(Writer& writer, const publish::LabelledFrame& frame, ros_messages::CloudOf which);
   void put_raw(const publish::LabelledFrame& frame);
-  /// The points in bytes_, of that frame.
+  /// Writes the points in bytes_, which belong to that frame.
   void write(TopicWriter& writer, const publish::LabelledFrame& frame, std::string& frame_id,
              std::vector<sensor_msgs_msg_dds__PointField_>& fields);
 
@@ -67,8 +67,8 @@ class DdsSink final : public publish::FrameSink {
   Writer points_, ground_, obstacles_, road_, raw_, tf_static_;
   std::optional<DiagnosticsWriter> diagnostics_;
   std::vector<sensor_msgs_msg_dds__PointField_> fields_, raw_fields_;
-  std::vector<std::uint8_t> bytes_;  ///< Of a message's points.
-  int behind_ = 0;  ///< Frames in a row that some reader had not acknowledged when the next came.
+  std::vector<std::uint8_t> bytes_;  ///< A message's points.
+  int behind_ = 0;  ///< Successive frames that some reader had not acknowledged when the next came.
   std::atomic<std::uint64_t> unacknowledged_{0}, refused_{0};
 };
 

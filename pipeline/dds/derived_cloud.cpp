@@ -17,7 +17,7 @@ char kLabelField[] = "label";  // the C type's strings are not const
 const RosCloud& DerivedCloud::with_labels(const RosCloud& from,
                                           std::span<const frame::Label> labels) {
   const std::uint32_t own = from.point_step;
-  const std::uint32_t step = (own + 1 + 3) / 4 * 4;  // so that floats stay where they are aligned
+  const std::uint32_t step = (own + 1 + 3) / 4 * 4;  // keeps floats aligned
   data_.resize(labels.size() * step);
   std::uint8_t* to = data_.data();
   const frame::Label* label = labels.data();
@@ -32,7 +32,7 @@ const RosCloud& DerivedCloud::with_labels(const RosCloud& from,
   begin(from);
   set_size(from.height, from.width, step);
   cloud_.is_dense = from.is_dense;
-  // A label that the points came with is no longer theirs.
+  // A label that the points came with is replaced.
   std::erase_if(fields_,
                 [](const auto& field) { return std::string_view(field.name) == kLabelField; });
   fields_.push_back({kLabelField, own, static_cast<std::uint8_t>(FieldType::kUint8), 1});

@@ -15,7 +15,7 @@ namespace terracut::dds {
 
 using RosCloud = sensor_msgs_msg_dds__PointCloud2_;
 
-/// The bytes of a point. The cloud must hold what it says: terracut::unpack() was content.
+/// Returns the bytes of a point. The cloud must have passed terracut::unpack().
 [[nodiscard]] inline const std::uint8_t* point_of(const RosCloud& cloud, std::size_t row,
                                                   std::size_t column) noexcept {
   const std::size_t row_step =
@@ -23,12 +23,12 @@ using RosCloud = sensor_msgs_msg_dds__PointCloud2_;
   return cloud.data._buffer + row * row_step + column * cloud.point_step;
 }
 
-/// An answer to a cloud: of its stamp, its frame and its fields, which lie in that cloud and must
-/// outlive the answer. Points lie here, in memory that is kept from one answer to the next. The
-/// cloud must hold what it says, and have a label a point.
+/// An answer to a cloud, with its stamp, frame and fields; these lie in that cloud, which must
+/// outlive the answer. Points lie here, in memory that is reused by the next answer. The cloud must
+/// have passed terracut::unpack() and have one label a point.
 class DerivedCloud {
  public:
-  /// The points whose label `takes`, as they are, byte for byte, in one row.
+  /// Copies the points whose label `takes` accepts, byte for byte, into one row.
   template <class Takes>
   const RosCloud& select(const RosCloud& from, std::span<const frame::Label> labels, Takes takes) {
     const std::size_t step = from.point_step;
@@ -47,12 +47,12 @@ class DerivedCloud {
     const auto points =
         static_cast<std::uint32_t>(static_cast<std::size_t>(to - data_.data()) / step);
     set_size(1, points, from.point_step);
-    cloud_.is_dense = true;  // points that are no return have no label that anybody takes
+    cloud_.is_dense = true;  // points without a return have a label that nobody accepts
     return cloud_;
   }
 
-  /// All points in their order, each with one more field behind its own: label, uint8, classes as
-  /// in .label files (pipeline/output/label_sink.hpp).
+  /// Copies all points in their order with one more field at the end: label, uint8, classes as in
+  /// .label files (pipeline/output/label_sink.hpp).
   const RosCloud& with_labels(const RosCloud& from, std::span<const frame::Label> labels);
 
  private:

@@ -13,7 +13,7 @@ namespace {
 using KeyValue = diagnostic_msgs_msg_dds__KeyValue_;
 using DiagnosticStatus = diagnostic_msgs_msg_dds__DiagnosticStatus_;
 
-/// A sequence of C types whose memory is a vector's.
+/// Makes a sequence of C structures in the memory of a vector.
 template <class Sequence, class Element>
 Sequence sequence_of(std::vector<Element>& elements) {
   const auto length = static_cast<std::uint32_t>(elements.size());

@@ -7,12 +7,12 @@
 
 namespace terracut::dds {
 
-/// Publishes how a run does on /diagnostics (diagnostic_msgs/DiagnosticArray). One thread.
+/// Publishes the state of a run on /diagnostics (diagnostic_msgs/DiagnosticArray). One thread.
 class DiagnosticsWriter {
  public:
   explicit DiagnosticsWriter(TopicWriter writer) noexcept : writer_(std::move(writer)) {}
 
-  /// About once a second. kWriteFailed.
+  /// To be called about once a second. kWriteFailed.
   [[nodiscard]] Status write(const status::MonitorSnapshot& figures);
 
  private:

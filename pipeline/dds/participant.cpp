@@ -12,7 +12,7 @@
 namespace terracut::dds {
 namespace {
 
-constexpr int kMostDomain = 232;  // ports of higher ones would lie beyond 65535
+constexpr int kMostDomain = 232;  // higher ones would have ports beyond 65535
 
 std::string_view environment(const char* name) {
   const char* value = std::getenv(name);
@@ -29,19 +29,19 @@ Expected<int> domain_of(const Participant::Config& config) {
               fmt::format("ROS_DOMAIN_ID is '{}'; expected 0 to {}", named, kMostDomain));
 }
 
-/// Cyclone takes several pieces of configuration with commas between; later ones win.
+/// Cyclone takes several pieces of configuration separated by commas; later ones win.
 std::string configuration(const Participant::Config& config) {
   const std::string_view users = environment("CYCLONEDDS_URI");
   std::string interface = config.interface;
   if (interface.empty() && environment("ROS_LOCALHOST_ONLY") == "1") interface = "lo";
-  // Interfaces of several pieces are added up, and the same one twice is an error.
+  // Interfaces of several pieces add up, and naming one twice is an error.
   if (users.find("NetworkInterface") != std::string_view::npos) interface.clear();
   const std::string interfaces =
       interface.empty()
           ? ""
           : fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>", interface);
-  // A writer holds what its history lets it hold, and is not made to wait by a reader that stands
-  // still: others would wait with it.
+  // Writers keep at most their history and never wait for a reader that stands still: others would
+  // wait with it.
   const std::string own = fmt::format(
       "<CycloneDDS><Domain id=\"any\">"
       "<General>{}<MaxMessageSize>{}B</MaxMessageSize><FragmentSize>{}B</FragmentSize></General>"

@@ -10,15 +10,15 @@
 
 #include "rt/error.hpp"
 
-/// ROS 2 messages over DDS, by Cyclone DDS and without ROS (docs/guide/ros2.md). Nothing here is
-/// for a thread with a deadline: writing and taking allocate and lock.
+/// ROS 2 messages over DDS, by Cyclone DDS and without ROS (docs/guide/ros2.md). Not for threads
+/// with a deadline: writing and taking allocate and lock.
 namespace terracut::dds {
 
-/// What Cyclone answered, where it refused; `what`: was tried.
+/// Returns Cyclone's reason for refusing; `what` was tried.
 [[nodiscard]] tl::unexpected<Error> refused(ErrorCode code, const std::string& what,
                                             dds_return_t returned);
 
-/// A participant, reader, writer or what else Cyclone made; gone with this object.
+/// Owns a participant, reader, writer or other entity of Cyclone, and deletes it at the end.
 class Entity {
  public:
   explicit Entity(dds_entity_t entity) noexcept : entity_(entity) {}
@@ -43,14 +43,14 @@ class Participant {
   struct Config {
     std::optional<int> domain;  ///< [0, 232]; none: ROS_DOMAIN_ID, else 0.
     std::string
-        interface;  ///< Of the network; empty: Cyclone's choice, or lo by ROS_LOCALHOST_ONLY.
-    /// Of a message, bytes, [1000, 65000]. 63000 is what readers on this machine lose nothing of;
-    /// over Ethernet each becomes 43 IP fragments.
+        interface;  ///< Network interface; empty: Cyclone's choice, or lo by ROS_LOCALHOST_ONLY.
+    /// Bytes of a message's fragment, [1000, 65000]. With 63000 readers on this machine lose
+    /// nothing; over Ethernet each becomes 43 IP fragments.
     int fragment_bytes = 63000;
-    int receive_buffer_bytes = 8 << 20;  ///< Asked of the system, which may grant less.
+    int receive_buffer_bytes = 8 << 20;  ///< Requested; the system may grant less.
   };
 
-  /// What CYCLONEDDS_URI says wins over `config`. kInvalidArgument, kUnsupported.
+  /// CYCLONEDDS_URI overrides `config`. kInvalidArgument, kUnsupported.
   [[nodiscard]] static Expected<Participant> open(const Config& config);
 
   [[nodiscard]] dds_entity_t id() const noexcept { return participant_.id(); }
@@ -61,7 +61,7 @@ class Participant {
       : domain_entity_(std::move(domain)), participant_(std::move(participant)), domain_(number) {}
 
   Entity domain_entity_;
-  Entity participant_;  ///< After its domain, so that it goes before it.
+  Entity participant_;  ///< Declared after its domain, to be deleted before it.
   int domain_;
 };
 

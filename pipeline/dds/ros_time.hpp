@@ -8,7 +8,7 @@
 
 namespace terracut::dds {
 
-/// `time_ns`: since 1970, not before.
+/// Converts `time_ns`, since 1970 and not before.
 [[nodiscard]] constexpr builtin_interfaces_msg_dds__Time_ ros_time(std::int64_t time_ns) noexcept {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   return {static_cast<std::int32_t>(time_ns / kSecond_ns),

@@ -29,7 +29,7 @@ std::string_view without_root(std::string_view name) {
 std::optional<std::string> dds_topic(std::string_view name, std::string_view node) {
   std::string topic(without_root(name));
   if (name.starts_with("~/")) topic = fmt::format("{}/{}", without_root(node), name.substr(2));
-  constexpr std::size_t kLongest = 240;  // of ROS
+  constexpr std::size_t kLongest = 240;  // limit of ROS
   if (!is_name(topic) || topic.size() > kLongest) return std::nullopt;
   return "rt/" + topic;
 }

@@ -8,9 +8,10 @@
 
 namespace terracut::dds {
 
-/// The DDS topic behind the name of a ROS 2 topic: "/points_raw" is "rt/points_raw", and "~/points"
-/// of node "terracut" is "rt/terracut/points"; a name without either is below "/". Nothing for what
-/// is no name: parts of letters, digits and '_' that begin with no digit, '/' between them.
+/// Returns the DDS topic of a ROS 2 topic name: "/points_raw" is "rt/points_raw", and "~/points" of
+/// node "terracut" is "rt/terracut/points"; a name with neither prefix is below "/". Nothing for an
+/// invalid name: parts must be of letters, digits and '_', begin with no digit, and be separated by
+/// '/'.
 [[nodiscard]] std::optional<std::string> dds_topic(std::string_view name, std::string_view node);
 
 }  // namespace terracut::dds

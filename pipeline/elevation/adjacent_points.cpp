@@ -15,8 +15,9 @@
 namespace terracut::elevation {
 namespace {
 
-/// Eq. 5: the least horizontal distance of two beams' ground points on ground no steeper than K.
-/// delta is the angle of a beam from the downward normal, h the height the beams start from.
+/// Returns the bound of Eq. 5: the least horizontal distance of two beams' ground points on ground
+/// no steeper than K. delta is a beam's angle from the downward normal, h the height where beams
+/// start.
 double least_distance_m(double height_m, double lower_elevation_rad, double upper_elevation_rad,
                         double max_slope_rad) {
   const double tan_delta1 = std::tan(std::numbers::pi / 2 + lower_elevation_rad);
@@ -24,7 +25,7 @@ double least_distance_m(double height_m, double lower_elevation_rad, double uppe
   return height_m * (tan_delta2 - tan_delta1) / (std::tan(max_slope_rad) * tan_delta2 + 1);
 }
 
-/// The planes of a row's returns, each at its first column.
+/// The planes of a row, each from its first column on.
 struct Row {
   const float *x_m, *y_m, *z_m, *height_m;
   std::uint8_t* steep;
@@ -37,20 +38,21 @@ struct RowPair {
   Row lower, upper;
 };
 
-// The loops below are the stage. They have no branches, so that the compiler turns them into
-// vector code; comparisons with the NaN heights of empty cells are false.
+// The loops below have no branches, so that the compiler vectorises them; comparisons with the NaN
+// heights of empty cells are false.
 
-/// Columns taken at once, with one byte for each in a vector.
+/// Columns processed at once, each one byte of a vector.
 constexpr int kTogether = 32;
 
-/// The rows shifted against each other, so that the returns compared have one number: the right
-/// one's column. A positive offset of the upper column from the lower one: the upper one is right.
+/// Shifts the rows against each other: index i is then the pair whose right return is in column i.
+/// With a positive offset of the upper column from the lower one, the upper return is the right
+/// one.
 [[gnu::always_inline]] inline RowPair shifted(const RowPair& rows, int offset) noexcept {
   return {rows.lower.from(-std::max(offset, 0)), rows.upper.from(std::min(offset, 0))};
 }
 
-/// Calls `mark` for the rows shifted by each offset, with the columns of which the right one is in
-/// `columns` and the left one in the image.
+/// Calls `mark` for the rows shifted by each offset, for the pairs whose right return is in
+/// `columns` and whose left one is in the image.
 template <class Mark>
 [[gnu::always_inline]] inline void for_each_offset(const RowPair& rows, frame::ColumnRange columns,
                                                    int reach, Mark mark) noexcept {
@@ -61,18 +63,18 @@ template <class Mark>
   }
 }
 
-// What else a byte of CellPlanes::steep says of its return while rows are compared.
+// Further flags in a byte of CellPlanes::steep while rows are compared.
 constexpr std::uint8_t kHasReturn = 2;
-constexpr std::uint8_t kIsRaised = 4;   ///< High enough for the upper return of a step.
-constexpr std::uint8_t kUpperMay = 8;   ///< It matters whether it is steep as the upper return.
-constexpr std::uint8_t kLowerMay = 16;  ///< Likewise as the lower one.
+constexpr std::uint8_t kIsRaised = 4;   ///< High enough to be the upper return of a step.
+constexpr std::uint8_t kUpperMay = 8;   ///< Marking it as the upper return matters.
+constexpr std::uint8_t kLowerMay = 16;  ///< Marking it as the lower return matters.
 
 /// AdjacentRule::kSlope
 struct SlopeRule {
   float min_rise_m, tan_max_slope_squared;
 
-  /// Marks the upper return of pairs whose step is too steep, and the lower one where it is high
-  /// enough; neither where it does not matter. At most kTogether.
+  /// Marks the upper return of pairs with too steep a step, and the lower one if it is high enough;
+  /// each only if it matters. `count` is at most kTogether.
   [[gnu::always_inline]] void mark(const RowPair& rows, int count) const noexcept {
     std::uint8_t is_steep[kTogether];
     for (int i = 0; i < count; ++i) {
@@ -82,7 +84,7 @@ struct SlopeRule {
       is_steep[i] =
           (rise >= min_rise_m) & ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise);
     }
-    // Bit 0 of each.
+    // Only bit 0 of each byte is used.
     for (int i = 0; i < count; ++i) {
       const std::uint8_t up = rows.upper.steep[i], low = rows.lower.steep[i];
       rows.upper.steep[i] = static_cast<std::uint8_t>(up | (is_steep[i] & (up >> 3) & (low >> 1)));
@@ -94,7 +96,7 @@ struct SlopeRule {
   }
 };
 
-/// All flags that kTogether returns have, and those up to `reach` to the left of them.
+/// Returns the union of the flags of kTogether returns and of those up to `reach` to the left.
 [[gnu::always_inline]] inline std::uint8_t flags_around(const std::uint8_t* steep,
                                                         int reach) noexcept {
   std::uint64_t any = 0;
@@ -109,20 +111,20 @@ struct SlopeRule {
   return static_cast<std::uint8_t>(any | any >> 8U);
 }
 
-/// Whether one of kTogether pairs may change what is steep, at any offset, or nearly. Most are both
-/// on the ground or both far above it.
+/// False only if none of kTogether pairs can change `steep`, at any offset. Most pairs cannot: they
+/// are both on the ground or both far above it.
 [[gnu::always_inline]] inline bool may_matter(const RowPair& rows, int reach) noexcept {
   const std::uint8_t upper = flags_around(rows.upper.steep, reach);
   return (upper & kUpperMay) != 0 ||
          ((upper & kIsRaised) != 0 && (flags_around(rows.lower.steep, reach) & kLowerMay) != 0);
 }
 
-/// What the heights say of a row's returns.
+/// Sets the flags of a row's returns from their heights.
 TERRACUT_VECTOR_CLONES void find_what_matters(std::span<const float> height_m, float min_upper_m,
                                               float min_lower_m, float max_m,
                                               std::uint8_t* __restrict steep) noexcept {
   constexpr int kAll = kHasReturn | kIsRaised | kUpperMay | kLowerMay;
-  // First in numbers as wide as heights are: else each comparison is narrowed by itself.
+  // Computes in integers as wide as heights: otherwise each comparison is narrowed by itself.
   std::int32_t flags[kTogether];
   for (std::size_t first = 0; first < height_m.size(); first += kTogether) {
     const std::size_t count = std::min(height_m.size() - first, std::size_t{kTogether});
@@ -142,7 +144,7 @@ TERRACUT_VECTOR_CLONES void find_what_matters(std::span<const float> height_m, f
 struct SpacingRule {
   float bound_m;
 
-  /// Marks the upper return of pairs nearer to each other than the bound.
+  /// Marks the upper return of pairs closer than the bound.
   [[gnu::always_inline]] void mark(const RowPair& rows, int count) const noexcept {
     const Row lower = rows.lower, upper = rows.upper;
     const float bound_squared = bound_m * bound_m;
@@ -157,8 +159,8 @@ struct SpacingRule {
   }
 };
 
-/// kTogether columns at once, the last of them with some that have been compared, which changes
-/// nothing; one by one where the left ones of so many are not all in the image.
+/// Compares 32 columns at a time; the last block overlaps the one before, harmlessly. Columns are
+/// compared one by one if the left returns of a block would lie outside the image.
 TERRACUT_VECTOR_CLONES void mark_by_slope(const RowPair rows, frame::ColumnRange columns, int reach,
                                           const SlopeRule rule) noexcept {
   const int last = columns.end - kTogether;
@@ -251,7 +253,7 @@ void AdjacentPoints::for_each_row_pair(const frame::PointPlanes& points, stage::
   for (int row = 0; row < shape_.rows; ++row) {
     for (int step = config_.first_row_step; step <= config_.last_row_step; ++step) {
       const int upper_row = upper_row_[static_cast<std::size_t>((step - 1) * shape_.rows + row)];
-      if (upper_row == shape_.rows) break;  // nor is there one so many steps up
+      if (upper_row == shape_.rows) break;  // there are no more rows above
       visit(RowPair{row_of(row), row_of(upper_row)}, ring_spacing_m(row, step));
     }
   }

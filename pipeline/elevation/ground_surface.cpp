@@ -16,12 +16,12 @@ namespace {
 
 constexpr auto kMostBands = static_cast<std::size_t>(RingGrid::kMaxBands);
 
-/// Where heights of a sector are asked for and none was found: heights are asked for where returns
-/// are, and between bands only from one to the next.
+/// Marks the bands of a sector whose height is needed but was not measured. Heights are needed in
+/// bands with a return and, for interpolation, in those next to them.
 TERRACUT_VECTOR_CLONES void find_missing(const GroundSurface::LowestReturn* __restrict lowest,
                                          const std::uint8_t* __restrict origin, std::size_t bands,
                                          std::uint8_t* __restrict is_missing) noexcept {
-  std::uint8_t has_return[kMostBands + 2];  // of the bands, and beside them
+  std::uint8_t has_return[kMostBands + 2];  // by band, with one more at either end
   has_return[0] = has_return[bands + 1] = 0;
   for (std::size_t i = 0; i < bands; ++i) {
     has_return[i + 1] = lowest[i].height_m != GroundSurface::kEmpty;
@@ -33,17 +33,17 @@ TERRACUT_VECTOR_CLONES void find_missing(const GroundSurface::LowestReturn* __re
   }
 }
 
-/// What was found in the cells of a sector.
+/// The trace's result in the cells of a sector.
 struct FoundInSector {
   const float* traced_m;
   const std::uint8_t* origin;
   const GroundSurface::LowestReturn* lowest;
 };
 
-/// How far the ground of a sector rises from its first edge to its last, where it and the sectors
-/// before and after it have ground of their own: the central difference, but at most twice that to
-/// either of them, and none on a crest or in a dip (the monotonised central limiter; van Leer, J.
-/// Comput. Phys. 23, 1977). So the kerb between two sectors tilts neither.
+/// Finds how far the ground of a sector rises from its first edge to its last, if it and both
+/// neighbours have ground of their own. This is the central difference, limited to twice the
+/// difference to either neighbour, and 0 on a crest or in a dip (the monotonised central limiter;
+/// van Leer, J. Comput. Phys. 23, 1977). So a kerb between two sectors tilts neither.
 TERRACUT_VECTOR_CLONES void find_rises(const FoundInSector& before, const FoundInSector& here,
                                        const FoundInSector& after, float tall_m,
                                        const float* __restrict max_rise_m, std::size_t bands,
@@ -53,7 +53,7 @@ TERRACUT_VECTOR_CLONES void find_rises(const FoundInSector& before, const FoundI
   const auto height_of = [](const GroundSurface::LowestReturn& cell) {
     return cell.highest_m - cell.height_m;
   };
-  // Without a branch, so that it becomes vector code.
+  // The loops have no branch, so that the compiler vectorises them.
   std::int32_t may_rise[kMostBands];
   float tallest_m[kMostBands];
   for (std::size_t i = 0; i < bands; ++i) {
@@ -192,14 +192,14 @@ int GroundSurface::trace_on(const RingGrid& grid, int sector, int band, Origin o
     const float center_m = grid.center_m(band);
     const LowestReturn& here = lowest[cell];
     const bool is_ground = leads_to(ground, here);
-    // Ground goes on here, but far behind where it was lost: a bank on the way comes first.
+    // Ground goes on here, but far behind where it was lost: a bank in between takes precedence.
     if (is_ground && here.range_m - ground.range_m > config_.regain_length_m &&
         find_ground_again(grid, sector, last_band, band, ground, lowest).band >= 0) {
       break;
     }
     found_[cell] = is_ground ? origin : kPredicted;
     if (is_ground) {
-      // The step's own slope carries the heights of both returns to the middles of their cells.
+      // The step's slope carries the heights of both returns to the middles of their cells.
       const Trace before = ground;
       const float step_slope = ground.step(here.range_m, here.height_m, config_);
       if (last_band >= 0 && grid.center_m(last_band) > before.range_m) {
@@ -220,15 +220,15 @@ int GroundSurface::trace_on(const RingGrid& grid, int sector, int band, Origin o
 GroundSurface::Detour GroundSurface::find_ground_again(
     const RingGrid& grid, int sector, int lost_band, int end_band, const Trace& ground,
     std::span<const LowestReturn> lowest) const noexcept {
-  // No steeper than regain_slope from one place to the next.
+  // True if the step is no steeper than regain_slope.
   const auto passable = [this](const LowestReturn& from, const LowestReturn& to) {
     return std::fabs(to.height_m - from.height_m) <=
            config_.regain_slope * (to.range_m - from.range_m);
   };
   const LowestReturn lost{ground.height_m, ground.range_m};
   LowestReturn start, last;
-  int start_band = -1;     // of the places that lead on passably from one to the next
-  bool connected = false;  // ... and whether they do so from the lost ground
+  int start_band = -1;     // of the passable run of places
+  bool connected = false;  // true if the run is passable from the lost ground
   for (int band = lost_band + 1; band < end_band; ++band) {
     const LowestReturn& here = lowest[grid.cell(sector, band)];
     if (here.height_m == kEmpty) continue;
@@ -273,7 +273,7 @@ void GroundSurface::find_donors(const RingGrid& grid, int sector) noexcept {
 }
 
 bool GroundSurface::lies_on_wide_strip(const RingGrid& grid, int sector, int band) const noexcept {
-  // Along the band, around the circle; ground of any origin counts.
+  // Walks along the band around the circle; ground of any origin counts.
   const int wide_from = wide_from_[static_cast<std::size_t>(band)];
   const auto is_ground = [&](int s) {
     return found_[grid.cell(grid.wrapped(s), band)] != kPredicted;

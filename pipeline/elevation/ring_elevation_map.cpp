@@ -14,22 +14,21 @@ namespace {
 
 using stage::FourFloats, stage::FourInts;
 
-// The loops over a row's columns, each passed what it reads and writes for __restrict: without it
-// they are not vectorised in clones.
+// Each loop over a row's columns gets all it reads and writes as parameters, for __restrict:
+// without it the loops are not vectorised in clones.
 
 /// The ground below a row's returns.
 struct GroundOfRow {
-  const std::int32_t* first_cell;  // of each column's sector
-  const float* share_across;       // of each column
+  const std::int32_t* first_cell;  // by column: its sector's first cell
+  const float* share_across;       // by column
   const GroundSurface::EdgeHeights* heights;
   const float* highest_near_m;
   RingGrid::BandMixes mixes;
 };
 
-/// Of returns, the height above the surface, mixed of the two bands that the range lies between and
-/// of the edges of the sector, and what `highest_near_m` says of the grid cell in the first of the
-/// bands. Four at a time: what is looked up lies next to each other, and is more than half of the
-/// work.
+/// Finds for each return its height above the surface, interpolated between two bands in range and
+/// the two edges of the sector, and `highest_near_m` of the inner band's cell. Takes four returns
+/// at a time; loading the table entries, which are adjacent, is more than half of the work.
 TERRACUT_VECTOR_CLONES_OF_INLINED void find_heights(const float* __restrict z_m,
                                                     const float* __restrict range_m,
                                                     const GroundOfRow& ground,
@@ -53,8 +52,8 @@ TERRACUT_VECTOR_CLONES_OF_INLINED void find_heights(const float* __restrict z_m,
     const RingGrid::BandMix a = mix(0), b = mix(1), c = mix(2), d = mix(3);
     const std::int32_t cell_a = first_cell[i] + a.inner, cell_b = first_cell[i + 1] + b.inner,
                        cell_c = first_cell[i + 2] + c.inner, cell_d = first_cell[i + 3] + d.inner;
-    // Of each return its cell's edges and those of the cell behind; then the first edges of all,
-    // ...
+    // Loads the edges of each return's cell and of the next cell, then sorts them into first and
+    // last edges.
     const auto edges = [&](std::int32_t cell) {
       FourFloats four;
       std::memcpy(&four, heights + cell, sizeof(four));
@@ -93,7 +92,7 @@ TERRACUT_VECTOR_CLONES_OF_INLINED void find_heights(const float* __restrict z_m,
   }
 }
 
-/// Heights above the lowest return of the grid cell.
+/// Finds heights above the lowest return of the grid cell.
 void find_heights_above(std::span<const GroundSurface::LowestReturn> lowest, const RingGrid& grid,
                         const float* z_m, const float* range_m, int first_column,
                         std::span<float> height_m) noexcept {
@@ -103,7 +102,7 @@ void find_heights_above(std::span<const GroundSurface::LowestReturn> lowest, con
   }
 }
 
-/// The label that a height earns.
+/// Labels by height alone.
 TERRACUT_VECTOR_CLONES void label_heights(std::span<const float> height_m, float obstacle_height_m,
                                           frame::Label* __restrict label) noexcept {
   const std::size_t count = height_m.size();
@@ -117,9 +116,9 @@ TERRACUT_VECTOR_CLONES void label_heights(std::span<const float> height_m, float
 
 using Extremes = RingElevationMap::Extremes;
 
-// The lowest and the highest return of a grid cell are looked for together, as the less of two
-// pairs of numbers, which is one instruction without a branch: what is lowest is as good as random.
-// The bits of a height are the upper half of a number, which has its order, whatever the lower.
+// The lowest and the highest return of a grid cell are found together as the minimum of a pair of
+// numbers: one instruction without a branch, which would be mispredicted. The upper half of a
+// number has the bits of a height and so its order, whatever the lower half.
 
 std::uint64_t upper_half(float height_m) noexcept {
   return std::uint64_t{std::bit_cast<std::uint32_t>(height_m)} << 32;
@@ -129,8 +128,8 @@ float height_in(double number) noexcept {
       static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number) >> 32));
 }
 
-/// Among equally low returns the nearer one is lower. The more is in the lower half of a number,
-/// the greater it is where it is positive, and the less where it is negative.
+/// Orders equally low returns by range, the nearer first. A larger lower half makes a positive
+/// number larger and a negative one smaller, so for these the bits are inverted.
 std::uint32_t lower_half(float height_m, float range_m) noexcept {
   const auto all_if_negative =
       static_cast<std::uint32_t>(std::bit_cast<std::int32_t>(height_m) >> 31);
@@ -150,7 +149,7 @@ void take(const Extremes& more, Extremes& extremes) noexcept {
   extremes = more < extremes ? more : extremes;
 }
 
-constexpr float kNowhere_m = GroundSurface::kEmpty;  // lowest and, with its sign changed, highest
+constexpr float kNowhere_m = GroundSurface::kEmpty;  // for the lowest and, negated, the highest
 
 Extremes nothing() noexcept {
   return Extremes{extremes_of(kNowhere_m, 0)[0], extremes_of(-kNowhere_m, 0)[1]};
@@ -159,9 +158,9 @@ Extremes nothing() noexcept {
 using EightFloats = float __attribute__((vector_size(32)));
 using EightInts = std::int32_t __attribute__((vector_size(32)));
 
-/// Of eight cells, as if each were alone in its grid cell, four halves each, of which the third may
-/// be anything. Written a cell at a time: put together from single halves they would be read before
-/// they are in the cache.
+/// Writes the extremes of eight returns as if each were alone in its grid cell, four halves each;
+/// the third may have any value. Stores whole cells: single halves would be read back before they
+/// are in the cache.
 [[gnu::always_inline]] inline void find_eight_extremes(const float* z_m, const float* range_m,
                                                        std::uint32_t* halves) noexcept {
   EightFloats z, range;
@@ -178,7 +177,7 @@ using EightInts = std::int32_t __attribute__((vector_size(32)));
     std::memcpy(halves + 4 * (cell + 4), reinterpret_cast<const char*>(&two) + sizeof(two) / 2,
                 sizeof(two) / 2);
   };
-  // Of cells 0, 1, 4, 5, and of 2, 3, 6, 7.
+  // Interleaves for cells 0, 1, 4, 5, then for 2, 3, 6, 7.
   const EightInts low = __builtin_shufflevector(lower, lowest, 0, 8, 1, 9, 4, 12, 5, 13);
   const EightInts low_behind = __builtin_shufflevector(lower, lowest, 2, 10, 3, 11, 6, 14, 7, 15);
   const EightInts high =
@@ -191,7 +190,7 @@ using EightInts = std::int32_t __attribute__((vector_size(32)));
   store(3, __builtin_shufflevector(low_behind, high_behind, 2, 3, 10, 11, 6, 7, 14, 15));
 }
 
-/// The same of any number of cells. Returns how many of them have a return.
+/// Does the same for any number of cells. Returns how many have a return.
 TERRACUT_VECTOR_CLONES_OF_INLINED std::uint32_t find_extremes(
     const float* __restrict z_m, const float* __restrict range_m, std::size_t count,
     std::uint32_t* __restrict halves) noexcept {
@@ -207,14 +206,14 @@ TERRACUT_VECTOR_CLONES_OF_INLINED std::uint32_t find_extremes(
     return returns;
   }
   for (std::size_t next = 0; next < count; next += kEight) {
-    const std::size_t first = std::min(next, count - kEight);  // the last eight overlap
+    const std::size_t first = std::min(next, count - kEight);  // the last block overlaps
     find_eight_extremes(z_m + first, range_m + first, halves + 4 * first);
   }
   return returns;
 }
 
-/// Returns of a row, each to the extremes of its grid cell; several a turn of the loop, which is a
-/// few instructions a return.
+/// Adds each return of a row to the extremes of its grid cell; unrolled, as one return takes only a
+/// few instructions.
 void take_each(const std::uint32_t* __restrict halves, const std::int32_t* __restrict first_cell,
                std::span<const std::uint16_t> steps, const RingGrid& grid,
                Extremes* __restrict extremes) noexcept {
@@ -321,7 +320,7 @@ void RingElevationMap::finalize_rest(std::span<std::uint8_t> is_current) noexcep
 
 void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRange columns,
                              stage::CellPlanes& planes) noexcept {
-  constexpr std::size_t kShort = 512;  // columns that the processor does not foresee by itself
+  constexpr std::size_t kShort = 512;  // column ranges too short for the processor to foresee
   const auto first = static_cast<std::size_t>(columns.begin);
   const GroundOfRow ground{&grid_.first_cell_of_column()[first], &grid_.share_across()[first],
                            surface_.heights().data(), rough_.highest_near_m().data(),

@@ -17,7 +17,7 @@
 
 namespace terracut::elevation {
 
-/// What a return's height is measured from.
+/// The reference from which a return's height is measured.
 enum class GroundReference : std::uint8_t {
   kCellMinimum,   ///< The lowest return of its grid cell: the paper's flat-cell assumption.
   kLocalSurface,  ///< The local ground surface (ground_surface.hpp).
@@ -33,38 +33,40 @@ class RingElevationMap {
     RoughGround::Config rough;        ///< Used with kLocalSurface.
     float obstacle_height_m = 0.15F;  ///< A return this far above its reference is an obstacle.
   };
-  /// Two numbers, the less the lower the lowest return of a grid cell and the higher the highest.
+  /// Two numbers: the first is smaller the lower the cell's lowest return, the second the higher
+  /// its highest.
   using Extremes = double __attribute__((vector_size(16)));
 
   RingElevationMap(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                    memory::FixedMemory& memory);
 
-  // For a frame, also while it arrives (CoarseStages): reset(), then trace_to() sector after
-  // sector, finalize() what is to be labelled already, finalize_rest() when all have been traced,
-  // and label() what was final before.
+  // Order of calls for a frame, which may still be arriving (CoarseStages): reset(), trace_to()
+  // sector after sector, finalize() those to be labelled early, finalize_rest() when all have been
+  // traced; label() what is final.
 
-  /// A new frame. Real-time safe, as all of this.
+  /// Begins a frame. Real-time safe, like all functions here.
   void reset() noexcept TERRACUT_NONBLOCKING;
-  /// Of frames that keep their returns as they were measured: one that does not own its cell.
+  /// Takes a return that does not own its cell, if frames keep their returns as measured.
   void take_extra(int column, float z_m, float ground_range_m) noexcept TERRACUT_NONBLOCKING;
-  /// All columns of the sectors from traced() to `end` are there: `points` has those returns that
-  /// own their cells, the others are in the image's overflow list or were told by take_extra().
+  /// Traces the sectors from traced() to `end`, whose columns must be complete. `points` has the
+  /// returns that own their cells; the others are in the image's overflow list or came by
+  /// take_extra().
   void trace_to(int end, const frame::RangeImage& image,
                 const frame::PointPlanes& points) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] int traced() const noexcept { return traced_; }
-  /// False where a return came after its sector had been traced: what was found is of no use then.
-  /// Once all sectors have been traced.
+  /// False if a return came after its sector had been traced: the result is then invalid. To be
+  /// asked once all sectors have been traced.
   [[nodiscard]] bool saw_all_of(const frame::RangeImage& image) const noexcept {
     return !was_overtaken_ && seen_ + seen_overflow_ == image.returns();
   }
   void finalize(RingGrid::Sectors sectors) noexcept TERRACUT_NONBLOCKING;
-  /// As GroundSurface::finalize_rest().
+  /// Calls GroundSurface::finalize_rest().
   void finalize_rest(std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
-  /// Sectors to either side that have to be traced for a sector to be final.
+  /// Returns how many sectors to either side must be traced before a sector is final.
   [[nodiscard]] int reach() const noexcept {
     return has_surface() ? std::max(surface_.reach(), rough_.reach()) : 0;
   }
-  /// Fills `height_m` and `label` of some columns.
+  /// Fills `height_m` and `label` of these columns.
   void label(const frame::PointPlanes& points, frame::ColumnRange columns,
              stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
@@ -82,18 +84,17 @@ class RingElevationMap {
   RingGrid grid_;
   GroundSurface surface_;
   RoughGround rough_;
-  int traced_ = 0;        // sectors
-  std::size_t seen_ = 0;  // returns that own a cell of these
-  // Returns that own none: all of the overflow list, or those told of.
+  int traced_ = 0;        // in sectors
+  std::size_t seen_ = 0;  // returns in them that own a cell
+  // Returns that own no cell: in the overflow list or by take_extra().
   std::size_t seen_overflow_ = 0;
   bool was_overtaken_ = false;
-  // Per grid cell, the lowest return and the height of the highest; before, while they are looked
-  // for, both.
+  // By grid cell: the lowest return and the highest's height; extremes_ has both during the search.
   std::span<GroundSurface::LowestReturn> lowest_;
   std::span<Extremes> extremes_;
   std::span<float> highest_m_;
-  // Of one row, from the first column at hand: halves of its returns' extremes, their ranges in the
-  // grid's steps, and the highest return near each.
+  // For one row, from the first column in work: halves of its returns' extremes, their ranges in
+  // the grid's steps, and the highest return near each.
   std::span<std::uint32_t> row_halves_;
   std::span<std::uint16_t> row_steps_;
   std::span<float> row_highest_m_;

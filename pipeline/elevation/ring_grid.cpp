@@ -11,7 +11,7 @@
 namespace terracut::elevation {
 namespace {
 
-/// Outer ends of all bands, ascending; the last is the range limit.
+/// Returns the outer ends of all bands, ascending; the last is the range limit.
 std::vector<double> band_ends_m(const RingGrid::Config& config, const mount::RingProfile& profile) {
   const auto limit_m = static_cast<double>(config.range_limit_m);
   std::vector<double> ring_m;
@@ -26,7 +26,7 @@ std::vector<double> band_ends_m(const RingGrid::Config& config, const mount::Rin
   double inner = 0;
   const auto close_band_at = [&](double outer) {
     const double depth = outer - inner;
-    if (depth < min_m || depth <= 0) return;  // left open: merged with the next
+    if (depth < min_m || depth <= 0) return;  // left open, to merge with the next
     const int parts = std::max(1, static_cast<int>(std::ceil(depth / max_m)));
     for (int part = 1; part <= parts; ++part) ends.push_back(inner + depth * part / parts);
     inner = outer;
@@ -92,7 +92,7 @@ RingGrid::RingGrid(const Config& config, const mount::RingProfile& profile, fram
   share_across_ = memory.take<float>("ring grid", sector_of_column_.size());
   first_column_ = memory.take<std::uint16_t>("ring grid", static_cast<std::size_t>(sectors_) + 1);
   for (int column = shape.columns - 1; column >= 0; --column) {
-    // Spread evenly, so that the last sector is no sliver.
+    // Sectors are spread evenly, so that the last one is not narrow.
     sector_of_column_[static_cast<std::size_t>(column)] =
         static_cast<std::uint16_t>(std::int64_t{column} * sectors_ / shape.columns);
     first_cell_of_column_[static_cast<std::size_t>(column)] =

@@ -12,9 +12,9 @@
 
 namespace terracut::elevation {
 
-/// The grid of the ring-based elevation map (paper, section III-B): rings of the ground in range,
-/// equal sectors in azimuth, so that every cell can expect the same number of ground returns
-/// however far away it is.
+/// The grid of the ring-based elevation map (paper, section III-B): the ground's rings in range,
+/// equal sectors in azimuth, so that every cell expects the same number of ground returns at any
+/// distance.
 ///
 /// Band b covers a span of horizontal range. Boundaries lie midway between the mean ground
 /// distances of neighbouring lasers; bands narrower than `min_band_m` are merged, wider ones than
@@ -29,15 +29,16 @@ class RingGrid {
     float range_limit_m = 100.0F;  ///< (0, 250]
     int columns_per_sector = 10;   ///< Image columns a sector covers; [1, 64].
   };
-  static constexpr float kStepsPerMetre = 32.0F;  ///< Boundaries are met to within 3 cm.
+  static constexpr float kStepsPerMetre = 32.0F;  ///< Resolution of boundaries: 3 cm.
   static constexpr int kMaxBands = 250;           ///< More would not fit the 8-bit band numbers.
 
-  /// Where a range lies between the middles of a band and the next, for linear interpolation.
+  /// The place of a range between the middles of a band and the next, for linear interpolation.
   struct BandMix {
     std::int32_t inner = 0;
     float outer_share = 0;  ///< [0, 1]; 0 before the first middle and beyond the last.
   };
-  /// All of them, for vectors: those of a range's step, and what step_of() cuts ranges off at.
+  /// All mixes as arrays, for vector code: the mix of each range step, and the last step, to which
+  /// step_of() limits ranges.
   struct BandMixes {
     const BandMix* of_step;
     float last_step;
@@ -51,48 +52,48 @@ class RingGrid {
   [[nodiscard]] std::size_t cells() const noexcept {
     return static_cast<std::size_t>(bands_) * static_cast<std::size_t>(sectors_);
   }
-  /// Grid cells are stored sector by sector, each from the vehicle outwards.
+  /// Returns the cell's index; cells are stored sector by sector, each from the vehicle outwards.
   [[nodiscard]] std::size_t cell(int sector, int band) const noexcept {
     return static_cast<std::size_t>(sector) * static_cast<std::size_t>(bands_) +
            static_cast<std::size_t>(band);
   }
-  /// Mean range of a band, metres.
+  /// Returns the mean range of a band, metres.
   [[nodiscard]] float center_m(int band) const noexcept {
     return center_m_[static_cast<std::size_t>(band)];
   }
 
-  /// Band of a horizontal range. Real-time safe; any float, NaN gives the last band.
+  /// Returns the band of a horizontal range. Real-time safe; any float, NaN gives the last band.
   [[nodiscard]] int band_of(float ground_range_m) const noexcept {
     return band_of_step_[step_of(ground_range_m)];
   }
-  /// As band_of(), with the next band where the range leans to it.
+  /// Returns the band and the next one, with the range's place between them.
   [[nodiscard]] BandMix mix_of(float ground_range_m) const noexcept {
     return mixes_[step_of(ground_range_m)];
   }
   [[nodiscard]] BandMixes mixes() const noexcept { return {mixes_.data(), last_step_}; }
-  /// Ranges in steps of 1 / kStepsPerMetre, for band_of_step(): many at once.
+  /// Converts ranges to steps of 1 / kStepsPerMetre for band_of_step(), many at once.
   void find_steps(std::span<const float> ground_range_m,
                   std::span<std::uint16_t> steps) const noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] int band_of_step(std::uint16_t step) const noexcept { return band_of_step_[step]; }
-  /// Sector of an image column.
+  /// Returns the sector of an image column.
   [[nodiscard]] int sector_of(int column) const noexcept {
     return sector_of_column_[static_cast<std::size_t>(column)];
   }
-  /// cell(sector, 0) of the sector of each image column.
+  /// Returns for each image column cell(sector, 0) of its sector.
   [[nodiscard]] std::span<const std::int32_t> first_cell_of_column() const noexcept {
     return first_cell_of_column_;
   }
-  /// Where the middle of each image column lies between the edges of its sector, (0, 1).
+  /// Returns where the middle of each image column lies between the edges of its sector, (0, 1).
   [[nodiscard]] std::span<const float> share_across() const noexcept { return share_across_; }
-  /// Sectors next to each other, [begin, end); not across the seam.
+  /// Adjacent sectors, [begin, end), not across the seam.
   struct Sectors {
     int begin, end;
   };
-  /// A sector's number less than one frame beyond either end, brought back onto the circle.
+  /// Wraps a sector number that is less than one revolution beyond either end.
   [[nodiscard]] int wrapped(int sector) const noexcept {
     return sector < 0 ? sector + sectors_ : sector >= sectors_ ? sector - sectors_ : sector;
   }
-  /// Image columns of sectors.
+  /// Returns the image columns of sectors.
   [[nodiscard]] frame::ColumnRange columns_of(Sectors sectors) const noexcept {
     return {first_column_[static_cast<std::size_t>(sectors.begin)],
             first_column_[static_cast<std::size_t>(sectors.end)]};
@@ -109,11 +110,11 @@ class RingGrid {
   float last_step_ = 0;
   std::span<float> center_m_;
   std::span<std::uint8_t> band_of_step_;
-  std::span<BandMix> mixes_;  // of each step
+  std::span<BandMix> mixes_;  // by step
   std::span<std::uint16_t> sector_of_column_;
   std::span<std::int32_t> first_cell_of_column_;
-  std::span<float> share_across_;          // of each column
-  std::span<std::uint16_t> first_column_;  // of each sector, and the end of the last
+  std::span<float> share_across_;          // by column
+  std::span<std::uint16_t> first_column_;  // by sector, and the end of the last
 };
 
 }  // namespace terracut::elevation

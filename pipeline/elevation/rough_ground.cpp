@@ -12,10 +12,10 @@
 namespace terracut::elevation {
 namespace {
 
-constexpr int kNotCounted = -1;  // any number of such bytes is less than 0
-constexpr int kRowReach = 2;     // rows up and down whose bends count, too
+constexpr int kNotCounted = -1;  // bytes of this value make any number negative
+constexpr int kRowReach = 2;     // rows up and down whose bends count as well
 
-/// Levels what is low in a row, and finds what is level only if it is rough there.
+/// Levels low returns of a row, and marks those to level only on rough ground.
 TERRACUT_VECTOR_CLONES void level_row(const float* __restrict highest_near_m,
                                       const RoughGround::Config& config, float obstacle_height_m,
                                       std::span<float> heights_m,
@@ -27,7 +27,7 @@ TERRACUT_VECTOR_CLONES void level_row(const float* __restrict highest_near_m,
   for (std::size_t i = 0; i < count; ++i) {
     const float highest_m = highest_near_m[i];
     const float h = height_m[i];
-    // Whole numbers as wide as a float: a vector of them needs no repacking.
+    // Integers as wide as a float need no repacking in vectors.
     const std::int32_t is_low = (h > 0 ? 1 : 0) & (h < obstacle_height_m ? 1 : 0);
     const std::int32_t is_level = is_low & (highest_m <= tall_m ? 1 : 0);
     const std::int32_t may_be = (h > 0 ? 1 : 0) & (h < rough_height_m ? 1 : 0) &
@@ -42,8 +42,8 @@ void level_those(const std::uint8_t* which, std::size_t begin, std::size_t end,
   for (std::size_t i = begin; i < end; ++i) height_m[i] = which[i] != 0 ? 0 : height_m[i];
 }
 
-/// The greatest of values in as many places as `reach` says before and after each, and one more
-/// after: the ends have fewer.
+/// Finds the maximum of `reach` values before and reach + 1 values after each place; fewer at the
+/// ends.
 TERRACUT_VECTOR_CLONES void find_greatest_near(const float* __restrict values, std::size_t count,
                                                std::size_t reach, float* __restrict out) noexcept {
   const auto greater = [](float a, float b) { return a > b ? a : b; };
@@ -56,14 +56,13 @@ TERRACUT_VECTOR_CLONES void find_greatest_near(const float* __restrict values, s
   }
 }
 
-/// The greater of two values in each place.
+/// Takes the larger of two values in each place.
 TERRACUT_VECTOR_CLONES void take_greater(const float* __restrict values, std::size_t count,
                                          float* __restrict out) noexcept {
   for (std::size_t i = 0; i < count; ++i) out[i] = values[i] > out[i] ? values[i] : out[i];
 }
 
-/// Of the heights of a sector in a row, how many bend from one column to the next, and how many by
-/// more than this.
+/// Counts the height bends between columns of a sector in a row, and those larger than `rough_m`.
 TERRACUT_VECTOR_CLONES RoughGround::Bends count_bends(const float* __restrict z_m, int count,
                                                       float rough_m) noexcept {
   std::int32_t known = 0, rough = 0;
@@ -107,7 +106,7 @@ void RoughGround::find_highest_near(RingGrid::Sectors sectors, const RingGrid& g
   if (!config_.enabled) return;
   const auto bands = static_cast<std::size_t>(grid.bands());
   const auto near_bands = static_cast<std::size_t>(config_.near_bands);
-  std::array<float, static_cast<std::size_t>(RingGrid::kMaxBands)> beside_m;  // by band
+  std::array<float, static_cast<std::size_t>(RingGrid::kMaxBands)> beside_m;  // one value a band
   for (int sector = sectors.begin; sector < sectors.end; ++sector) {
     const std::size_t first = grid.cell(sector, 0);
     std::copy_n(&highest_m[first], bands, beside_m.begin());
@@ -116,7 +115,7 @@ void RoughGround::find_highest_near(RingGrid::Sectors sectors, const RingGrid& g
         take_greater(&highest_m[grid.cell(grid.wrapped(beside), 0)], bands, beside_m.data());
       }
     }
-    // Of returns between the middles of a band and the next.
+    // A return lies between the middles of a band and the next: one more band is looked at.
     find_greatest_near(beside_m.data(), bands, near_bands, &highest_near_m_[first]);
     for (std::size_t i = first; i < first + bands; ++i) highest_near_m_[i] -= ground[i].lower_m();
   }

@@ -15,51 +15,52 @@
 
 namespace terracut::elevation {
 
-/// Tells grass, tufts and stubble from the feet of things: what belongs to the ground although it
-/// rises above the local ground surface.
+/// Tells grass, tufts and stubble from the feet of objects: low things that belong to the ground
+/// although they rise above the local ground surface.
 ///
-/// Where nothing tall stands in the grid cells around a return, only ground or something low can
-/// have sent it. If it is no obstacle by its height, it is level: its height counts no further, so
-/// that no later stage takes a step among such returns for an obstacle. Rough ground may be higher,
-/// and what stands on it, too. Along a ring heights are good to millimetres: asphalt, kerbs, walls
-/// and metal bend by 1 to 6 mm from column to column, grass by 5 to 40.
+/// If nothing tall stands in the grid cells around a return, only ground or something low can have
+/// sent it. Unless its height makes it an obstacle, its height is then set to 0 (it is level), so
+/// that no later stage takes a step among such returns for an obstacle. On rough ground the limits
+/// are higher. Along a ring heights are good to millimetres: asphalt, kerbs, walls and metal bend
+/// by 1 to 6 mm from column to column, grass by 5 to 40.
 class RoughGround {
  public:
   struct Config {
     bool enabled = true;     ///< Needs the local ground surface.
-    float tall_m = 0.40F;    ///< Something so high above the surface is tall ...
-    int near_sectors = 2;    ///< ... and near if it is so many sectors aside or fewer ...
-    int near_bands = 1;      ///< ... and as many bands nearer or farther.
-    float rough_m = 0.015F;  ///< Where most heights bend by more than this from column to column
-                             ///< (of five rows and the sectors near) it is rough: there ...
-    float rough_tall_m = 0.90F;    ///< ... only something so high is tall ...
-    float rough_height_m = 0.45F;  ///< ... and obstacles begin so high above the surface.
+    float tall_m = 0.40F;    ///< Tall: so high above the surface.
+    int near_sectors = 2;    ///< Near: at most so many sectors aside.
+    int near_bands = 1;      ///< Near: at most so many bands nearer or farther.
+    float rough_m = 0.015F;  ///< Rough: most heights, in five rows and the sectors near, bend by
+                             ///< more than this from column to column.
+    float rough_tall_m = 0.90F;    ///< On rough ground only this is tall.
+    float rough_height_m = 0.45F;  ///< On rough ground obstacles begin at this height.
   };
 
-  /// How many heights of a sector in a row bend from one column to the next.
+  /// Counts of a sector's heights in a row that bend between columns.
   struct Bends {
-    std::int16_t known, rough;  ///< by more than `rough_m`
+    std::int16_t known, rough;  ///< rough: by more than `rough_m`
   };
 
   RoughGround(const Config& config, float obstacle_height_m, const RingGrid& grid,
               frame::ImageShape shape, memory::FixedMemory& memory);
 
-  /// Sectors to either side that have to be there before a sector is levelled.
+  /// Returns how many sectors to either side must be complete before a sector is levelled.
   [[nodiscard]] int reach() const noexcept { return config_.enabled ? near_sectors_ : 0; }
 
-  // Of a frame: reset(), then of sectors find_highest_near() and of rows of their columns level().
+  // Order of calls for a frame: reset(), find_highest_near() for sectors, then level() for rows of
+  // their columns.
 
-  /// Real-time safe, as all of this.
+  /// Real-time safe, like all functions here.
   void reset() noexcept TERRACUT_NONBLOCKING;
-  /// What is near to the grid cells of these sectors: `highest_m` is the highest return and
-  /// `ground` the ground in each cell of the grid.
+  /// Finds the highest return near each grid cell of these sectors. `highest_m` is the highest
+  /// return and `ground` the ground in each cell of the grid.
   void find_highest_near(
       RingGrid::Sectors sectors, const RingGrid& grid, std::span<const float> highest_m,
       std::span<const GroundSurface::EdgeHeights> ground) noexcept TERRACUT_NONBLOCKING;
-  /// Of each cell of the grid, the highest return near it, above its ground.
+  /// Returns for each grid cell the highest return near it, above its ground.
   [[nodiscard]] std::span<const float> highest_near_m() const noexcept { return highest_near_m_; }
-  /// Levels the heights of a row in these columns, near each of which the highest return is
-  /// `highest_m` above the ground. All points of their sectors and of those in reach are there.
+  /// Levels the heights of a row in these columns, where `highest_m` is the highest return near
+  /// each, above the ground. All points of their sectors and those within reach must be complete.
   void level(const frame::PointPlanes& points, int row, frame::ColumnRange columns,
              std::span<const float> highest_m, const RingGrid& grid,
              std::span<float> height_m) noexcept TERRACUT_NONBLOCKING;
@@ -72,7 +73,7 @@ class RoughGround {
 
   [[nodiscard]] bool is_rough(const frame::PointPlanes& points, const RingGrid& grid, int row,
                               int sector) noexcept;
-  /// Of a row, in a sector and those near.
+  /// Returns the bends of a row in a sector and those near it.
   [[nodiscard]] Bends bends_beside(const frame::PointPlanes& points, const RingGrid& grid, int row,
                                    int sector) noexcept;
   [[nodiscard]] Bends bends_of(const frame::PointPlanes& points, const RingGrid& grid, int row,
@@ -83,10 +84,10 @@ class RoughGround {
   frame::ImageShape shape_;
   int near_sectors_;
   std::span<float> highest_near_m_;       // by grid cell, above its ground
-  std::span<std::uint8_t> may_be_rough_;  // of a row: too high to be level unless it is rough there
-  // By row and sector, found where they are asked for.
-  std::span<Bends> bends_;         // known: -1 before
-  std::span<Bends> bends_beside_;  // as that
+  std::span<std::uint8_t> may_be_rough_;  // by column: to level only on rough ground
+  // By row and sector, computed on demand.
+  std::span<Bends> bends_;         // `known` is -1 before
+  std::span<Bends> bends_beside_;  // likewise
   std::span<Answer> is_rough_;
 };
 

@@ -8,9 +8,8 @@
 namespace terracut::ground {
 namespace {
 
-/// Sectors labelled together while the frame arrives: few, so that they are in the caches next to
-/// the core from when they came to when they are labelled. Towards the frame's end even fewer, so
-/// that little is left when it is there.
+/// Returns how many sectors to label together while the frame arrives: few enough to stay in the
+/// caches next to the core, and fewer towards the frame's end, so that little is left to do then.
 int sectors_of_block(int sectors_to_come) noexcept TERRACUT_NONBLOCKING {
   constexpr int kMost = 16, kLeast = 4;
   return std::clamp(sectors_to_come / 2, kLeast, kMost);
@@ -139,7 +138,7 @@ void CoarseStages::label_changed(int end, const frame::RangeImage& image,
 
 void CoarseStages::label_again(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
                                stage::CellPlanes& planes) noexcept {
-  // What columns next to changed ones are compared with has changed, too, and is reset.
+  // Columns next to changed ones were compared with old heights, so they are reset as well.
   const auto widened = [this](frame::ColumnRange columns) {
     return frame::ColumnRange{std::max(columns.begin - adjacent_.reach(), 0),
                               std::min(columns.end + adjacent_.reach(), shape_.columns)};

@@ -14,7 +14,7 @@ bool has_expired(const min_cut::CutBudget& budget) noexcept {
   return budget.expired != nullptr && budget.expired(budget.context);
 }
 
-/// What a frame says of a cell by itself, and what is remembered of it.
+/// The cost of a cell from the frame itself and from memory.
 class Costs {
  public:
   Costs(const random_field::RegionTerm& region, const remembered::StreetMemory* memory) noexcept
@@ -31,7 +31,7 @@ class Costs {
   const remembered::StreetMemory* memory_;
 };
 
-/// The weights of the cut's edges, most of its work, are compiled into this.
+/// The edge weights, most of the cut's work, are compiled into this function.
 TERRACUT_VECTOR_CLONES_OF_INLINED min_cut::CutReport solve(
     min_cut::GridCut& cut, const min_cut::GridProblem& problem, const Costs& costs,
     const random_field::BoundaryTerm& boundary, const min_cut::CutBudget& budget,
@@ -86,7 +86,7 @@ stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
   };
   if (observer != nullptr) observer->resumed();
 
-  // What is not certain yet is labelled together, by the cheapest cut of the range image.
+  // The cheapest cut of the range image labels the cells that are still uncertain together.
   report.last_stage = config_.last_stage;
   if (config_.last_stage >= stage::Stage::kMinCut && has_expired(budget)) {
     report.last_stage = stage::Stage::kAdjacentPoints;

@@ -21,48 +21,49 @@
 
 namespace terracut::ground {
 
-/// The fine stage of the method, the random field and its cut, and what makes labels of returns of
-/// it. Begins where CoarseStages ends, on the same thread or another one.
+/// The fine stage of the method: the random field, its cut, and the labels of returns that follow.
+/// Continues after CoarseStages, on the same thread or another one.
 ///
 /// Memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
 class FineStages {
  public:
-  /// `profile` must have shape.rows rings. `return_capacity`: of the images to come. `made`: as
-  /// CoarseStages, on this thread; filled where it is needed, unless it has the frame's points.
+  /// `profile` must have shape.rows rings. `return_capacity` is that of the images to come. `made`
+  /// is like that of CoarseStages, on this thread; it is filled where needed, unless it has all
+  /// points.
   FineStages(const SegmenterConfig& config, const mount::RingProfile& profile,
              frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
              frame::FramePoints* made = nullptr);
 
-  /// Labels the returns of a frame. `planes`: what CoarseStages::finish() made of it; labels in
-  /// them become final. Where `budget` has expired before the random field, or too soon in its cut,
-  /// labels stay as they were.
-  /// Where the sensor stands in the frame that refine() is called for next, whose image has all its
-  /// points: it is labelled by what the frames before saw, too. Without this it is labelled by
-  /// itself, and they are forgotten.
+  /// Sets the sensor's place in the frame that refine() is called for next, whose image must have
+  /// all its points: that frame is then labelled with memory of earlier frames. Without a place it
+  /// is labelled by itself, and earlier frames are forgotten.
   void set_place(const frame::Place& place) noexcept TERRACUT_NONBLOCKING { place_ = place; }
 
+  /// Labels the returns of a frame. CoarseStages::finish() must have filled `planes`; their labels
+  /// become final. If `budget` expires before the random field, or too soon in its cut, labels stay
+  /// as they were.
   [[nodiscard]] stage::SegmentationReport refine(
       const frame::RangeImage& image, stage::CellPlanes& planes,
       const min_cut::CutBudget& budget = {},
       stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
 
-  /// Of a frame that was labelled: `planes` are its.
+  /// Takes near ground from a frame that was labelled into `planes`.
   void take_near_ground(const frame::RangeImage& image, const stage::CellPlanes& planes,
                         NearGround& ground) noexcept TERRACUT_NONBLOCKING;
 
-  /// As Segmenter::labels().
+  /// See Segmenter::labels().
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
     return return_labels_.labels();
   }
 
  private:
-  /// What was remembered of the cells that the cut is to label; null without motion.
+  /// Returns what was remembered of the cells to be cut; null without motion.
   [[nodiscard]] const remembered::StreetMemory* look_back(const frame::RangeImage& image,
                                                           const stage::CellPlanes& planes) noexcept;
   [[nodiscard]] min_cut::CutReport cut(const frame::PointPlanes& points, stage::CellPlanes& planes,
                                        const remembered::StreetMemory* memory,
                                        const min_cut::CutBudget& budget) noexcept;
-  /// The points that the stages to come look at: next to unknown cells, if there is a cut.
+  /// Returns the points that later stages need: with a cut, those next to unknown cells.
   [[nodiscard]] frame::PointPlanes points_of(const frame::RangeImage& image, bool has_cut) noexcept;
 
   SegmenterConfig config_;
@@ -74,9 +75,9 @@ class FineStages {
   min_cut::NearUnknown near_unknown_;
   min_cut::GridCut min_cut_;
   stage::ReturnLabels return_labels_;
-  std::optional<remembered::StreetMemory> memory_;  // where it is asked for
-  frame::Place place_;                              // of the frame to come
-  std::optional<road::RoadSurface> road_surface_;   // where it is asked for
+  std::optional<remembered::StreetMemory> memory_;  // empty unless enabled
+  frame::Place place_;                              // of the next frame
+  std::optional<road::RoadSurface> road_surface_;   // empty unless enabled
 };
 
 }  // namespace terracut::ground

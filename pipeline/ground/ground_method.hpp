@@ -18,10 +18,10 @@
 
 namespace terracut::ground {
 
-/// Which class does the work.
+/// The class that does the work.
 enum class MethodKind : std::uint8_t { kSegmenter, kPfaff, kBogoslavskyi, kZhang };
 
-/// A method and every parameter of it and of the others. The default is the `terracut` profile.
+/// A method with the parameters of all methods. The default is the `terracut` profile.
 struct MethodConfig {
   MethodKind kind = MethodKind::kSegmenter;
   SegmenterConfig segmenter;
@@ -30,11 +30,11 @@ struct MethodConfig {
   baselines::HeightFieldMrf::Config zhang;
 
   MethodConfig() = default;
-  /// The terracut method with these parameters; the other methods keep their defaults.
+  /// The terracut method with these parameters; other methods keep their defaults.
   MethodConfig(const SegmenterConfig& config) : segmenter(config) {}  // NOLINT: meant to convert
 };
 
-/// As remembering() a SegmenterConfig.
+/// Applies remembering() to the SegmenterConfig.
 [[nodiscard]] inline MethodConfig remembering(MethodConfig config, bool motion_is_known) noexcept {
   config.segmenter = remembering(config.segmenter, motion_is_known);
   return config;
@@ -46,21 +46,22 @@ struct MethodName {
   std::string_view about;  ///< "Column angles in the range image (Bogoslavskyi, Stachniss 2017)"
 };
 
-/// All there are, in the order of the paper's tables: the baselines, the rows of Table III, ours.
+/// Returns all methods in the order of the paper's tables: the baselines, the rows of Table III,
+/// ours.
 [[nodiscard]] std::span<const MethodName> method_names() noexcept;
 
-/// The method of that name with its default parameters. kInvalidArgument, naming those there are,
-/// for any other name.
+/// Returns the method of that name with its default parameters. kInvalidArgument, naming the
+/// methods there are, for any other name.
 [[nodiscard]] Expected<MethodConfig> method_named(std::string_view name);
 
-/// Whether the method looks at points of an image, which must have them.
+/// True if the method uses points of an image, which must then have them.
 [[nodiscard]] bool needs_all_points(const MethodConfig& config) noexcept;
 
-/// Segmenter or a baseline, chosen at run time. Has Segmenter's interface and contracts, and costs
-/// one switch a frame.
+/// A Segmenter or a baseline, chosen at run time. Has Segmenter's interface and contracts, and
+/// costs one switch a frame.
 class GroundMethod {
  public:
-  /// `reader`: as Segmenter; null where needs_all_points().
+  /// `reader`: see Segmenter; null if needs_all_points().
   GroundMethod(const MethodConfig& config, const mount::RingProfile& profile,
                frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
                std::unique_ptr<frame::TileReader> reader = nullptr) {
@@ -84,14 +85,13 @@ class GroundMethod {
     }
   }
 
-  /// As Segmenter::advance(); baselines do nothing ahead.
+  /// Calls Segmenter::advance(); baselines do nothing ahead.
   void advance(const frame::RangeImage& image, int complete_columns,
                stage::StageObserver* observer = nullptr) noexcept {
     if (segmenter_) segmenter_->advance(image, complete_columns, observer);
   }
 
-  /// Baselines report the stage that is most like theirs (their headers say which), and know no
-  /// budget.
+  /// Baselines report the stage most like theirs (see their headers) and ignore the budget.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, stage::StageObserver* observer = nullptr,
       const min_cut::CutBudget& budget = {}) noexcept {
@@ -100,12 +100,12 @@ class GroundMethod {
     return baseline_->segment(image, observer);
   }
 
-  /// As Segmenter::set_place(); baselines remember nothing.
+  /// Calls Segmenter::set_place(); baselines remember nothing.
   void set_place(const frame::Place& place) noexcept {
     if (segmenter_) segmenter_->set_place(place);
   }
 
-  /// Of the frame labelled last.
+  /// Takes near ground from the frame labelled last.
   void take_near_ground(const frame::RangeImage& image, NearGround& ground) noexcept {
     if (segmenter_) return segmenter_->take_near_ground(image, ground);
     ground::take_near_ground(image, ground);
@@ -120,7 +120,7 @@ class GroundMethod {
 
  private:
   std::optional<Segmenter> segmenter_;
-  std::unique_ptr<baselines::Baseline> baseline_;  // where there is no segmenter
+  std::unique_ptr<baselines::Baseline> baseline_;  // set if there is no segmenter
 };
 
 }  // namespace terracut::ground

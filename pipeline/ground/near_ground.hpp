@@ -13,13 +13,13 @@
 
 namespace terracut::ground {
 
-/// Returns that the mount can be read off: of the strip before and behind the vehicle, the surface
-/// it stands on. A crowned road falls away on the other side, and there is more to see of it. What
-/// lies farther is no plane any more where a slope begins: by the ground to 25 m a sensor 3 m up
-/// seems 0.7 m higher on the simulated hill, by the ground to 15 m 0.1 m lower.
+/// Returns from which the mount can be found: of the strip before and behind the vehicle, the
+/// surface it stands on. Beside it a crowned road falls away. Farther ground is not one plane where
+/// a slope begins: on the simulated hill, ground to 25 m makes a sensor 3 m up seem 0.7 m higher,
+/// ground to 15 m 0.1 m lower.
 struct NearGround {
   static constexpr float kHalfWidth_m = 1.5F;
-  static constexpr float kNearest_m = 3.0F;  ///< Nearer ones may be the vehicle itself.
+  static constexpr float kNearest_m = 3.0F;  ///< Nearer returns may be the vehicle itself.
   static constexpr float kFarthest_m = 15.0F;
   static constexpr std::size_t kMost = 8192;
   static constexpr std::size_t kMostCellsLookedAt = 4 * kMost;
@@ -32,7 +32,7 @@ struct NearGround {
   }
 };
 
-/// Whether a return, in the vehicle frame, lies in that strip.
+/// True if a return, in the vehicle frame, lies in that strip.
 [[nodiscard]] constexpr bool is_near_ground_place(float x_m, float y_m) noexcept {
   const float range2_m2 = x_m * x_m + y_m * y_m;
   return y_m <= NearGround::kHalfWidth_m && y_m >= -NearGround::kHalfWidth_m &&
@@ -40,24 +40,24 @@ struct NearGround {
          range2_m2 <= NearGround::kFarthest_m * NearGround::kFarthest_m;
 }
 
-/// Whether the strip may have a return in one of these columns: 30 degrees to either side of
+/// True if the strip may have a return in one of these columns: 30 degrees to either side of
 /// straight ahead and of straight behind.
 [[nodiscard]] bool has_near_ground_columns(
     frame::ColumnRange columns, const frame::ImageShape& shape) noexcept TERRACUT_NONBLOCKING;
 
-/// Fills `ground` with returns of the strip, evenly thinned out. Looks at kMostCellsLookedAt cells
-/// of those columns at most. `points`: of the whole image, good there; `height_m`: any height of
-/// each cell that is NaN where it has no return. Real-time safe.
+/// Fills `ground` with returns of the strip, evenly thinned. Examines at most kMostCellsLookedAt
+/// cells of those columns. `points` must be valid there; `height_m` is any height that is NaN in
+/// cells without a return. Real-time safe.
 void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,
                       const frame::ImageShape& shape,
                       NearGround& ground) noexcept TERRACUT_NONBLOCKING;
-/// Of an image that has points.
+/// Does the same for an image that has points.
 inline void take_near_ground(const frame::RangeImage& image,
                              NearGround& ground) noexcept TERRACUT_NONBLOCKING {
   take_near_ground(image.points(), image.z_m(), image.shape(), ground);
 }
 
-/// Fills `ground` with returns of the whole image instead, near and far, evenly thinned out.
+/// Fills `ground` with returns of the whole image, near and far, evenly thinned.
 void take_around(const frame::RangeImage& image, NearGround& ground) noexcept;
 
 }  // namespace terracut::ground

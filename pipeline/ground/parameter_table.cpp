@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 3> kCutRows{"auto", "all", "ground"};
 constexpr std::array<std::string_view, 2> kRegionRules{"histogram", "height_ramp"};
 constexpr std::array<std::string_view, 2> kBoundaryRules{"height_gradient", "nearness"};
 
-// The pair of functions that read and write one field of the configuration.
+// Makes the two functions that read and write one field of the configuration.
 #define TERRACUT_FIELD_OF(path)                                                 \
   [](const MethodConfig& c) noexcept { return static_cast<double>(c.path); },   \
       [](MethodConfig& c, double value) noexcept {                              \
@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 2> kBoundaryRules{"height_gradient", "nea
       }
 #define TERRACUT_FIELD(path) TERRACUT_FIELD_OF(segmenter.path)
 
-constexpr double kFar = 1e9;  // "no limit"
+constexpr double kFar = 1e9;  // Means "no limit".
 
 // clang-format off: a table reads better with an entry on two lines than one word a line.
 constexpr std::array kParameters{
@@ -304,7 +304,7 @@ constexpr std::size_t kBaselinesBegin = [] {
 }();
 
 std::string number_text(double value) {
-  // Fields are float: the shortest text that reads back as the same float.
+  // Fields are float: prints the shortest text that reads back as the same float.
   return fmt::format("{}", static_cast<float>(value));
 }
 
@@ -325,7 +325,7 @@ Expected<double> parse_value(const Parameter& parameter, std::string_view value)
                           parameter.unit.empty() ? "" : " ", parameter.unit, value));
 }
 
-/// What was meant by a key that is none: the nearest, and those of the same stage.
+/// Suggests a key for an unknown one: the nearest, and those of the same stage.
 std::string unknown(std::string_view key) {
   const std::string_view stage = key.substr(0, key.find('.') + 1);
   std::vector<std::string_view> all, alike;

@@ -23,26 +23,25 @@ struct Parameter {
   void (*set)(MethodConfig&, double) noexcept = nullptr;
 };
 
-/// Every parameter of the method, grouped by stage in the order the stages run.
+/// Returns every parameter of the method, grouped by stage in the order the stages run.
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
 
-/// Those of its baselines (pipeline/baselines/), grouped by method: "pfaff.cell_m".
+/// Returns the baselines' parameters (pipeline/baselines/), grouped by method: "pfaff.cell_m".
 [[nodiscard]] std::span<const Parameter> baseline_parameters() noexcept;
 
-/// Sets one parameter, a baseline's included, from text ("0.2", "local_surface"). The error names
-/// the key, the value and what would have been valid; for an unknown key, the keys of the same
-/// stage.
+/// Sets one parameter, also of a baseline, from text ("0.2", "local_surface"). The error names the
+/// key, the value and valid values; for an unknown key, the keys of the same stage.
 [[nodiscard]] Status set_parameter(MethodConfig& config, std::string_view key,
                                    std::string_view value);
 
-/// The same from "KEY=VALUE".
+/// Sets one parameter from "KEY=VALUE".
 [[nodiscard]] Status apply_setting(MethodConfig& config, std::string_view setting);
 
-/// The kind of method that looks at a parameter of parameters() or baseline_parameters(); for the
-/// others it changes nothing.
+/// Returns the kind of method that uses a parameter of parameters() or baseline_parameters(); it
+/// has no effect on the others.
 [[nodiscard]] MethodKind kind_that_uses(std::string_view key) noexcept;
 
-/// A parameter's value as set_parameter() takes it.
+/// Returns a parameter's value as set_parameter() takes it.
 [[nodiscard]] std::string value_text(const Parameter& parameter, const MethodConfig& config);
 
 }  // namespace terracut::ground

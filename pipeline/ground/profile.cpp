@@ -11,7 +11,7 @@ SegmenterConfig terracut_profile() noexcept {
 SegmenterConfig paper_profile() noexcept {
   SegmenterConfig config;
   config.elevation_map.grid.min_band_m = 0;
-  config.elevation_map.grid.max_band_m = 1e9F;  // not cut
+  config.elevation_map.grid.max_band_m = 1e9F;  // never split
   config.elevation_map.reference = elevation::GroundReference::kCellMinimum;
   config.elevation_map.obstacle_height_m = 0.20F;
   config.elevation_map.rough.enabled = false;

@@ -32,20 +32,21 @@ struct SegmenterConfig {
   stage::ReturnLabels::Config returns;
   road::RoadSurface::Config road;
   remembered::StreetMemory::Config memory;
-  SparseRows sparse;  ///< Taken in place of the others by suited_to_rows().
+  SparseRows sparse;  ///< Replace others if rows are sparse, see suited_to_rows().
 };
 
-/// The same, but where the vehicle's motion is not known nothing is remembered, nor memory taken.
+/// Returns the configuration; without known motion of the vehicle nothing is remembered and no
+/// memory taken for it.
 [[nodiscard]] inline SegmenterConfig remembering(SegmenterConfig config,
                                                  bool motion_is_known) noexcept {
   config.memory.enabled = config.memory.enabled && motion_is_known;
   return config;
 }
 
-/// The default: whatever was measured better, on the paper's skeleton (docs/reference/method.md).
+/// The default: the paper's structure with all measured improvements (docs/reference/method.md).
 [[nodiscard]] SegmenterConfig terracut_profile() noexcept;
 
-/// The method as printed; what the paper leaves open is set as docs/reference/method.md says.
+/// The method as printed; docs/reference/method.md says how its open points are set.
 [[nodiscard]] SegmenterConfig paper_profile() noexcept;
 
 }  // namespace terracut::ground

@@ -11,16 +11,15 @@
 
 namespace terracut::ground {
 
-/// The coarse-to-fine method: a range image goes in, a label for every return comes out.
+/// The coarse-to-fine method: labels every return of a range image.
 ///
-/// Memory is taken in the constructor and never again; nothing here allocates, locks, throws or
-/// looks at a clock, and the same image gives the same labels on every machine (unless a budget
-/// with a clock cuts the min-cut short). One thread at a time; on two threads, use both halves by
-/// themselves.
+/// Memory is taken once, in the constructor; nothing else allocates, locks, throws or looks at a
+/// clock. The same image gives the same labels on every machine (unless a budget with a clock cuts
+/// the min-cut short). One thread at a time; for two threads use CoarseStages and FineStages.
 class Segmenter {
  public:
-  /// `profile` must have shape.rows rings. `return_capacity`: of the images to come. `reader`: of
-  /// their sensor where they keep their returns as they were measured; else null.
+  /// `profile` must have shape.rows rings. `return_capacity` is that of the images to come.
+  /// `reader` is their sensor's if they keep their returns as measured, else null.
   Segmenter(const SegmenterConfig& config, const mount::RingProfile& profile,
             frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
             std::unique_ptr<frame::TileReader> reader = nullptr)
@@ -31,15 +30,15 @@ class Segmenter {
         coarse_(config, profile, shape, memory, made_.get()),
         fine_(config, profile, shape, return_capacity, memory, made_.get()) {}
 
-  /// Does ahead what can be done of a frame that is still arriving: CoarseStages::advance(). Never
-  /// necessary; labels are the same without it. Overwrites planes(), not labels().
+  /// Works ahead on a frame that is still arriving: CoarseStages::advance(). Never necessary:
+  /// labels are the same without it. Overwrites planes(), not labels().
   void advance(const frame::RangeImage& image, int complete_columns,
                stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING {
     coarse_.advance(image, complete_columns, planes_, observer);
   }
 
-  /// Labels one frame; `image` has the shape given at construction. The result of the frame before
-  /// is overwritten. `budget`: FineStages::refine(). Real-time safe if the observer is.
+  /// Labels one frame; `image` has the shape given at construction. Overwrites the last frame's
+  /// result. `budget`: see FineStages::refine(). Real-time safe if the observer is.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, const min_cut::CutBudget& budget = {},
       stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING {
@@ -47,26 +46,27 @@ class Segmenter {
     return fine_.refine(image, planes_, budget, observer);
   }
 
-  /// Of the frame to be labelled next: FineStages::set_place().
+  /// Sets the place of the frame to be labelled next: FineStages::set_place().
   void set_place(const frame::Place& place) noexcept TERRACUT_NONBLOCKING {
     fine_.set_place(place);
   }
 
-  /// Of the frame labelled last.
+  /// Takes near ground from the frame labelled last.
   void take_near_ground(const frame::RangeImage& image,
                         NearGround& ground) noexcept TERRACUT_NONBLOCKING {
     fine_.take_near_ground(image, planes_, ground);
   }
 
-  /// One label a return, in order of arrival (RangeImage::return_index()). kGround is all ground,
-  /// unless the road surface is asked for; then what is none of it is kOtherGround.
+  /// Returns one label a return, in order of arrival (RangeImage::return_index()). kGround is all
+  /// ground; with road.enabled kGround is road and kOtherGround the rest.
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return fine_.labels(); }
-  /// The same by cell, with the heights they were judged by; for pictures and measurements.
+  /// Returns the labels by cell with the heights they were judged by; for pictures and
+  /// measurements.
   [[nodiscard]] const stage::CellPlanes& planes() const noexcept { return planes_; }
 
  private:
   stage::CellPlanes planes_;
-  std::unique_ptr<frame::FramePoints> made_;  // where images have no points
+  std::unique_ptr<frame::FramePoints> made_;  // set if images have no points
   CoarseStages coarse_;
   FineStages fine_;
 };

@@ -15,12 +15,12 @@ constexpr std::uint64_t kNoLatency = 0xFFFF;
 constexpr std::uint64_t kNoCause = 7;
 constexpr std::uint64_t kMostReturns = (1U << 18) - 1;
 
-/// A run of bits of a frame, lowest first, as "start|count@1+" in a DBC file.
+/// A run of bits in a frame, lowest first, like "start|count@1+" in a DBC file.
 struct Bits {
   unsigned start, count;
 };
 
-/// Puts the lowest bits of `value` where all are 0 yet.
+/// Writes the lowest bits of `value` into bits that are still 0.
 void put(can::CanFrame& frame, Bits bits, std::uint64_t value) noexcept {
   for (unsigned i = 0; i < bits.count; ++i) {
     const unsigned at = bits.start + i;

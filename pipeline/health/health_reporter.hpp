@@ -11,15 +11,15 @@
 
 namespace terracut::health {
 
-/// Says on a CAN bus how a live run is (pipeline/health/terracut_health.dbc): a report for the
-/// newest frame whenever frames were judged, and four a second where none come, so that a counter
-/// that stands still means that nobody is there. Never waits. One thread, without a deadline.
+/// Reports the health of a live run on a CAN bus (pipeline/health/terracut_health.dbc): for the
+/// newest frame whenever frames were judged, and four times a second if none come, so that a
+/// counter that stands still means a dead process. Never waits. One thread, without a deadline.
 class HealthReporter {
  public:
-  /// `bus`: its name, for show().
+  /// `bus` is its name, for show().
   HealthReporter(std::string bus, can::CanSender sender);
 
-  /// As often as one likes. `now_ns`: measure::monotonic_ns().
+  /// May be called at any rate. `now_ns` is measure::monotonic_ns().
   void work_round(const status::MonitorSnapshot& figures, const status::FrameRecord& newest,
                   std::int64_t now_ns) noexcept;
 

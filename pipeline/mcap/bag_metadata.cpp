@@ -11,7 +11,7 @@
 namespace terracut::mcap {
 namespace {
 
-/// A text in quotes on one line.
+/// Returns the text in quotes on one line.
 std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -29,7 +29,7 @@ std::uint64_t messages_in(const BagFile& file) {
   return std::accumulate(file.messages.begin(), file.messages.end(), std::uint64_t{0});
 }
 
-/// From the first message of any file to the last.
+/// Returns the span from the first message of any file to the last.
 McapFile::Span whole_span(const std::vector<BagFile>& files) {
   McapFile::Span whole{std::numeric_limits<std::uint64_t>::max(), 0};
   for (const BagFile& file : files) {

@@ -11,23 +11,23 @@
 
 namespace terracut::mcap {
 
-/// How a topic is published when rosbag2 plays a recording.
+/// How rosbag2 publishes a topic when it plays a recording.
 enum class Qos : std::uint8_t {
-  kReliable,  ///< The last ten, reliable, volatile.
-  kLatched,   ///< The last one, also for those who come later, as static transforms are.
+  kReliable,  ///< Keeps the last ten; reliable, volatile.
+  kLatched,   ///< Keeps the last one for late readers, like static transforms.
 };
-/// As rosbag2 writes `offered_qos_profiles` up to version 8 of its metadata, which every later one
-/// reads.
+/// Returns `offered_qos_profiles` as rosbag2 writes them up to version 8 of its metadata, which
+/// every later version reads.
 [[nodiscard]] std::string offered_qos_of(Qos qos);
 
-/// A file of a bag, as it was when it was closed.
+/// A closed file of a bag.
 struct BagFile {
-  std::string name;  ///< In the bag's folder.
+  std::string name;  ///< Relative to the bag's folder.
   McapFile::Span span;
   std::vector<std::uint64_t> messages;  ///< By channel.
 };
 
-/// The content of a bag's metadata.yaml (rosbag2, version 5), by which `ros2 bag` opens its folder.
+/// Returns a bag's metadata.yaml (rosbag2, version 5), by which `ros2 bag` opens its folder.
 [[nodiscard]] std::string bag_metadata(const std::vector<Channel>& channels,
                                        const std::vector<BagFile>& files);
 

@@ -23,7 +23,7 @@ constexpr std::array<std::uint8_t, 8> kMagic{0x89, 'M', 'C', 'A', 'P', '0', '\r'
 constexpr std::string_view kProfile = "ros2";
 constexpr std::string_view kLibrary = "terracut " TERRACUT_VERSION;
 constexpr std::string_view kMetadataName = "terracut";
-constexpr int kCompressionLevel = 1;  // the quickest: there is a frame's time for it
+constexpr int kCompressionLevel = 1;  // the fastest: there is only a frame's time for it
 
 tl::unexpected<Error> write_failed(const std::filesystem::path& path, int error_number) {
   return fail(ErrorCode::kWriteFailed,
@@ -35,7 +35,7 @@ std::uint32_t crc_of(std::span<const std::byte> bytes, std::uint32_t so_far = 0)
       ::crc32_z(so_far, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-/// Schemas and channels are numbered from 1: 0 is no schema.
+/// Returns a schema's or channel's id, which counts from 1: 0 means no schema.
 std::uint16_t id_of(std::size_t index) noexcept {
   return static_cast<std::uint16_t>(index + 1);
 }
@@ -102,7 +102,7 @@ Status McapFile::begin(const Metadata& metadata) {
 }
 
 void McapFile::add_schemas(RecordWriter& to) const {
-  // One of each type, under the number of the first channel that has it.
+  // Writes one schema of each type, under the number of the first channel that has it.
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const Channel& channel = channels_[i];
     const auto first = std::ranges::find(channels_, channel.type, &Channel::type);
@@ -283,7 +283,8 @@ Status McapFile::close() {
     records_.add(group.bytes);
     records_.end();
   }
-  // The summary's sum goes to the end of the footer, over all before it, the record's length too.
+  // The footer ends with a checksum over the summary and the footer itself, its record's length
+  // included.
   constexpr std::uint64_t kFooterBytes = 8 + 8 + 4;
   records_.add(static_cast<std::uint8_t>(Opcode::kFooter));
   records_.add(kFooterBytes);
@@ -293,7 +294,7 @@ Status McapFile::close() {
   records_.append(std::as_bytes(std::span(kMagic)));
   if (const Status written = flush_records(); !written) return written;
 
-  // A network's file system may tell only now that there was no room.
+  // A network file system may report only now that there was no room.
   if (::close(::dup(part_.lock.get())) != 0 ||
       std::rename(part_.path.c_str(), path_.c_str()) != 0) {
     return write_failed(path_, errno);

@@ -20,45 +20,45 @@ struct ZSTD_CCtx_s;  // libzstd's ZSTD_CCtx
 
 namespace terracut::mcap {
 
-/// A channel of messages, and the type they have.
+/// A channel of messages with their type.
 struct Channel {
   std::string topic;
-  std::string type, definition;  ///< Of its schema, encoding "ros2msg".
-  std::string offered_qos;       ///< As rosbag2 has it (bag_metadata.hpp).
+  std::string type, definition;  ///< Of its schema, with encoding "ros2msg".
+  std::string offered_qos;       ///< In rosbag2's form (bag_metadata.hpp).
 };
 
 /// A recording in the format MCAP (mcap.dev/spec), for ROS 2: profile "ros2", messages in CDR;
-/// chunks compressed by zstd, each with the sum of its content and followed by its index; at the
-/// end statistics and an index of all chunks. It has a temporary name, NAME.part-PID-N, until
-/// close(). Whole chunks are on the disk from when they are full: of a process that is killed,
-/// the temporary file stays and can be read up to its last chunk. Not thread-safe; blocks on the
-/// disk.
+/// chunks compressed by zstd, each with a checksum and followed by its index; at the end statistics
+/// and an index of all chunks. It has a temporary name, NAME.part-PID-N, until close(). Full chunks
+/// are on the disk at once: if the process is killed, the temporary file stays and can be read up
+/// to its last chunk. Not thread-safe; blocks on the disk.
 class McapFile {
  public:
   using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-  /// kWriteFailed. `metadata`: kept in the file under the name "terracut", where there is any.
+  /// kWriteFailed. `metadata` is stored under the name "terracut" unless it is empty.
   [[nodiscard]] static Expected<McapFile> create(std::filesystem::path path,
                                                  std::vector<Channel> channels,
                                                  const Metadata& metadata);
   McapFile(McapFile&&) noexcept = default;
   McapFile& operator=(McapFile&&) = delete;
-  /// Without close() the temporary file is closed as far as it is and stays.
+  /// Without close() the temporary file is closed as it is and stays.
   ~McapFile();
 
-  /// `channel`: index of create()'s. Times are CLOCK_REALTIME; before 1970 is 1970. kWriteFailed.
+  /// `channel` is an index of create()'s channels. Times are CLOCK_REALTIME; earlier ones count as
+  /// 1970. kWriteFailed.
   [[nodiscard]] Status add_message(std::size_t channel, std::int64_t time_ns,
                                    std::span<const std::byte> message);
-  /// Completes the file and gives it its name. kWriteFailed. Nothing may follow.
+  /// Completes the file and renames it. kWriteFailed. The last call.
   [[nodiscard]] Status close();
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-  /// On the disk, and waiting for their chunk to be full.
+  /// Returns the bytes on the disk and in the open chunk.
   [[nodiscard]] std::uint64_t bytes() const noexcept { return offset_ + chunk_.size(); }
   [[nodiscard]] std::uint64_t messages_of(std::size_t channel) const noexcept {
     return counts_[channel];
   }
-  /// Of its messages; none yet: both 0.
+  /// The times of its messages; both 0 if there is none.
   struct Span {
     std::uint64_t first_ns = 0, last_ns = 0;
   };
@@ -66,8 +66,8 @@ class McapFile {
   [[nodiscard]] Span span() const noexcept { return span_.value_or(Span{}); }
 
  private:
-  /// Content of a chunk from which on it is closed: a frame is more, so that each frame of a
-  /// running recording is on the disk when the next one comes.
+  /// A chunk is closed at this size. A frame is larger, so that each frame of a running recording
+  /// is on the disk when the next one comes.
   static constexpr std::size_t kChunkBytes = 1 << 20;
 
   struct IndexEntry {
@@ -76,7 +76,7 @@ class McapFile {
   struct ChunkPlace {
     Span span;
     std::uint64_t offset = 0, bytes = 0;
-    std::vector<std::pair<std::uint16_t, std::uint64_t>> indexes{};  ///< Channel, offset.
+    std::vector<std::pair<std::uint16_t, std::uint64_t>> indexes{};  ///< Channel and offset.
     std::uint64_t index_bytes = 0, compressed_bytes = 0, plain_bytes = 0;
   };
   struct FreeCompressor {
@@ -99,15 +99,15 @@ class McapFile {
   std::unique_ptr<ZSTD_CCtx_s, FreeCompressor> compressor_;
   std::vector<std::byte> compressed_;
 
-  RecordWriter records_;  ///< Outside of chunks, to be written.
-  RecordWriter chunk_;    ///< The content of the one that is being filled.
+  RecordWriter records_;  ///< Records outside chunks, to be written.
+  RecordWriter chunk_;    ///< The content of the open chunk.
   std::optional<Span> chunk_span_, span_;
-  std::vector<std::vector<IndexEntry>> index_;  ///< Of that chunk, by channel.
+  std::vector<std::vector<IndexEntry>> index_;  ///< The open chunk's index, by channel.
   std::vector<ChunkPlace> chunks_;
-  std::vector<std::uint64_t> counts_;                                ///< Messages by channel.
-  std::uint64_t offset_ = 0;                                         ///< Bytes written.
-  std::uint32_t data_crc_ = 0;                                       ///< Of them.
-  std::optional<std::pair<std::uint64_t, std::uint64_t>> metadata_;  ///< Offset and length.
+  std::vector<std::uint64_t> counts_;  ///< Messages by channel.
+  std::uint64_t offset_ = 0;           ///< Bytes written.
+  std::uint32_t data_crc_ = 0;         ///< Checksum of the bytes written.
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> metadata_;  ///< Its offset and length.
 };
 
 }  // namespace terracut::mcap

@@ -30,13 +30,13 @@ bool is_recorded(const ros_messages::Topic& topic, const McapSink::Config& confi
   return !config.points_alone && (*topic.cloud != CloudOf::kRoad || stream.has_road);
 }
 
-/// A bag's own name, which is its folder's: "out/drive/" is "drive".
+/// Returns a bag's name, which is its folder's: "drive" for "out/drive/".
 std::string bag_name(const fs::path& folder) {
   const fs::path name = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
   return name == "." || name == ".." ? "bag" : name.string();
 }
 
-/// The folder of a bag is there and has nothing in it.
+/// Makes the folder of a bag, or accepts one that is empty.
 Status make_bag_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -64,7 +64,7 @@ Status McapSink::check(const Config& config) {
 }
 
 fs::path McapSink::free_place(const fs::path& path) {
-  const fs::path plain = path.has_filename() ? path : path.parent_path();  // "drive/"
+  const fs::path plain = path.has_filename() ? path : path.parent_path();  // for "drive/"
   for (std::uint64_t number = 1;; ++number) {
     fs::path place = plain;
     if (number > 1) {
@@ -95,7 +95,7 @@ Expected<std::unique_ptr<McapSink>> McapSink::open(Config config, publish::Strea
       return tl::unexpected(made.error());
     }
   }
-  // What cannot be written to is known now, not at the first frame.
+  // Opens the first file now, so that errors show before the first frame.
   auto file = McapFile::create(sink->next_path(), sink->channels_, sink->config_.metadata);
   if (!file) return tl::unexpected(file.error());
   sink->file_.emplace(*std::move(file));

@@ -27,39 +27,39 @@ namespace terracut::mcap {
 /// NAME_0.mcap, NAME_1.mcap, ... with metadata.yaml beside them, which is renewed with each file
 /// that is full.
 ///
-/// One that nobody watches over (Config::unattended) never takes the place of an older one and
-/// leaves room on the disk to others.
+/// An unattended recording (Config::unattended) never overwrites an older one and leaves room on
+/// the disk for others.
 class McapSink final : public publish::FrameSink {
  public:
   struct Config {
     std::filesystem::path path;
-    /// A bag's file ends when it has so many bytes or spans so much time; 0: not for that.
+    /// A bag's file ends at so many bytes or so much time; 0: no such limit.
     std::uint64_t split_bytes = 0;
     std::int64_t split_ns = 0;
-    /// Only points, whose label tells ground from obstacles; else also ground and obstacles, and
-    /// road where the stream has it, in clouds of their own.
+    /// Records only points, whose label tells ground from obstacles; else also ground and
+    /// obstacles, and road if there is one, in clouds of their own.
     bool points_alone = false;
-    McapFile::Metadata metadata{};  ///< Kept in every file.
-    /// It goes to the next place that is free: beside "drive.mcap" or what a killed process left of
-    /// it to "drive_2.mcap", beside a folder with anything in it, "drive", to "drive_2", and so on.
-    /// It ends, whole, with an error of put() where no room is left (files::check_room_left()).
+    McapFile::Metadata metadata{};  ///< Stored in every file.
+    /// Takes the next free name: "drive_2.mcap" if "drive.mcap" or a killed process's part of it
+    /// exists, "drive_2" if the folder "drive" has anything in it, and so on. Ends with a complete
+    /// file, and an error of put(), when the disk has no room left (files::check_room_left()).
     bool unattended = false;
   };
 
-  /// kInvalidArgument: a split of a single file.
+  /// kInvalidArgument: a split for a single file.
   [[nodiscard]] static Status check(const Config& config);
-  /// kInvalidArgument: as check(), or a bag's folder that holds something already. kWriteFailed.
+  /// kInvalidArgument: as check(), or a bag's folder that is not empty. kWriteFailed.
   [[nodiscard]] static Expected<std::unique_ptr<McapSink>> open(Config config,
                                                                 publish::Stream stream);
 
-  /// What frames of so many returns take in memory where the queue is full: it, the frames in work
-  /// at either end, the message, its chunk and that compressed, and what zstd works with.
+  /// Returns the memory for frames of so many returns with a full queue: the queue, the frames in
+  /// work at either end, the message, its chunk, the compressed chunk, and zstd's own.
   [[nodiscard]] static constexpr std::size_t memory_bytes(std::size_t returns) noexcept {
     constexpr std::size_t kZstd_bytes = std::size_t{2} << 20;
     return returns * sizeof(stream::LabelledPoint) * (kQueueFrames + 5) + kZstd_bytes;
   }
 
-  /// A second and a half: disks stop now and then.
+  /// A second and a half, as disks stall at times.
   static constexpr std::size_t kQueueFrames = 16;
 
   /// The file, or the bag's folder.
@@ -79,14 +79,14 @@ class McapSink final : public publish::FrameSink {
   [[nodiscard]] static std::filesystem::path free_place(const std::filesystem::path& path);
   [[nodiscard]] std::size_t channel_of(std::size_t topic) const;
   [[nodiscard]] std::filesystem::path next_path() const;
-  /// There is a file, and room in it and on its disk for a message of this time; each begins with
-  /// the transform.
+  /// Makes sure that a file is open, with room in it and on its disk for a message of this time.
+  /// Each file begins with the transform.
   [[nodiscard]] Status make_room(std::int64_t time_ns);
   [[nodiscard]] Status close_file();
 
   Config config_;
   publish::Stream stream_;
-  std::vector<std::size_t> topics_;  ///< Of ros_messages::kTopics, one a channel.
+  std::vector<std::size_t> topics_;  ///< Indices into ros_messages::kTopics, one a channel.
   std::vector<Channel> channels_;
   std::optional<McapFile> file_;
   std::vector<BagFile> closed_;

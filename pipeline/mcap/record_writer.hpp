@@ -13,8 +13,8 @@
 
 namespace terracut::mcap {
 
-/// Records of an MCAP file (mcap.dev/spec), one after the other: what they are, how long, then
-/// their fields, little-endian and without padding.
+/// Writes records of an MCAP file (mcap.dev/spec), one after the other: opcode, length, then the
+/// fields, little-endian without padding.
 class RecordWriter {
  public:
   static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie");
@@ -35,7 +35,7 @@ class RecordWriter {
     kDataEnd = 0x0F,
   };
 
-  /// The fields of a record follow, up to end().
+  /// Begins a record; its fields follow, up to end().
   void begin(Opcode opcode) {
     add(static_cast<std::uint8_t>(opcode));
     begin_block<std::uint64_t>();
@@ -54,13 +54,13 @@ class RecordWriter {
   void append(std::span<const std::byte> more) {
     bytes_.insert(bytes_.end(), more.begin(), more.end());
   }
-  /// The elements of an array or a map follow, up to end_elements().
+  /// Begins an array or map; its elements follow, up to end_elements().
   void begin_elements() { begin_block<std::uint32_t>(); }
   void end_elements() { end_block<std::uint32_t>(); }
 
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
   [[nodiscard]] std::size_t size() const noexcept { return bytes_.size(); }
-  /// Room stays.
+  /// Keeps the memory.
   void clear() noexcept { bytes_.clear(); }
 
  private:
@@ -78,7 +78,7 @@ class RecordWriter {
   }
 
   std::vector<std::byte> bytes_;
-  std::vector<std::size_t> blocks_;  ///< Begun, where their length goes.
+  std::vector<std::size_t> blocks_;  ///< Where the lengths of open blocks go.
 };
 
 }  // namespace terracut::mcap

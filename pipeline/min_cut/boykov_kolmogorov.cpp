@@ -97,7 +97,7 @@ BoykovKolmogorov::Bridge BoykovKolmogorov::grow(std::uint32_t index) noexcept {
       return from_source ? Bridge{index, direction}
                          : Bridge{p.neighbour[d], static_cast<int>(back)};
     } else if (q.stamp <= p.stamp && q.distance > p.distance + 1) {
-      q.parent = static_cast<std::uint8_t>(back);  // the way over p is shorter
+      q.parent = static_cast<std::uint8_t>(back);  // the path over p is shorter
       q.stamp = p.stamp;
       q.distance = p.distance + 1;
     }
@@ -145,7 +145,7 @@ void BoykovKolmogorov::augment(const Bridge& bridge) noexcept {
 
 void BoykovKolmogorov::cut_off(std::uint32_t index) noexcept {
   node(index).parent = kParentNone;
-  orphans_.push_front(index);  // the one nearest to the root comes first
+  orphans_.push_front(index);  // orphans nearest to the root come first
 }
 
 std::uint32_t BoykovKolmogorov::origin_distance(std::uint32_t index) noexcept {
@@ -164,7 +164,8 @@ std::uint32_t BoykovKolmogorov::origin_distance(std::uint32_t index) noexcept {
     at = n.neighbour[n.parent];
   }
   const std::uint32_t distance = steps + node(at).distance;
-  // What was learnt on the way up holds for this augmentation: the next search stops at it.
+  // Stores the distances found on the way: they hold for this augmentation, so the next search
+  // stops at them.
   std::uint32_t known = distance;
   for (at = index; node(at).stamp != time_; at = node(at).neighbour[node(at).parent]) {
     node(at).stamp = time_;

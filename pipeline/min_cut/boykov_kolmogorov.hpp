@@ -14,28 +14,27 @@
 
 namespace terracut::min_cut {
 
-/// Maximum flow of one component after Y. Boykov, V. Kolmogorov, "An Experimental Comparison of
-/// Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision", PAMI 26(9), 2004, section 3: two
-/// search trees, one from each terminal, grow until they touch; the path is augmented; the nodes it
-/// cuts off are adopted by other parents or set free. Fastest on street scenes, but without a
-/// useful bound: give it a budget.
+/// Finds the maximum flow of one component after Y. Boykov, V. Kolmogorov, "An Experimental
+/// Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision", PAMI 26(9), 2004,
+/// section 3: two search trees, one from each terminal, grow until they touch; the path is
+/// augmented; the nodes it cuts off are adopted by other parents or set free. It is the fastest on
+/// street scenes, but has no useful bound: give it a budget.
 class BoykovKolmogorov {
  public:
   BoykovKolmogorov(std::size_t max_nodes, memory::FixedMemory& memory);
 
-  /// True when the flow is maximal; `side` then is the answer for each node of the component.
-  /// False when `ops_limit` (of clock.ops()) or the clock's own budget is reached; the residual
-  /// graph then is one that any other solver can go on from, and `side` means nothing. Real-time
-  /// safe.
+  /// True when the flow is maximal; each node of the component then has its final `side`. False
+  /// when `ops_limit` (of clock.ops()) or the clock's own budget is reached: any other solver can
+  /// then continue from the residual graph, and `side` is meaningless. Real-time safe.
   [[nodiscard]] bool solve(CutGraph& graph, std::span<const std::uint32_t> component,
                            OpClock& clock, std::int64_t ops_limit) noexcept TERRACUT_NONBLOCKING;
 
  private:
-  /// Parent of a node: a direction, or one of these.
+  /// Value of a node's parent: a direction, or one of these.
   static constexpr std::uint8_t kParentTerminal = 8;
   static constexpr std::uint8_t kParentNone = 9;  ///< An orphan, or not in a tree.
 
-  /// An arc that joins the trees: from a node of the source tree to one of the sink tree.
+  /// An arc that connects the trees, from a node of the source tree to one of the sink tree.
   struct Bridge {
     std::uint32_t from;
     int direction;  ///< Negative: no bridge.
@@ -46,18 +45,18 @@ class BoykovKolmogorov {
   void augment(const Bridge& bridge) noexcept;
   void adopt(std::uint32_t orphan) noexcept;
 
-  /// Capacity from parent to child, seen in the flow's direction: the trees of the source point
-  /// outwards, those of the sink inwards.
+  /// Returns the capacity from parent to child in the direction of flow: source trees point
+  /// outwards, sink trees inwards.
   [[nodiscard]] static int tree_capacity(const CutNode& parent, const CutNode& child,
                                          int child_to_parent) noexcept;
-  /// Edges between `index` and its terminal, or 0 when the way up ends at an orphan.
+  /// Returns the edges between `index` and its terminal, or 0 if the way up ends at an orphan.
   [[nodiscard]] std::uint32_t origin_distance(std::uint32_t index) noexcept;
   void activate(std::uint32_t index) noexcept;
   void cut_off(std::uint32_t index) noexcept;
   [[nodiscard]] CutNode& node(std::uint32_t index) noexcept { return nodes_[index]; }
 
   NodeQueue active_, orphans_;
-  std::span<CutNode> nodes_;  ///< Of the graph being solved, as are the three below.
+  std::span<CutNode> nodes_;  ///< Of the graph being solved, like the three below.
   std::uint32_t time_ = 0;    ///< Augmentations so far.
   std::int64_t ops_ = 0;
   std::int64_t flow_ = 0;

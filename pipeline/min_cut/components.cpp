@@ -9,7 +9,7 @@
 namespace terracut::min_cut {
 namespace {
 
-/// Non-negative floats order like their bits; NaN comes last.
+/// Returns bits that order like non-negative floats; NaN comes last.
 std::uint32_t ordered_bits(float range_m) noexcept {
   return range_m < 0 ? 0U : std::bit_cast<std::uint32_t>(range_m + 0.0F) & 0x7FFFFFFFU;
 }
@@ -43,7 +43,8 @@ void Components::find(CutGraph& graph, std::span<const std::uint32_t> cells,
           std::min(extent.range_bits, ordered_bits(ground_range_m[cells[nodes_[next]]]));
       for_each_edge(node.edges, [&](int direction) {
         const std::uint32_t neighbour = node.neighbour[static_cast<std::size_t>(direction)];
-        // Whether it was reached is as good as random: written either way, counted if it was not.
+        // A branch would be mispredicted: writes the neighbour always and counts it only if it was
+        // not reached.
         bool& reached = graph.nodes[neighbour].queued;
         nodes_[end] = neighbour;
         end += reached ? 0 : 1;

@@ -12,25 +12,25 @@
 
 namespace terracut::min_cut {
 
-/// Connected components of the nodes persistency left open. Each is solved by itself and exact by
-/// itself, so that solving the nearest first makes the whole an anytime algorithm.
+/// Connected components of the nodes that persistency left open. Each is solved exactly by itself;
+/// solving the nearest first makes the whole an anytime algorithm.
 class Components {
  public:
   Components(std::size_t max_nodes, memory::FixedMemory& memory);
 
-  /// Real-time safe. `ground_range_m` is read at `cells[node]`.
+  /// Real-time safe. Reads `ground_range_m` at `cells[node]`.
   void find(CutGraph& graph, std::span<const std::uint32_t> cells,
             std::span<const float> ground_range_m) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] std::uint32_t count() const noexcept { return count_; }
-  /// Nodes of the i-th component; ordered by the ground range of their nearest cell, ties by their
-  /// first node.
+  /// Returns the nodes of the i-th component. Components are ordered by the ground range of their
+  /// nearest cell, ties by their first node.
   [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t i) const noexcept
       TERRACUT_NONBLOCKING;
 
  private:
   struct Extent {
-    std::uint32_t range_bits;  ///< Range of the nearest cell, as bits: these order like the floats.
+    std::uint32_t range_bits;  ///< Range of the nearest cell as bits, which order like floats.
     std::uint32_t begin, end;  ///< In nodes_; begin grows with the first node.
   };
 

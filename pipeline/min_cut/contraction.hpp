@@ -22,41 +22,40 @@ namespace terracut::min_cut {
 
 /// Builds the graph of the unknown cells, in one pass in row-major order.
 ///
-/// An edge to a hard seed is cut exactly when the cell gets the other label, so its weight is added
-/// to the cost of that label: hard seeds never become nodes, and nothing is approximated.
+/// An edge to a hard seed is cut exactly when the cell gets the other label. So its weight is added
+/// to the cost of that label, and hard seeds need no nodes; this is exact.
 ///
-/// Persistency: a cell whose terminal capacity outweighs all its edges together goes with that
-/// terminal, whatever its neighbours get. It becomes a hard seed at once: cells behind it find it
-/// as one, nodes before it are told, and may be decided by that in turn, until nothing changes. On
-/// real frames two of three unknown cells go this way, most of them without ever being a node.
-/// Ties go to obstacle, so that the answer stays the one described in grid_cut.hpp.
+/// Persistency: a cell whose terminal capacity outweighs all its edges together takes that
+/// terminal's label, whatever its neighbours get. It becomes a hard seed at once: later cells see
+/// it as one; earlier nodes are updated and may be decided by that in turn, until nothing changes.
+/// On real frames two of three unknown cells are decided so, most without ever being a node. Ties
+/// go to obstacle, so that the answer stays the one described in grid_cut.hpp.
 class Contraction {
  public:
   Contraction(const frame::ImageShape& shape, std::size_t max_nodes, memory::FixedMemory& memory);
 
   struct Result {
     std::uint32_t unknown = 0;  ///< Cells seen.
-    std::uint32_t decided = 0;  ///< Of them, by persistency.
-    std::uint32_t pinned = 0;   ///< Of them, left at their coarse label for want of room.
+    std::uint32_t decided = 0;  ///< Of these, decided by persistency.
+    std::uint32_t pinned = 0;   ///< Of these, left at their coarse label for lack of nodes.
     std::int64_t ops = 0;       ///< Edges from decided cells to nodes.
     bool finished = false;
   };
-  /// Turns the unknown cells of `problem.seeds` into decided ones, or into nodes of `graph`, which
-  /// stay kUnknown; where all nodes are in use, into ones pinned to their label in `coarse`. Where
-  /// the caller's clock expires first it is not finished, and the graph is of no use. Real-time
-  /// safe.
+  /// Turns each unknown cell of `problem.seeds` into a decided one, or into a node of `graph`,
+  /// which stays kUnknown; when all nodes are in use, into one pinned to its label in `coarse`. If
+  /// the caller's clock expires, `finished` is false and the graph is useless. Real-time safe.
   template <RegionCosts Costs, EdgeWeights Weights>
   [[nodiscard]] Result run(const GridProblem& problem, const Costs& costs, const Weights& weights,
                            std::span<const frame::Label> coarse, OpClock& clock,
                            CutGraph& graph) noexcept;
 
-  /// The cell of each node. A node that was decided after all has no edges, and its side.
+  /// Returns the cell of each node. A node that was decided later has no edges, but its side.
   [[nodiscard]] std::span<const std::uint32_t> cells() const noexcept {
     return cells_.first(size_);
   }
 
  private:
-  /// What a cell is to its neighbours and terminals: edges to open cells, excess as in CutNode.
+  /// A cell's edges to open neighbours and its excess, as in CutNode.
   struct OpenEnds {
     EightLanes weights;
     std::int32_t excess;
@@ -64,7 +63,8 @@ class Contraction {
 
   void begin(const GridProblem& problem, OpClock& clock) noexcept TERRACUT_NONBLOCKING;
   void begin_row(int row) noexcept TERRACUT_NONBLOCKING;
-  /// Counts a piece of work of those that the clock is looked at between.
+  /// Counts one piece of work; looks at the clock once in kNodesPerClockLook. False when it has
+  /// expired.
   [[nodiscard]] bool has_time() noexcept {
     if (work_++ % CutBudget::kNodesPerClockLook == 0 && clock_->expired()) is_stopped_ = true;
     return !is_stopped_;
@@ -72,7 +72,7 @@ class Contraction {
   template <class Costs, class Weights>
   void take_cell(const Costs& costs, const Weights& weights, std::uint32_t cell, int column,
                  const NeighbourCells& around, frame::Label coarse) noexcept;
-  /// The same, compiled apart: few cells lie at an edge of the image.
+  /// Does the same, compiled separately: few cells lie at an edge of the image.
   template <class Costs, class Weights>
   [[gnu::noinline]] void take_cell_at_edge(const Costs& costs, const Weights& weights,
                                            std::uint32_t cell, int column,
@@ -80,16 +80,16 @@ class Contraction {
                                            frame::Label coarse) noexcept {
     take_cell(costs, weights, cell, column, around, coarse);
   }
-  /// The seeds of the neighbours, one a lane; away from the image's edges by three loads.
+  /// Returns the seeds of the neighbours, one a lane; away from the image's edges with three loads.
   [[nodiscard]] EightLanes seeds_around(const NeighbourCells& around) const noexcept;
   [[nodiscard]] static Side persistent_side(std::int32_t excess, int capacity) noexcept {
     return excess >= capacity ? Side::kObstacle : -excess > capacity ? Side::kGround : Side::kFree;
   }
   void add_node(std::uint32_t cell, int column, const OpenEnds& ends) noexcept;
-  /// Tells the nodes before a cell what has become of it.
+  /// Tells earlier nodes next to a cell that it has been decided.
   void tell_nodes_before(int column, unsigned edges, Side side) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::uint32_t node_before(int column, int direction) const noexcept;
-  /// Directions to cells before the one in `column`.
+  /// Returns the directions to cells before the one in `column`.
   [[nodiscard]] unsigned directions_before(int column) const noexcept {
     return column == 0 ? 0b00111U : column + 1 == columns_ ? 0b11111U : 0b01111U;
   }
@@ -97,10 +97,10 @@ class Contraction {
   int columns_, rows_;
   std::span<CutNode> nodes_;
   std::span<std::uint32_t> cells_;     // of the nodes
-  std::span<std::uint32_t> worklist_;  // decided nodes whose neighbours have to be told
-  std::array<std::span<std::uint32_t>, 2> node_in_row_;  // by column; of even rows and odd ones
+  std::span<std::uint32_t> worklist_;  // decided nodes whose neighbours must be told
+  std::array<std::span<std::uint32_t>, 2> node_in_row_;  // by column, for even and odd rows
 
-  // Of the problem in work.
+  // State of the problem in work.
   std::span<Seed> seeds_;
   OpClock* clock_ = nullptr;
   std::uint32_t size_ = 0;
@@ -108,9 +108,9 @@ class Contraction {
   bool is_stopped_ = false;
   std::int64_t flow_ = 0;
   Result result_;
-  // ... and of the row.
-  std::span<std::uint32_t> here_, below_;  // its nodes by column, and those of the row below
-  EightLanes inside_;                      // all bits of the lanes of neighbours in the image
+  // State of the row in work.
+  std::span<std::uint32_t> here_, below_;  // nodes by column of this row and the row below
+  EightLanes inside_;                      // all bits set for neighbours in the image
 };
 
 template <RegionCosts Costs, EdgeWeights Weights>
@@ -177,7 +177,8 @@ template <class Costs, class Weights>
     seeds_[cell] = decided(side);
     ++result_.decided;
   } else {
-    // Like a hard seed: what it costs itself, or against hard seeds, is no part of the energy.
+    // Its own cost, and that against hard seeds, is constant and left out of the energy, as for a
+    // hard seed.
     const bool is_obstacle = coarse == frame::Label::kObstacle;
     flow_ += (is_obstacle ? to_ground : to_obstacle).where(seed, bit(Seed::kDecided)).sum();
     seeds_[cell] = is_obstacle ? Seed::kPinnedObstacle : Seed::kPinnedGround;
@@ -218,7 +219,7 @@ inline void Contraction::add_node(std::uint32_t cell, int column, const OpenEnds
   here_[static_cast<std::size_t>(column)] = index;
   CutNode& node = nodes_[index];
   ends.weights.store(node.residual);
-  node.neighbour.fill(index);  // until the one behind it is a node, too
+  node.neighbour.fill(index);  // corrected when the later neighbour becomes a node
   node.excess = ends.excess;
   node.edges = ends.weights.nonzero();
   node.side = Side::kFree;

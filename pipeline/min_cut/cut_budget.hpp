@@ -9,30 +9,30 @@
 
 namespace terracut::min_cut {
 
-/// How much work the solvers of one min-cut may do. An operation is one visit of an arc (3-14 ns on
-/// a 3 GHz core, more in larger components). Outside the budget, and bounded by the cap on unknown
-/// cells, are the steps before them and one linear pass over the component that was interrupted.
+/// Limits the work of the solvers of one min-cut. An operation is one visit of an arc (3-14 ns on a
+/// 3 GHz core, more in larger components). The steps before the solvers, and one linear pass over
+/// the interrupted component, are outside the budget; the cap on unknown cells bounds them.
 ///
 /// Without `expired` the result depends on the input alone: the deterministic mode, for replays and
-/// tests. With it the caller's clock also stops the solvers, and the dear ones of the steps before
-/// them (weights, persistency): live mode.
+/// tests. With it the caller's clock also stops the solvers and the expensive steps before them
+/// (weights, persistency): live mode.
 struct CutBudget {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
-  /// 10 to 25 ms; fifty to two hundred times what a typical street frame takes.
+  /// 10 to 25 ms; fifty to two hundred times what a typical street frame needs.
   static constexpr std::int64_t kDefaultOps = 2'500'000;
-  /// Operations between two looks at the clock: some 40 microseconds. Push-relabel does not look
+  /// Operations between two looks at the clock, some 40 microseconds. Push-relabel does not look
   /// while it measures distances, which visits each arc of the component once.
   static constexpr std::int64_t kOpsPerClockLook = 4096;
-  /// Nodes between two looks at the clock, where nodes are what is gone through: as long.
+  /// Nodes between two looks at the clock in steps that go by node, as long a time.
   static constexpr std::uint32_t kNodesPerClockLook = 1024;
 
   std::int64_t ops = kDefaultOps;
   bool (*expired)(void* context) noexcept TERRACUT_NONBLOCKING =
-      nullptr;              ///< True when the deadline has passed.
-  void* context = nullptr;  ///< Handed to `expired`.
+      nullptr;              ///< Returns true when the deadline has passed.
+  void* context = nullptr;  ///< Passed to `expired`.
 };
 
-/// Counts operations against a CutBudget. Once exhausted it stays so.
+/// Counts operations against a CutBudget. Once exhausted, it stays so.
 class OpClock {
  public:
   explicit OpClock(const CutBudget& budget) noexcept : budget_(budget), limit_(budget.ops) {}
@@ -40,7 +40,7 @@ class OpClock {
   void spend(std::int64_t ops) noexcept { ops_ += ops; }
   [[nodiscard]] std::int64_t ops() const noexcept { return ops_; }
 
-  /// True when the whole budget is gone.
+  /// True if operations or time have run out.
   [[nodiscard]] bool exhausted() noexcept {
     if (ops_ >= limit_) return true;
     if (ops_ < next_look_) return false;
@@ -48,7 +48,7 @@ class OpClock {
     return expired();
   }
 
-  /// True when the caller's clock has run out, whatever is left of the operations. Asks it.
+  /// Asks the caller's clock. True if it has run out, however many operations are left.
   [[nodiscard]] bool expired() noexcept {
     if (!expired_ && budget_.expired != nullptr && budget_.expired(budget_.context)) {
       expired_ = true;

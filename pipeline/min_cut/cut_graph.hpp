@@ -14,40 +14,39 @@
 
 namespace terracut::min_cut {
 
-/// Which terminal a node goes with. The source is "object", the sink "background".
+/// The terminal of a node. The source is "object", the sink "background".
 enum class Side : std::uint8_t {
   kFree = 0,
   kObstacle = 1,  ///< Source side.
   kGround = 2,    ///< Sink side.
 };
 
-/// What an unknown cell becomes once its side is certain.
+/// Returns the seed of an unknown cell whose side is certain.
 [[nodiscard]] constexpr Seed decided(Side side) noexcept {
   return side == Side::kObstacle ? Seed::kDecidedObstacle : Seed::kDecidedGround;
 }
 
 /// An unknown cell as a node of the residual graph; one cache line.
 ///
-/// Everything the solvers do keeps one sum constant for every labelling: flow + cut of what is
-/// left. So each may stop at any time, and the next one goes on from the graph as it stands.
+/// All solvers keep this sum constant for every labelling: flow + cut of the residual graph. So
+/// each may stop at any time, and the next one continues from the graph as it is.
 struct alignas(64) CutNode {
-  std::array<std::uint32_t, kDirections>
-      neighbour;                                   ///< Node index; valid where `edges` has the bit.
-  std::array<std::int16_t, kDirections> residual;  ///< Capacity left towards it; 0 without edge.
-  std::int32_t excess;     ///< > 0: capacity left from the source; < 0: capacity left to the sink.
+  std::array<std::uint32_t, kDirections> neighbour;  ///< Node index; valid if `edges` has the bit.
+  std::array<std::int16_t, kDirections> residual;  ///< Remaining capacity to it; 0 without an edge.
+  std::int32_t excess;     ///< > 0: capacity left from the source; < 0: to the sink.
   std::uint32_t distance;  ///< Boykov-Kolmogorov: to the tree's root. Push-relabel: to the sink.
   std::uint32_t stamp;     ///< Boykov-Kolmogorov: the augmentation at which `distance` held.
   std::uint8_t edges;      ///< Bit d: there is an edge in direction d to an open node.
-  std::uint8_t parent;     ///< Boykov-Kolmogorov: direction of the parent, or a kParent... value.
-  Side side;               ///< Tree while solving, answer afterwards.
-  bool queued;             ///< In the queue of active nodes.
+  std::uint8_t parent;     ///< Boykov-Kolmogorov: the parent's direction, or kParent...
+  Side side;               ///< The tree while solving, the answer afterwards.
+  bool queued;             ///< True while in the queue of active nodes.
 };
 static_assert(sizeof(CutNode) == 64);
 
-/// The graph left when the seeds are folded into the terminals.
+/// The graph that remains after folding seeds into the terminals.
 struct CutGraph {
   std::span<CutNode> nodes;
-  std::int64_t flow = 0;  ///< Found so far: the part of the energy no labelling can avoid.
+  std::int64_t flow = 0;  ///< Flow found: energy that no labelling avoids.
 };
 
 /// Calls visit(direction) for each bit of `edges`, lowest first.
@@ -64,8 +63,8 @@ inline void push_along(CutNode& from, CutNode& to, int direction, int amount) no
   back = static_cast<std::int16_t>(back + amount);
 }
 
-/// Adds terminal capacity (> 0: from the source, < 0: to the sink) to a node. What meets the
-/// opposite terminal's capacity is flow at once; returns it.
+/// Adds terminal capacity (> 0: from the source, < 0: to the sink) to a node. Returns the part that
+/// cancels the opposite terminal's capacity, which is flow.
 [[nodiscard]] inline int add_excess(CutNode& node, int amount) noexcept {
   const bool meets = (node.excess > 0) != (amount > 0);
   const int flow = meets ? std::min(std::abs(node.excess), std::abs(amount)) : 0;

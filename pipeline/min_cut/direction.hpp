@@ -25,16 +25,16 @@ struct CellStep {
 inline constexpr std::array<CellStep, kDirections> kCellSteps{
     {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
 
-/// Direction from the neighbour back to the cell.
+/// Returns the direction from the neighbour back to the cell.
 [[nodiscard]] constexpr int opposite(int direction) noexcept {
   return kDirections - 1 - direction;
 }
 
-/// Cells (row * stride + column) of the 8 neighbours, indexed by direction.
+/// Indices (row * stride + column) of the 8 neighbours, by direction.
 using NeighbourCells = std::array<std::uint32_t, kDirections>;
 
-/// Neighbours of the cell in `row` [0, rows) and `column` [0, columns). A direction that leads
-/// outside the rows yields the cell itself, so that every entry may be read from.
+/// Returns the neighbours of the cell in `row` [0, rows) and `column` [0, columns). A direction
+/// that leads outside the rows gives the cell itself, so that every entry may be read.
 [[nodiscard]] constexpr NeighbourCells neighbour_cells(const frame::ImageShape& shape, int row,
                                                        int column) noexcept {
   const auto at = [stride = shape.stride()](int r, int c) {
@@ -50,15 +50,15 @@ using NeighbourCells = std::array<std::uint32_t, kDirections>;
   return cells;
 }
 
-/// The same for a cell at no edge of the image, the quick way.
+/// Does the same, faster, for a cell at no edge of the image.
 [[nodiscard]] constexpr NeighbourCells neighbours_inside(std::uint32_t cell,
                                                          std::uint32_t stride) noexcept {
   const std::uint32_t below = cell - stride, above = cell + stride;
   return {below - 1, below, below + 1, cell - 1, cell + 1, above - 1, above, above + 1};
 }
 
-/// Whether they lie in memory as they do around the cell: not at an edge of the image. Then four
-/// cells may be read from neighbours[0], [3] and [5] - 1 on.
+/// True if the neighbours are contiguous in memory, as for a cell at no edge of the image: four
+/// cells may then be read from neighbours[0], [3] and [5] - 1 on.
 [[nodiscard]] constexpr bool are_next_to_each_other(const NeighbourCells& neighbours) noexcept {
   return neighbours[0] + 2 == neighbours[2] && neighbours[3] + 2 == neighbours[4] &&
          neighbours[5] + 2 == neighbours[7];

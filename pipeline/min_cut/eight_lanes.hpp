@@ -11,8 +11,8 @@
 
 namespace terracut::min_cut {
 
-/// Eight 16-bit numbers, one a neighbour, worked on all at once: without the branch a neighbour
-/// that mispredicts every other time. Every machine terracut runs on has registers of this width.
+/// Eight 16-bit numbers, one a neighbour, processed together: without a branch for each, which
+/// would be mispredicted every other time. Every supported machine has registers of this width.
 struct EightLanes {
   static_assert(std::endian::native == std::endian::little, "lane d must be at bit 16 * d");
   using Numbers = std::int16_t __attribute__((vector_size(16)));
@@ -30,7 +30,7 @@ struct EightLanes {
     std::memcpy(numbers.data(), &lanes, sizeof(lanes));
   }
 
-  /// The four bytes of `low` and the four of `high`, lowest first.
+  /// Widens the four bytes of `low` and the four of `high`, lowest first.
   [[nodiscard]] static EightLanes widened(std::uint32_t low, std::uint32_t high) noexcept {
     using Bytes = std::uint8_t __attribute__((vector_size(16)));
     using Pairs = std::uint32_t __attribute__((vector_size(16)));
@@ -39,24 +39,25 @@ struct EightLanes {
                                                               3, 19, 4, 20, 5, 21, 6, 22, 7, 23))};
   }
 
-  /// The lanes of `*this` where `flags` has a bit of `bits` in the same lane, 0 in the others.
+  /// Returns the lanes of `*this` where `flags` has a bit of `bits` in the same lane, 0 in the
+  /// others.
   [[nodiscard]] EightLanes where(const EightLanes& flags, std::int16_t bits) const noexcept {
     return {lanes & ((flags.lanes & bits) != 0)};
   }
-  /// The lanes, taken as unsigned, or `most` where they are larger.
+  /// Returns the lanes, taken as unsigned, limited to `most`.
   [[nodiscard]] EightLanes at_most(std::uint16_t most) const noexcept {
     using Unsigned = std::uint16_t __attribute__((vector_size(16)));
     const auto given = reinterpret_cast<Unsigned>(lanes);
     const Unsigned limit = most - Unsigned{};
     return {reinterpret_cast<Numbers>(given < limit ? given : limit)};
   }
-  /// Sum of all lanes; it must fit 16 bits, and no lane may be negative.
+  /// Returns the sum of all lanes; it must fit 16 bits, and no lane may be negative.
   [[nodiscard]] int sum() const noexcept {
     constexpr std::uint64_t kOnes = 0x0001'0001'0001'0001;  // 1 in every lane
     const auto words = reinterpret_cast<Words>(lanes);
     return static_cast<int>(((words[0] + words[1]) * kOnes) >> 48U);
   }
-  /// Bit d set where lane d is not 0.
+  /// Returns bit d set if lane d is not 0.
   [[nodiscard]] std::uint8_t nonzero() const noexcept {
     constexpr Numbers kBits = {1, 2, 4, 8, 16, 32, 64, 128};
     return static_cast<std::uint8_t>(EightLanes{kBits & (lanes != 0)}.sum());

@@ -9,8 +9,8 @@
 
 namespace terracut::min_cut {
 
-/// Sends flow along all paths of one edge, source - p - q - sink, before any search: it leaves a
-/// third of the augmentations to Boykov-Kolmogorov. One pass in node order; returns the arcs
+/// Sends flow along all paths of one edge, source - p - q - sink, before any search: this leaves
+/// only a third of the augmentations to Boykov-Kolmogorov. One pass in node order; returns the arcs
 /// visited. Real-time safe.
 std::int64_t push_one_hop(CutGraph& graph) noexcept TERRACUT_NONBLOCKING;
 

@@ -27,11 +27,12 @@ GridCut::Config checked(const frame::ImageShape& shape, GridCut::Config config) 
     throw std::invalid_argument("GridCut expects least_finished in [0, 1]");
   }
   config.max_unknown = static_cast<std::uint32_t>(
-      std::min<std::size_t>(config.max_unknown, shape.cells()));  // more are never needed
+      std::min<std::size_t>(config.max_unknown, shape.cells()));  // more nodes are never needed
   return config;
 }
 
-/// What the labels in `side` cost in the residual graph: terminal capacities and arcs they cut.
+/// Returns the cost of the labels in `side` in the residual graph: terminal capacities and arcs
+/// that they cut.
 std::int64_t residual_cost(const CutGraph& graph,
                            std::span<const std::uint32_t> component) noexcept {
   std::int64_t cost = 0;
@@ -50,7 +51,7 @@ std::int64_t residual_cost(const CutGraph& graph,
   return cost;
 }
 
-/// Labels of decided cells; others keep theirs.
+/// Labels decided cells; others keep their label.
 TERRACUT_VECTOR_CLONES void take_decisions(std::span<const Seed> seeds,
                                            std::span<frame::Label> labels) noexcept {
   static_assert(static_cast<int>(Seed::kGround) == static_cast<int>(frame::Label::kGround) &&

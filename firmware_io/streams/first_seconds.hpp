@@ -34,9 +34,10 @@ struct SensorOnAir {
 class FirstSeconds {
  public:
   struct Config {
-    std::optional<SensorModel> model;  ///< The only model wanted; none: any that can be decoded.
-    std::optional<int> columns;        ///< None: from the sensor's spin rate.
-    CalibrationChoice calibration;
+    std::optional<sensor::SensorModel>
+        model;                   ///< The only model wanted; none: any that can be decoded.
+    std::optional<int> columns;  ///< None: from the sensor's spin rate.
+    sensor::CalibrationChoice calibration;
     std::string place;              ///< For messages: where packets come in, "0.0.0.0:2368".
     std::uint16_t device_port = 0;  ///< The port where DIFOP was listened for as well; 0: none.
     /// The sensor used before; it is chosen among several.

@@ -92,10 +92,11 @@ std::vector<HeardSenders::Sensor> HeardSenders::sensors_that(const Predicate& ar
 }
 
 std::vector<HeardSenders::Sensor> HeardSenders::rotating() const {
-  return sensors_that([](const SensorProbe& probe, SensorModel model, const auto& its_own) {
-    // Alternating packets of several heads show no rotation, but they do show several sensors.
-    return its_own.size() > 1 ? probe.packets_of(model) >= kSteady_packets : probe.knows(model);
-  });
+  return sensors_that(
+      [](const sensor::SensorProbe& probe, sensor::SensorModel model, const auto& its_own) {
+        // Alternating packets of several heads show no rotation, but they do show several sensors.
+        return its_own.size() > 1 ? probe.packets_of(model) >= kSteady_packets : probe.knows(model);
+      });
 }
 
 bool HeardSenders::is_steady_but_stands(std::uint32_t address) const {

@@ -42,7 +42,9 @@ class HeardSenders {
 
   void add(const packet::Datagram& datagram);
 
-  [[nodiscard]] bool wants(SensorModel model) const { return is_wanted(wanted_, model); }
+  [[nodiscard]] bool wants(sensor::SensorModel model) const {
+    return sensor::is_wanted(wanted_, model);
+  }
   /// Returns the sensors whose head is known to rotate.
   [[nodiscard]] std::vector<Sensor> rotating() const;
   /// Returns those that send data packets steadily, whether their head rotates or not.

@@ -84,7 +84,7 @@ ExitCode run_encode(const Options& options) {
   drive.can_log = options.can_log;
   drive.motion = motion_of(options);
   if (!options.capture.calibration.empty()) {
-    auto calibration = made_calibration(options.capture, encode::Hdl64eEncoderTraits{});
+    auto calibration = made_calibration(options.capture, packets::Hdl64eEncoderTraits{});
     if (!calibration) return refuse(calibration.error());
     drive.calibration = *std::move(calibration);
   }

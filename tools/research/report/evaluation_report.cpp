@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "rt/files/whole_file.hpp"
-#include "tools/research/report/cell_count.hpp"
 #include "tools/research/report/chosen_frames.hpp"
 #include "tools/research/report/drawn_frames.hpp"
 

@@ -23,11 +23,11 @@ enum class Stage : std::uint8_t {
 };
 inline constexpr int kStages = static_cast<int>(Stage::kCount);
 
-/// lower_snake_case name, as in reports.
+/// The stages' names in lower_snake_case, as in reports.
+inline constexpr std::array<std::string_view, kStages> kStageNames{
+    "elevation_map", "adjacent_points", "seeds", "min_cut", "labels"};
 [[nodiscard]] constexpr std::string_view to_string(Stage stage) noexcept {
-  constexpr std::array<std::string_view, kStages> kNames{"elevation_map", "adjacent_points",
-                                                         "seeds", "min_cut", "labels"};
-  return stage < Stage::kCount ? kNames[static_cast<std::size_t>(stage)] : "unknown";
+  return stage < Stage::kCount ? kStageNames[static_cast<std::size_t>(stage)] : "unknown";
 }
 
 /// Told when a stage is over. The pipeline has no clock of its own; whoever wants times brings one.

@@ -3,27 +3,22 @@
 #include "terracut/live_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 #include <vector>
 
 #include "calib/terracut/calibration_table.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/net/live_source.hpp"
-#include "firmware_io/streams/first_seconds.hpp"
+#include "firmware_io/streams/hear_sensor.hpp"
 #include "firmware_io/terracut/points.hpp"
 #include "firmware_io/terracut/public_sensor.hpp"
-#include "pipeline/ground/profile.hpp"
-#include "pipeline/live/live_pipeline.hpp"
-#include "pipeline/live/live_threads.hpp"
+#include "pipeline/live/live_parts.hpp"
 #include "pipeline/live/mount_on_air.hpp"
 #include "pipeline/output/label_sink.hpp"
 #include "rt/memory/locked_memory.hpp"
 
 namespace terracut {
 namespace {
-
-using SteadyClock = std::chrono::steady_clock;
 
 /// What was packed for a stream as a class of SemanticKITTI.
 Label label_of(std::uint8_t semantic_kitti_class) noexcept {
@@ -42,55 +37,43 @@ Expected<streams::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Co
     of_first.calibration.unit = config.calibration->table().unit;
   }
   streams::FirstSeconds first(std::move(of_first));
-  const auto begun = SteadyClock::now();
-  const auto is_over = [&] {
-    return config.patience_s &&
-           SteadyClock::now() - begun >= std::chrono::duration<double>(*config.patience_s);
-  };
-  while (!first.is_enough() && !is_over() && !stop_wanted()) {
-    constexpr std::int64_t kAWhile_ns = 50'000'000;
-    for (const packet::Datagram& datagram : source.receive(kAWhile_ns)) first.add(datagram);
-  }
-  return first.conclude(config.patience_s);
+  return streams::hear_sensor(first, source, nullptr, {config.patience_s, stop_wanted, {}});
+}
+
+live::LiveConfig live_config_of(const LiveRun::Config& config, int columns) {
+  live::LiveConfig of_run;
+  of_run.decoder.columns = columns;
+  of_run.threads.deadline_ns = static_cast<std::int64_t>(config.deadline_ms * 1e6);
+  of_run.threads.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
+  of_run.threads.keeps_points = true;
+  of_run.threads.receive =
+      live::thread_request("tc-receive", config.receive_priority, std::nullopt);
+  of_run.threads.segment =
+      live::thread_request("tc-segment", config.segment_priority, std::nullopt);
+  return of_run;
 }
 
 }  // namespace
 
 struct LiveRun::Engine {
-  Engine(const Config& config, net::LiveSource&& opened, streams::SensorOnAir&& heard,
-         std::optional<FoundMount> mount, live::LiveThreads::Events&& events)
-      : source(std::move(opened)),
+  Engine(std::unique_ptr<memory::FixedMemory> memory_of_source, net::LiveSource&& opened,
+         streams::SensorOnAir&& heard, std::optional<FoundMount> mount)
+      : source_memory(std::move(memory_of_source)),
+        source(std::move(opened)),
         sensor(std::move(heard)),
-        found_mount(mount),
-        deadline_ns(static_cast<std::int64_t>(config.deadline_ms * 1e6)),
-        pipeline(
-            sensor.calibration,
-            calib::ring_profile(sensor.calibration, mount_of(mount ? mount->mount : config.mount)),
-            decoder_config(sensor), ground::terracut_profile(), memory),
-        threads(threads_config(config, sensor), pipeline, source, std::move(events), nullptr,
-                memory),
-        points(pipeline.decoder.return_capacity()),
-        labels(points.size()),
-        times_s(points.size()) {}
+        found_mount(mount) {}
 
-  static decode::Decoder::Config decoder_config(const streams::SensorOnAir& sensor) {
-    decode::Decoder::Config config;
-    config.columns = sensor.columns;
-    config.reorder_packets = 0;  // one cable delivers in order
-    return config;
-  }
-  static live::LiveThreads::Config threads_config(const Config& config,
-                                                  const streams::SensorOnAir& sensor) {
-    live::LiveThreads::Config of_threads;
-    of_threads.deadline_ns = static_cast<std::int64_t>(config.deadline_ms * 1e6);
-    if (sensor.spin_hz > 0) {
-      of_threads.frame_period_ns = static_cast<std::int64_t>(1e9 / sensor.spin_hz);
-    }
-    of_threads.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
-    of_threads.keeps_points = true;
-    of_threads.receive = live::thread_request("tc-receive", config.receive_priority, std::nullopt);
-    of_threads.segment = live::thread_request("tc-segment", config.segment_priority, std::nullopt);
-    return of_threads;
+  Status build(const live::LiveConfig& config, const Mount& mount, bool locks_memory,
+               std::vector<threads::Grant>& grants) {
+    const auto profile = calib::ring_profile(sensor.calibration, mount_of(mount));
+    auto built =
+        live::LiveParts::build(config, sensor, profile, source, memory, locks_memory, grants);
+    if (!built) return tl::unexpected(built.error());
+    parts = *std::move(built);
+    points.resize(parts->pipeline.decoder.return_capacity());
+    labels.resize(points.size());
+    times_s.resize(points.size());
+    return {};
   }
 
   void note(const std::vector<threads::Grant>& grants) {
@@ -99,7 +82,7 @@ struct LiveRun::Engine {
     }
   }
   void hand_out(const OnFrame& on_frame) {
-    auto& slots = *threads.points();
+    auto& slots = *parts->threads.points();
     for (live::FramePool<stream::LabelledPoint>::Frame taken; slots.take(taken);) {
       for (std::size_t i = 0; i < taken.items.size(); ++i) {
         const stream::LabelledPoint& point = taken.items[i];
@@ -122,11 +105,10 @@ struct LiveRun::Engine {
     }
   }
   void judge() {
-    for (status::FrameRecord frame; threads.take_record(frame);) {
-      const bool is_skipped = frame.level == status::Level::kSkipped;
-      figures.frames_skipped += is_skipped ? 1 : 0;
-      figures.deadlines_missed +=
-          is_skipped || frame.labels_ns - frame.info.last_packet_ns > deadline_ns ? 1 : 0;
+    for (status::FrameRecord frame; parts->threads.take_record(frame);) {
+      parts->monitor.judge(frame);
+      figures.frames_skipped += frame.level == status::Level::kSkipped ? 1 : 0;
+      figures.deadlines_missed += frame.missed ? 1 : 0;
     }
   }
 
@@ -135,9 +117,7 @@ struct LiveRun::Engine {
   net::LiveSource source;
   streams::SensorOnAir sensor;
   std::optional<FoundMount> found_mount;
-  std::int64_t deadline_ns;
-  live::LivePipeline pipeline;
-  live::LiveThreads threads;
+  std::unique_ptr<live::LiveParts> parts;
   std::vector<Point> points;
   std::vector<Label> labels;
   std::vector<float> times_s;
@@ -164,25 +144,26 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
   auto sensor = listen(*source, config, stop_wanted);
   if (!sensor) return tl::unexpected(sensor.error());
   source->accept_only(sensor->sender);
+  const live::LiveConfig of_run = live_config_of(config, sensor->columns);
   std::optional<FoundMount> mount;
   if (config.find_mount) {
-    const auto found = live::mount_on_air(*source, *sensor, Engine::decoder_config(*sensor),
-                                          live::kGroundPatience, stop_wanted)
-                           .certain();
+    const auto found =
+        live::mount_on_air(*source, *sensor, of_run.decoder, live::kGroundPatience, stop_wanted)
+            .certain();
     if (found) mount = public_mount(*found);
     if (!found && !config.guess_mount) return tl::unexpected(mount_not_found(found.error()));
   }
-  auto events = live::LiveThreads::Events::make();
-  if (!events) return tl::unexpected(events.error());
   std::vector<threads::Grant> grants;
   if (config.lock_memory) grants = memory::hold_memory({});
-  return made([&] {
-    auto engine = std::make_unique<Engine>(config, *std::move(source), *std::move(sensor), mount,
-                                           *std::move(events));
-    engine->source_memory = std::move(source_memory);
-    engine->note(grants);
-    return LiveRun(std::move(engine));
+  auto engine = std::make_unique<Engine>(std::move(source_memory), *std::move(source),
+                                         *std::move(sensor), mount);
+  const auto built = made([&] {
+    return engine->build(of_run, mount ? mount->mount : config.mount, config.lock_memory, grants);
   });
+  if (!built) return tl::unexpected(built.error());
+  if (!*built) return tl::unexpected(built->error());
+  engine->note(grants);
+  return LiveRun(std::move(engine));
 }
 
 Sensor LiveRun::sensor() const noexcept {
@@ -199,24 +180,24 @@ const std::string& LiveRun::refusals() const noexcept {
 
 void LiveRun::run(const StopWanted& stop_wanted, const OnFrame& on_frame) {
   Engine& of = *engine_;
-  of.note(of.threads.start());
+  of.note(of.parts->start());
   constexpr std::int64_t kAWhile_ns = 50'000'000;
   while (!stop_wanted()) {
-    (void)of.threads.points_ready().wait(-1, kAWhile_ns);
+    (void)of.parts->threads.points_ready().wait(-1, kAWhile_ns);
     of.hand_out(on_frame);
     of.judge();
   }
-  of.threads.stop();
+  of.parts->stop();
   of.hand_out(on_frame);
   of.judge();
 }
 
 LiveRun::Figures LiveRun::figures() const noexcept {
   Figures figures = engine_->figures;
-  const status::InputState& intake = engine_->threads.intake();
+  const status::InputState& intake = engine_->parts->threads.intake();
   figures.datagrams = intake.account.source.received;
   figures.decoded = intake.account.decoded;
-  figures.frames_left_out = engine_->threads.points()->unused();
+  figures.frames_left_out = engine_->parts->threads.points()->unused();
   return figures;
 }
 

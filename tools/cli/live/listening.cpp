@@ -4,19 +4,16 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <utility>
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
+#include "firmware_io/streams/hear_sensor.hpp"
 #include "known_sensor.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
-
-using SteadyClock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
 
 /// Who else listens at the device port shall go on doing so.
 std::optional<net::LiveSource> open_device_port(const Options& options,
@@ -65,22 +62,8 @@ Expected<streams::SensorOnAir> listen_for_sensor(net::LiveSource& source, const 
   memory::FixedMemory device_memory;
   std::optional<net::LiveSource> device;
   if (first.wants_device_port()) device = open_device_port(options, device_memory);
-  const auto hear = [&](net::LiveSource& from, std::int64_t timeout_ns) {
-    for (const packet::Datagram& datagram : from.receive(timeout_ns)) first.add(datagram);
-  };
-
-  const auto begun = SteadyClock::now();
-  const auto is_over = [&] {
-    return options.patience_s && SteadyClock::now() - begun >= Seconds(*options.patience_s);
-  };
-  while (!first.is_enough() && !is_over() && !stop_wanted()) {
-    constexpr std::int64_t kAWhile_ns = 50'000'000;
-    hear(source, kAWhile_ns);
-    if (device) hear(*device, 0);
-    first.note_foreign(source.counters().foreign);
-    on_waiting(first.waits_for());
-  }
-  auto sensor = first.conclude(options.patience_s);
+  auto sensor = streams::hear_sensor(first, source, device ? &*device : nullptr,
+                                     {options.patience_s, stop_wanted, on_waiting});
   if (!sensor || stop_wanted()) return sensor;
   if (const std::string others = first.other_sensors(); !others.empty()) {
     warn(

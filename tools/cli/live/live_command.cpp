@@ -20,8 +20,7 @@
 #include "live_service.hpp"
 #include "live_watch.hpp"
 #include "pipeline/live/frame_outlet.hpp"
-#include "pipeline/live/live_threads.hpp"
-#include "pipeline/live/vehicle_motion.hpp"
+#include "pipeline/live/live_parts.hpp"
 #include "rt/caught.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/locked_memory.hpp"
@@ -46,13 +45,6 @@ namespace terracut::cli {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-
-/// What a sensor sends a second at most: a VLS-128 in dual return, a packet a firing, or of the
-/// others an RS-Ruby128.
-constexpr double most_packets_per_second(sensor::SensorModel model) noexcept {
-  return model == sensor::SensorModel::kVls128 ? 18'750 : 12'001;
-}
-constexpr std::size_t kLongestPacketBytes = 1248;
 
 void say_refusals(const std::vector<threads::Grant>& grants) {
   for (const threads::Grant& grant : grants) {
@@ -161,89 +153,33 @@ class Waiting {
   std::int64_t say_at_ns_ = measure::monotonic_ns() + kSayFirst_ns;
 };
 
-/// Whether an output is asked for that labels alone are not enough for.
-bool wants_points(const Options& options) {
-  return !options.stream.empty() || wants_sinks(options.output);
+/// What the options ask of the run; the vehicle's bus may be null.
+live::LiveConfig live_config_of(const Options& options, const streams::SensorOnAir& sensor,
+                                VehicleBus* bus) {
+  const RealtimeOptions& realtime = options.realtime;
+  const bool wants_points = !options.stream.empty() || wants_sinks(options.output);
+  live::LiveConfig config;
+  config.decoder = decoder_config_of(options, sensor.columns,
+                                     wants_points ? FramesAreFor::kPoints : FramesAreFor::kLabels);
+  config.reorder_packets = options.capture.reorder_packets.value_or(config.reorder_packets);
+  config.method = method_config_of(options.method).segmenter;
+  config.threads = {
+      .deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
+      .longest_gathering_ns = static_cast<std::int64_t>(options.listen.gather_ms * 1e6),
+      .keeps_labels = !options.output.labels.empty(),
+      .keeps_points = wants_points,
+      .compares_tables = !options.capture.calibration.empty(),
+      .receive =
+          live::thread_request("tc-receive", realtime.receive_priority, realtime.receive_core),
+      .segment =
+          live::thread_request("tc-segment", realtime.segment_priority, realtime.segment_core)};
+  config.recorder_seconds = keeps_packets(options) ? options.recorder.seconds : 0;
+  if (bus != nullptr) {
+    config.vehicle = {&bus->signals, &bus->source, ego_motion_config_of(options.motion),
+                      realtime.can_priority};
+  }
+  return config;
 }
-
-/// Everything that takes memory, built twice: once to learn how much, once in the locked region.
-struct LiveParts {
-  std::optional<live::VehicleMotion> motion;
-  live::LivePipeline pipeline;
-  std::optional<recorder::FlightRecorder> recorder;
-  live::LiveThreads threads;
-  LiveWatch watch;
-
-  LiveParts(const Options& options, const streams::SensorOnAir& sensor,
-            const mount::RingProfile& profile, const MountChoice& mount, net::LiveSource& source,
-            VehicleBus* bus, live::LiveThreads::Events events, FiguresDisplay& display,
-            memory::FixedMemory& memory)
-      : motion(motion_of(options, bus, memory)),
-        pipeline(sensor.calibration, profile, decoder_config(options, sensor, motion),
-                 method_config_of(options.method).segmenter, memory),
-        recorder(recorder_of(options, sensor.model, memory)),
-        threads(threads_config(options, sensor), pipeline, source, std::move(events),
-                recorder ? &*recorder : nullptr, memory),
-        watch(options, profile.mount, mount, threads, motion ? &*motion : nullptr, display,
-              memory) {}
-
-  /// Starts every thread; returns what the system granted and refused them.
-  [[nodiscard]] std::vector<threads::Grant> start(const Options& options) {
-    std::vector<threads::Grant> grants;
-    if (motion) grants = motion->start(options.realtime.can_priority);
-    for (threads::Grant& grant : threads.start()) grants.push_back(std::move(grant));
-    return grants;
-  }
-  void stop() {
-    threads.stop();
-    if (motion) motion->stop();
-  }
-
- private:
-  static std::optional<live::VehicleMotion> motion_of(const Options& options, VehicleBus* bus,
-                                                      memory::FixedMemory& memory) {
-    if (bus == nullptr) return std::nullopt;
-    return std::make_optional<live::VehicleMotion>(
-        bus->signals, ego_motion_config_of(options.motion), bus->source, memory);
-  }
-  /// Packets of a sensor that is connected by one cable do not come late, so none is waited for
-  /// unless that is asked for.
-  static decode::Decoder::Config decoder_config(const Options& options,
-                                                const streams::SensorOnAir& sensor,
-                                                std::optional<live::VehicleMotion>& motion) {
-    auto config =
-        decoder_config_of(options, sensor.columns,
-                          wants_points(options) ? FramesAreFor::kPoints : FramesAreFor::kLabels,
-                          motion ? &motion->motion() : nullptr);
-    config.reorder_packets = options.capture.reorder_packets.value_or(0);
-    return config;
-  }
-  static live::LiveThreads::Config threads_config(const Options& options,
-                                                  const streams::SensorOnAir& sensor) {
-    constexpr double kSlowest_hz = 5;  // where the sensor has not said how fast it rotates
-    const RealtimeOptions& realtime = options.realtime;
-    return {
-        .deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
-        .frame_period_ns = static_cast<std::int64_t>(1e9 / std::max(sensor.spin_hz, kSlowest_hz)),
-        .longest_gathering_ns = static_cast<std::int64_t>(options.listen.gather_ms * 1e6),
-        .keeps_labels = !options.output.labels.empty(),
-        .keeps_points = wants_points(options),
-        .compares_tables = !options.capture.calibration.empty(),
-        .receive =
-            live::thread_request("tc-receive", realtime.receive_priority, realtime.receive_core),
-        .segment =
-            live::thread_request("tc-segment", realtime.segment_priority, realtime.segment_core)};
-  }
-  static std::optional<recorder::FlightRecorder> recorder_of(const Options& options,
-                                                             sensor::SensorModel model,
-                                                             memory::FixedMemory& memory) {
-    if (!keeps_packets(options)) return std::nullopt;
-    return std::make_optional<recorder::FlightRecorder>(
-        net::packet_ring_size(options.recorder.seconds, most_packets_per_second(model),
-                              kLongestPacketBytes),
-        memory);
-  }
-};
 
 /// What leaves a run, on threads that nothing waits for.
 class Writers {
@@ -253,7 +189,7 @@ class Writers {
 
   /// What cannot be had is tried again as long as the run goes on.
   void open(const Options& options, const streams::SensorOnAir& sensor, const mount::Mount& mount,
-            LiveParts& parts) {
+            live::LiveParts& parts) {
     const auto deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6);
     publisher_.emplace(
         retried_sinks(options.output,
@@ -274,8 +210,7 @@ class Writers {
     }
     if (parts.threads.labels()) labels_.emplace(options.output, *parts.threads.labels());
     if (parts.recorder) {
-      dumps_.emplace(options, sensor.calibration, *parts.recorder, LiveWatch::kStageNames,
-                     answers_);
+      dumps_.emplace(options, sensor.calibration, *parts.recorder, stage::kStageNames, answers_);
     }
   }
 
@@ -307,7 +242,7 @@ class Writers {
 
  private:
   [[nodiscard]] publish::Reopened<stream::FrameStreamServer>::Config stream_at(
-      const Options& options, const LiveParts& parts) {
+      const Options& options, const live::LiveParts& parts) {
     const stream::FrameStreamConfig config{
         .address = stream::parse_stream_address(options.stream).value(),
         .unix_mode = options.stream_mode,
@@ -332,9 +267,9 @@ class Writers {
   std::optional<DumpWriter> dumps_;
 };
 
-void run_until_stopped(const Options& options, const streams::SensorOnAir& sensor, LiveParts& parts,
-                       Writers& writers, DumpSignal& dump_wanted, LiveService& service) {
-  LiveWatch& watch = parts.watch;
+void run_until_stopped(const Options& options, const streams::SensorOnAir& sensor,
+                       live::LiveParts& parts, LiveWatch& watch, Writers& writers,
+                       DumpSignal& dump_wanted, LiveService& service) {
   const auto started = SteadyClock::now();
   const auto is_over = [&] {
     return options.capture.duration_s &&
@@ -413,34 +348,31 @@ ExitCode run_live(const Options& options) {
     if (!opened) return refuse(opened.error());
     bus.emplace(*std::move(opened));
   }
-  VehicleBus* const vehicle = bus ? &*bus : nullptr;
 
-  memory::FixedMemory plan, memory;
-  auto idle = live::LiveThreads::Events::make();
-  auto events = live::LiveThreads::Events::make();
-  if (!idle || !events) return refuse(!idle ? idle.error() : events.error());
-  LiveParts{options, *sensor, *profile, mount, *source, vehicle, *std::move(idle), display, plan};
-  const auto region = memory.reserve(plan.total_bytes(), {.lock = options.realtime.lock_memory});
-  if (!region) return refuse(region.error());
-  say_refusals(*region);
-  LiveParts parts(options, *sensor, *profile, mount, *source, vehicle, *std::move(events), display,
-                  memory);
-  if (const Status fits = memory.within_plan(); !fits) return refuse(fits.error());
+  memory::FixedMemory memory;
+  std::vector<threads::Grant> grants;
+  const auto built =
+      live::LiveParts::build(live_config_of(options, *sensor, bus ? &*bus : nullptr), *sensor,
+                             *profile, *source, memory, options.realtime.lock_memory, grants);
+  if (!built) return refuse(built.error());
+  say_refusals(grants);
+  live::LiveParts& parts = **built;
+  LiveWatch watch(options, profile->mount, mount, parts, display);
 
   Writers writers(dump_answers);
   writers.open(options, *sensor, profile->mount, parts);
-  say_refusals(parts.start(options));
-  parts.watch.open(describe(*sensor), source->name(), writers.outlet(), writers.publisher());
+  say_refusals(parts.start());
+  watch.open(describe(*sensor), source->name(), writers.outlet(), writers.publisher());
   const Status ran = rt::caught([&]() -> Status {
-    run_until_stopped(options, *sensor, parts, writers, dump_wanted, service);
+    run_until_stopped(options, *sensor, parts, watch, writers, dump_wanted, service);
     return {};
   });
   service.stopping();
   parts.stop();
-  parts.watch.work_round();
+  watch.work_round();
   const bool disk_answers = writers.finish();
-  parts.watch.last_round();
-  ExitCode code = conclude(options, parts.watch);
+  watch.last_round();
+  ExitCode code = conclude(options, watch);
   if (!ran) code = refuse(ran.error());
   if (disk_answers) return writers.wrote_all() ? code : kOutputFailed;
   warn("the disk does not answer: what was not written by now is lost");

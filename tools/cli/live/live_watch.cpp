@@ -34,17 +34,11 @@ std::string unpublished_name(const Options& options) {
 }  // namespace
 
 LiveWatch::LiveWatch(const Options& options, const mount::Mount& mount, const MountChoice& choice,
-                     live::LiveThreads& threads, live::VehicleMotion* motion,
-                     FiguresDisplay& display, memory::FixedMemory& memory)
+                     live::LiveParts& parts, FiguresDisplay& display)
     : options_(options),
-      threads_(threads),
-      motion_(motion),
+      parts_(parts),
       display_(display),
-      mount_(std::make_unique<MountWatch>(mount, choice)),
-      monitor_({.deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
-                .stage_names = kStageNames,
-                .kept_frames = kKeptFrames},
-               memory) {
+      mount_(std::make_unique<MountWatch>(mount, choice)) {
   if (auto stolen = measure::StolenTime::open()) stolen_.emplace(*std::move(stolen));
 }
 
@@ -52,12 +46,12 @@ void LiveWatch::open(const std::string& sensor, const std::string& input,
                      const live::FrameOutlet* outlet, publish::Publisher& publisher) {
   outlet_ = outlet;
   publisher_ = &publisher;
-  status::MonitorSnapshot& figures = monitor_.snapshot();
+  status::MonitorSnapshot& figures = parts_.monitor.snapshot();
   figures.version = {TERRACUT_VERSION};
   figures.sensor = {sensor};
   figures.input = {input};
   figures.started_ns = measure::realtime_ns();
-  if (motion_ != nullptr) figures.motion.bus = {options_.can};
+  if (parts_.motion) figures.motion.bus = {options_.can};
   if (!options_.watch.health_can.empty()) open_health();
   refresh();
 }
@@ -77,12 +71,12 @@ void LiveWatch::open_health() {
 
 LiveWatch::Round LiveWatch::work_round() {
   Round round;
-  for (status::FrameRecord frame; threads_.take_record(frame);) {
+  for (status::FrameRecord frame; parts_.threads.take_record(frame);) {
     const std::int64_t latency_ns = frame.labels_ns - frame.info.last_packet_ns;
-    if (stolen_ && latency_ns > monitor_.snapshot().deadline_ns) {
+    if (stolen_ && latency_ns > parts_.monitor.snapshot().deadline_ns) {
       frame.steal_ns = stolen_->since(frame.info.last_packet_ns, measure::realtime_ns());
     }
-    monitor_.judge(frame);
+    parts_.monitor.judge(frame);
     ++round.frames;
     if (frame.missed) ++round.missed;
   }
@@ -96,18 +90,18 @@ void LiveWatch::last_round() {
 }
 
 void LiveWatch::refresh() {
-  status::MonitorSnapshot& figures = monitor_.snapshot();
+  status::MonitorSnapshot& figures = parts_.monitor.snapshot();
   figures.taken_ns = measure::realtime_ns();
   if (stolen_) stolen_->work_round(figures.taken_ns);
   refresh_input(figures);
-  monitor_.look_at_rate(figures.taken_ns);
+  parts_.monitor.look_at_rate(figures.taken_ns);
   refresh_losses(figures);
   refresh_threads(figures);
-  if (const ground::NearGround* ground = threads_.near_ground()) mount_->add_frame(*ground);
+  if (const ground::NearGround* ground = parts_.threads.near_ground()) mount_->add_frame(*ground);
   figures.mount = mount_->figures();
-  if (motion_ != nullptr) motion_->show(figures.motion);
+  if (parts_.motion) parts_.motion->show(figures.motion);
   if (health_) {
-    health_->work_round(figures, monitor_.newest(), measure::monotonic_ns());
+    health_->work_round(figures, parts_.monitor.newest(), measure::monotonic_ns());
     health_->show(figures.health);
   }
   display_.show(figures);
@@ -119,37 +113,39 @@ void LiveWatch::publish_figures() {
   const std::int64_t now_ns = measure::monotonic_ns();
   if (publisher_ == nullptr || now_ns < publish_figures_at_ns_) return;
   publish_figures_at_ns_ = now_ns + kEvery_ns;
-  publisher_->put_figures(monitor_.snapshot());
+  publisher_->put_figures(parts_.monitor.snapshot());
 }
 
 void LiveWatch::refresh_threads(status::MonitorSnapshot& figures) {
   figures.thread_count = 0;
-  show_thread(figures, "receive", threads_.receive_state());
-  show_thread(figures, "segment", threads_.segment_state());
-  if (motion_ != nullptr) show_thread(figures, "can", motion_->thread_state());
+  show_thread(figures, "receive", parts_.threads.receive_state());
+  show_thread(figures, "segment", parts_.threads.segment_state());
+  if (parts_.motion) show_thread(figures, "can", parts_.motion->thread_state());
 }
 
 void LiveWatch::refresh_input(status::MonitorSnapshot& figures) {
-  const std::string news = input_.show(threads_.intake(), figures);
+  const std::string news = input_.show(parts_.threads.intake(), figures);
   if (!news.empty()) say(news);
 }
 
 void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
-  const net::DatagramAccount& account = threads_.intake().account;
+  const net::DatagramAccount& account = parts_.threads.intake().account;
   frame::LossCounters losses = account.losses;
   losses.skipped_frames = figures.levels[static_cast<std::size_t>(status::Level::kSkipped)];
   figures.loss_count = 0;
   status::show_losses(status::causes_of(losses), figures);
   status::show_losses(status::causes_of(account.source), figures);
   std::vector<status::NamedCount> more{{"let_go_packets", account.let_go},
-                                       {"untimed_frames", threads_.records_dropped()},
+                                       {"untimed_frames", parts_.threads.records_dropped()},
                                        {"lost_messages", lost_messages()}};
   // At the end nothing waits any more that was not held up for good.
   const auto lost = [&](const auto* slots) {
     return slots->unused() + (over_ ? slots->waiting() : 0);
   };
-  if (threads_.labels()) more.push_back({"unwritten_label_frames", lost(threads_.labels())});
-  if (threads_.points()) more.push_back({unpublished_name(options_), lost(threads_.points())});
+  if (parts_.threads.labels())
+    more.push_back({"unwritten_label_frames", lost(parts_.threads.labels())});
+  if (parts_.threads.points())
+    more.push_back({unpublished_name(options_), lost(parts_.threads.points())});
   if (outlet_ != nullptr && outlet_->has_stream()) {
     const stream::FrameStreamFigures& stream = outlet_->figures();
     more.insert(more.end(), {{"stream_frames_missed", stream.missed},
@@ -165,8 +161,8 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
 }
 
 std::vector<status::FrameRecord> LiveWatch::newest() const {
-  std::vector<status::FrameRecord> frames(kKeptFrames);
-  frames.resize(monitor_.copy_newest(frames));
+  std::vector<status::FrameRecord> frames(live::LiveParts::kKeptFrames);
+  frames.resize(parts_.monitor.copy_newest(frames));
   return frames;
 }
 

@@ -2,21 +2,16 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "figures_display.hpp"
-#include "pipeline/ground/segmenter.hpp"
 #include "pipeline/health/health_reporter.hpp"
 #include "pipeline/live/frame_outlet.hpp"
-#include "pipeline/live/live_threads.hpp"
-#include "pipeline/live/vehicle_motion.hpp"
-#include "pipeline/status/deadline_monitor.hpp"
+#include "pipeline/live/live_parts.hpp"
 #include "pipeline/status/input_status.hpp"
 #include "pipeline/status/stolen_time_share.hpp"
 #include "rt/measure/stolen_time.hpp"
@@ -30,15 +25,9 @@ namespace terracut::cli {
 /// disk.
 class LiveWatch {
  public:
-  static constexpr std::array<std::string_view, stage::kStages> kStageNames{
-      to_string(stage::Stage::kElevationMap), to_string(stage::Stage::kAdjacentPoints),
-      to_string(stage::Stage::kSeeds), to_string(stage::Stage::kMinCut),
-      to_string(stage::Stage::kLabels)};
-
-  /// All must outlive this. `motion` may be null.
+  /// All must outlive this.
   LiveWatch(const Options& options, const mount::Mount& mount, const MountChoice& choice,
-            live::LiveThreads& threads, live::VehicleMotion* motion, FiguresDisplay& display,
-            memory::FixedMemory& memory);
+            live::LiveParts& parts, FiguresDisplay& display);
 
   /// Health on a CAN bus: where it fails that is said, and the run goes on without it. `outlet`,
   /// which may be null, and `publisher`: whose losses are shown as well, and to whose outputs the
@@ -53,19 +42,17 @@ class LiveWatch {
   /// Takes what has come since the last round.
   Round work_round();
   /// It is ended before the time it was asked for is over.
-  void note_interruption() { monitor_.snapshot().interrupted = 1; }
+  void note_interruption() { parts_.monitor.snapshot().interrupted = 1; }
   /// After everything that takes results has ended, or will not.
   void last_round();
 
   [[nodiscard]] const status::MonitorSnapshot& figures() const noexcept {
-    return monitor_.snapshot();
+    return parts_.monitor.snapshot();
   }
   /// The times of the newest frames, oldest first.
   [[nodiscard]] std::vector<status::FrameRecord> newest() const;
 
  private:
-  static constexpr std::size_t kKeptFrames = 256;
-
   void open_health();
   void refresh();
   void publish_figures();
@@ -74,8 +61,7 @@ class LiveWatch {
   void refresh_threads(status::MonitorSnapshot& figures);
 
   const Options& options_;
-  live::LiveThreads& threads_;
-  live::VehicleMotion* motion_;
+  live::LiveParts& parts_;
   const live::FrameOutlet* outlet_ = nullptr;
   publish::Publisher* publisher_ = nullptr;
   std::int64_t publish_figures_at_ns_ = 0;  ///< CLOCK_MONOTONIC
@@ -84,7 +70,6 @@ class LiveWatch {
   status::InputStatus input_;
   std::optional<status::StolenTimeShare<measure::StolenTime>> stolen_;
   bool over_ = false;
-  status::DeadlineMonitor monitor_;
   std::optional<health::HealthReporter> health_;
 };
 

@@ -18,7 +18,7 @@ namespace terracut::cli {
 NodeWatch::NodeWatch(const Options& options, const std::string& input, NodeNews& news)
     : news_(news),
       monitor_({.deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
-                .stage_names = LiveWatch::kStageNames},
+                .stage_names = stage::kStageNames},
                memory_),
       display_(options.watch),
       service_(LiveService::from_environment()) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "firmware_io/net/live_source.hpp"
+#include "firmware_io/streams/first_seconds.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::streams {
+
+/// How long a sensor is waited for, and who is told.
+struct Waiting {
+  std::optional<double> patience_s;  ///< None: as long as it takes.
+  std::function<bool()> stop_wanted;
+  /// Told many times a second what is waited for; may be empty.
+  std::function<void(const std::string& what)> on_waiting;
+};
+
+/// Listens at `data`, and at `device` unless that is null, until `first` has heard enough. The
+/// errors of FirstSeconds::conclude(). Start-up: allocates.
+[[nodiscard]] Expected<SensorOnAir> hear_sensor(FirstSeconds& first, net::LiveSource& data,
+                                                net::LiveSource* device, const Waiting& waiting);
+
+}  // namespace terracut::streams

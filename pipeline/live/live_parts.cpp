@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/live/live_parts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace terracut::live {
+namespace {
+
+/// What a sensor sends a second at most: a VLS-128 in dual return, a packet a firing, or of the
+/// others an RS-Ruby128.
+constexpr double most_packets_per_second(sensor::SensorModel model) noexcept {
+  return model == sensor::SensorModel::kVls128 ? 18'750 : 12'001;
+}
+
+std::optional<VehicleMotion> motion_of(const LiveConfig& config, memory::FixedMemory& memory) {
+  if (!config.vehicle) return std::nullopt;
+  const VehicleConfig& vehicle = *config.vehicle;
+  return std::make_optional<VehicleMotion>(*vehicle.signals, vehicle.motion, *vehicle.source,
+                                           memory);
+}
+
+decode::Decoder::Config decoder_config(const LiveConfig& config,
+                                       std::optional<VehicleMotion>& motion) {
+  decode::Decoder::Config of_decoder = config.decoder;
+  of_decoder.reorder_packets = config.reorder_packets;
+  of_decoder.motion = motion ? &motion->motion() : nullptr;
+  return of_decoder;
+}
+
+std::optional<recorder::FlightRecorder> recorder_of(const LiveConfig& config,
+                                                    sensor::SensorModel model,
+                                                    memory::FixedMemory& memory) {
+  constexpr std::size_t kLongestPacketBytes = 1248;
+  if (config.recorder_seconds <= 0) return std::nullopt;
+  return std::make_optional<recorder::FlightRecorder>(
+      net::packet_ring_size(config.recorder_seconds, most_packets_per_second(model),
+                            kLongestPacketBytes),
+      memory);
+}
+
+LiveThreads::Config threads_config(const LiveConfig& config, const streams::SensorOnAir& sensor) {
+  constexpr double kSlowest_hz = 5;  // where the sensor has not said how fast it rotates
+  LiveThreads::Config of_threads = config.threads;
+  of_threads.frame_period_ns =
+      static_cast<std::int64_t>(1e9 / std::max(sensor.spin_hz, kSlowest_hz));
+  return of_threads;
+}
+
+}  // namespace
+
+LiveParts::LiveParts(const LiveConfig& config, const streams::SensorOnAir& sensor,
+                     const mount::RingProfile& profile, net::LiveSource& source,
+                     LiveThreads::Events events, memory::FixedMemory& memory)
+    : motion(motion_of(config, memory)),
+      pipeline(sensor.calibration, profile, decoder_config(config, motion), config.method, memory),
+      recorder(recorder_of(config, sensor.model, memory)),
+      threads(threads_config(config, sensor), pipeline, source, std::move(events),
+              recorder ? &*recorder : nullptr, memory),
+      monitor({.deadline_ns = config.threads.deadline_ns,
+               .stage_names = stage::kStageNames,
+               .kept_frames = kKeptFrames},
+              memory),
+      motion_priority_(config.vehicle ? config.vehicle->priority : 0) {}
+
+Expected<std::unique_ptr<LiveParts>> LiveParts::build(
+    const LiveConfig& config, const streams::SensorOnAir& sensor, const mount::RingProfile& profile,
+    net::LiveSource& source, memory::FixedMemory& memory, bool locks_memory,
+    std::vector<threads::Grant>& grants) {
+  const auto build_in = [&](memory::FixedMemory& in) -> Expected<std::unique_ptr<LiveParts>> {
+    auto events = LiveThreads::Events::make();
+    if (!events) return tl::unexpected(events.error());
+    return std::make_unique<LiveParts>(config, sensor, profile, source, *std::move(events), in);
+  };
+  memory::FixedMemory plan;
+  if (auto trial = build_in(plan); !trial) return trial;
+  const auto region = memory.reserve(plan.total_bytes(), {.lock = locks_memory});
+  if (!region) return tl::unexpected(region.error());
+  grants.insert(grants.end(), region->begin(), region->end());
+  auto parts = build_in(memory);
+  if (const Status fits = memory.within_plan(); !fits) return tl::unexpected(fits.error());
+  return parts;
+}
+
+std::vector<threads::Grant> LiveParts::start() {
+  std::vector<threads::Grant> grants;
+  if (motion) grants = motion->start(motion_priority_);
+  for (threads::Grant& grant : threads.start()) grants.push_back(std::move(grant));
+  return grants;
+}
+
+void LiveParts::stop() {
+  threads.stop();
+  if (motion) motion->stop();
+}
+
+}  // namespace terracut::live

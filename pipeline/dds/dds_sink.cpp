@@ -39,15 +39,14 @@ std::uint8_t* put_point(const CloudPoint& point, std::uint8_t* to) noexcept {
 }  // namespace
 
 Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
-                                                 const publish::Stream& stream) {
+                                                 const publish::RunFacts& facts) {
   auto participant = Participant::open(config.participant);
   if (!participant) return tl::unexpected(participant.error());
   std::unique_ptr<DdsSink> sink(new DdsSink(*std::move(participant)));
   sink->config_ = config;
-  sink->frame_id_ = stream.frame_id;
-  sink->sensor_frame_id_ =
-      stream.sensor_frame_id.empty() ? stream.frame_id : stream.sensor_frame_id;
-  sink->T_lidar_vehicle_ = mount::inverse(mount::T_vehicle_lidar(stream.mount));
+  sink->frame_id_ = facts.frame_id;
+  sink->sensor_frame_id_ = facts.sensor_frame_id.empty() ? facts.frame_id : facts.sensor_frame_id;
+  sink->T_lidar_vehicle_ = mount::inverse(mount::T_vehicle_lidar(facts.mount));
   sink->fields_ = cloud_fields(true);
   sink->raw_fields_ = cloud_fields(false);
   Writer diagnostics;
@@ -72,14 +71,14 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
     wanted.writer.emplace(*std::move(writer));
   }
   if (diagnostics) sink->diagnostics_.emplace(*std::move(diagnostics));
-  if (Status told = sink->write_mount(stream); !told) return tl::unexpected(told.error());
+  if (Status told = sink->write_mount(facts); !told) return tl::unexpected(told.error());
   return sink;
 }
 
-Status DdsSink::write_mount(const publish::Stream& stream) {
-  if (!tf_static_ || stream.sensor_frame_id.empty()) return {};
-  const auto [at_m, turned] = mount::vehicle_in_lidar(stream.mount);
-  std::string parent = stream.sensor_frame_id, child = stream.frame_id;
+Status DdsSink::write_mount(const publish::RunFacts& facts) {
+  if (!tf_static_ || facts.sensor_frame_id.empty()) return {};
+  const auto [at_m, turned] = mount::vehicle_in_lidar(facts.mount);
+  std::string parent = facts.sensor_frame_id, child = facts.frame_id;
   geometry_msgs_msg_dds__TransformStamped_ transform{
       {ros_time(measure::realtime_ns()), parent.data()},
       child.data(),
@@ -115,7 +114,7 @@ void DdsSink::put_points(Writer& writer, const publish::LabelledFrame& frame, Cl
   bytes_.resize(frame.points.size() * sizeof(CloudPoint));
   std::uint8_t* to = bytes_.data();
   const float time_of_first_s = time_of_first_s_of(frame);
-  for (const stream::LabelledPoint& point : frame.points) {
+  for (const points::LabelledPoint& point : frame.points) {
     if (!ros_messages::belongs_to(which, point.label)) continue;
     to = put_point(ros_messages::cloud_point(point, time_of_first_s), to);
   }
@@ -128,7 +127,7 @@ void DdsSink::put_raw(const publish::LabelledFrame& frame) {
   bytes_.resize(frame.points.size() * sizeof(CloudPoint));
   std::uint8_t* to = bytes_.data();
   const float time_of_first_s = time_of_first_s_of(frame);
-  for (const stream::LabelledPoint& point : frame.points) {
+  for (const points::LabelledPoint& point : frame.points) {
     CloudPoint raw = ros_messages::cloud_point(point, time_of_first_s);
     const auto at_m = mount::apply(T_lidar_vehicle_, point.x_m, point.y_m, point.z_m);
     raw.x_m = static_cast<float>(at_m[0]);

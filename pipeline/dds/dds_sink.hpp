@@ -36,7 +36,7 @@ class DdsSink final : public publish::FrameSink {
 
   /// Errors of Participant and TopicWriter.
   [[nodiscard]] static Expected<std::unique_ptr<DdsSink>> open(const Config& config,
-                                                               const publish::Stream& stream);
+                                                               const publish::RunFacts& facts);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "dds"; }
   [[nodiscard]] Status put(const publish::LabelledFrame& frame) override;
@@ -52,7 +52,7 @@ class DdsSink final : public publish::FrameSink {
   using Writer = std::optional<TopicWriter>;
 
   explicit DdsSink(Participant participant) noexcept : participant_(std::move(participant)) {}
-  [[nodiscard]] Status write_mount(const publish::Stream& stream);
+  [[nodiscard]] Status write_mount(const publish::RunFacts& facts);
   void await_readers();
   void put_points(Writer& writer, const publish::LabelledFrame& frame, ros_messages::CloudOf which);
   void put_raw(const publish::LabelledFrame& frame);

@@ -23,7 +23,7 @@ namespace terracut::live {
 /// frame, so it is served right here. While its address is not to be had, it is tried again.
 class FrameOutlet {
  public:
-  using Slots = FramePool<stream::LabelledPoint>;
+  using Slots = FramePool<points::LabelledPoint>;
   struct Stream {
     publish::Reopened<stream::FrameStreamServer> server;
     stream::StreamedSensor sensor;

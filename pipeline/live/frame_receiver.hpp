@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "firmware_io/sensor/told_table.hpp"
 #include "pipeline/live/frame_exchange.hpp"
 #include "pipeline/live/frame_records.hpp"
+#include "pipeline/live/gathering_policy.hpp"
 #include "pipeline/live/live_pipeline.hpp"
 #include "pipeline/live/packet_gate.hpp"
 #include "pipeline/recorder/flight_recorder.hpp"
@@ -40,13 +40,8 @@ template <class Source, class Clock, class Wait>
 class FrameReceiver {
  public:
   struct Config {
-    std::int64_t deadline_ns = 0;      ///< From a frame's last packet to its labels.
-    std::int64_t frame_period_ns = 0;  ///< Of one revolution of the head.
-    /// How long packets may gather in the kernel's buffer before they are fetched; 0: each is
-    /// fetched as it comes.
-    std::int64_t longest_gathering_ns = 0;
-    /// Packets that the kernel's buffer holds; half of them gather at most.
-    std::size_t room_packets = std::numeric_limits<std::uint32_t>::max();
+    std::int64_t deadline_ns = 0;  ///< From a frame's last packet to its labels.
+    GatheringPolicy::Config gathering;
   };
   /// Where things go; all must outlive this. `recorder` and `told_table` may be null.
   struct Outlets {
@@ -62,16 +57,14 @@ class FrameReceiver {
   /// counted with what came before.
   FrameReceiver(const Config& config, LivePipeline& pipeline, Source& source,
                 const Outlets& outlets, Clock clock, Wait wait) noexcept
-      : config_(config),
-        frame_period_ns_(config.frame_period_ns),
-        longest_gathering_ns_(longest_gathering_ns(kMostPacketsAFrame)),
-        pipeline_(pipeline),
+      : pipeline_(pipeline),
         source_(source),
         to_(outlets),
         clock_(clock),
         wait_(std::move(wait)),
         coarse_clock_(clock),
-        gate_(config.deadline_ns, config.frame_period_ns),
+        gate_(config.deadline_ns, config.gathering.frame_period_ns),
+        gathering_(config.gathering),
         spent_ns_(clock.thread_cpu_ns()),
         waited_before_fetch_ns_(wait_.read_ns()),
         waited_before_last_fetch_ns_(waited_before_fetch_ns_) {
@@ -80,7 +73,7 @@ class FrameReceiver {
     source_.refresh_drops();
     before_ = source_.counters();
     received_ = before_.received;
-    received_before_frame_ = received_;
+    gathering_.begin(received_);
     publish();
   }
 
@@ -104,7 +97,7 @@ class FrameReceiver {
     frames_ = 0;
     for (std::size_t i = 0; i < datagrams.size(); ++i) take(datagrams[i], now_ns);
     publish();
-    return {frames_, more_may_wait ? 0 : gathering_ns()};
+    return {frames_, more_may_wait ? 0 : gathering_.time_ns(share_to_come_)};
   }
   /// The run is over: counts what the kernel dropped last.
   void finish() noexcept TERRACUT_NONBLOCKING {
@@ -113,26 +106,11 @@ class FrameReceiver {
   }
 
  private:
-  /// Packets are fetched as they come in the last fiftieth of a frame: a gathering ends that much
-  /// sooner than its last packet comes, so that a thread which wakes up late is still in time.
-  static constexpr float kFetchedAsTheyCome = 0.02F;
-  static constexpr std::int64_t kWorthwhileGathering_ns = 300'000;
-  /// A VLS-128's in dual return, at 10 Hz.
-  static constexpr std::uint64_t kMostPacketsAFrame = 1875;
   /// More than any buffer holds: who sends without end holds up nothing.
   static constexpr int kMostBatches = 10'000;
   /// At least eight times what a packet brings, so that the coarse stages catch up.
   static constexpr int kBlocksAPacket = 1;
   static constexpr float kEnoughAhead = 0.75F;
-
-  /// Waking up for every packet costs more than decoding it. The kernel's buffer stamps packets and
-  /// holds a thousand times as many as gather here.
-  [[nodiscard]] std::int64_t gathering_ns() const noexcept {
-    const auto left_ns = static_cast<std::int64_t>((share_to_come_ - kFetchedAsTheyCome) *
-                                                   static_cast<float>(frame_period_ns_));
-    const std::int64_t time_ns = std::min(left_ns, longest_gathering_ns_);
-    return time_ns < kWorthwhileGathering_ns ? 0 : time_ns;
-  }
 
   void take(const packet::Datagram& datagram, std::int64_t now_ns) noexcept {
     newest_packet_ns_ = datagram.stamp_ns;
@@ -173,7 +151,7 @@ class FrameReceiver {
     }
     run::Frame frame{&image, record_of(info)};
     frame.record.stages_ahead = has_coarse_stages ? kCoarseStages : std::uint8_t{0};
-    note_period(info.last_packet_ns);
+    gathering_.note_frame(info.last_packet_ns, received_);
     if (!lets_go_) gate_.note_frame(info.last_packet_ns, frame.record.handed_over_ns);
     frame::RangeImage* next = to_.frames->hand_over(frame, [this](run::Frame& skipped) noexcept {
       skipped.record.level = status::Level::kSkipped;
@@ -183,27 +161,6 @@ class FrameReceiver {
     to_.frame_ready->wake();
     ++frames_;
     return next;
-  }
-
-  /// A head that was set to rotate faster must not be waited for too long; a frame that was lost
-  /// looks as if it rotated slower.
-  void note_period(std::int64_t last_packet_ns) noexcept {
-    const std::int64_t period_ns = last_packet_ns - std::exchange(last_packet_ns_, last_packet_ns);
-    frame_period_ns_ = std::clamp<std::int64_t>(period_ns, 0, config_.frame_period_ns);
-    const std::uint64_t packets = received_ - std::exchange(received_before_frame_, received_);
-    if (period_ns == last_packet_ns) return;  // the first frame, which may have begun anywhere
-    // A flood shortens gathering at once, and no longer than some seconds after its end.
-    many_packets_a_frame_ = std::max(many_packets_a_frame_ - many_packets_a_frame_ / 16, packets);
-    longest_gathering_ns_ = longest_gathering_ns(many_packets_a_frame_);
-  }
-
-  /// So that the kernel's buffer is half full at most where a frame has so many packets.
-  [[nodiscard]] std::int64_t longest_gathering_ns(std::uint64_t packets_a_frame) const noexcept {
-    const double share_of_frame = static_cast<double>(config_.room_packets / 2) /
-                                  static_cast<double>(std::max<std::uint64_t>(packets_a_frame, 1));
-    const double half_full_ns = share_of_frame * static_cast<double>(frame_period_ns_);
-    return static_cast<std::int64_t>(
-        std::min(static_cast<double>(config_.longest_gathering_ns), half_full_ns));
   }
 
   [[nodiscard]] status::FrameRecord record_of(const frame::FrameInfo& info) noexcept
@@ -240,9 +197,6 @@ class FrameReceiver {
 
   static constexpr auto kCoarseStages = static_cast<std::uint8_t>(stage::Stage::kSeeds);
 
-  Config config_;
-  std::int64_t frame_period_ns_;       ///< The newest frame's, or less.
-  std::int64_t longest_gathering_ns_;  ///< As long as a frame's packets leave room.
   LivePipeline& pipeline_;
   Source& source_;
   Outlets to_;
@@ -250,19 +204,15 @@ class FrameReceiver {
   Wait wait_;
   run::StageClockOf<Clock> coarse_clock_;
   PacketGate gate_;
+  GatheringPolicy gathering_;
 
   net::ReceiveCounters before_;
-  std::uint64_t received_ = 0;               ///< By the source, up to the newest fetch.
-  std::uint64_t received_before_frame_ = 0;  ///< Up to the one that ended the frame before.
-  /// As many as the newest frames had at most, others' datagrams included: they fill the kernel's
-  /// buffer as well.
-  std::uint64_t many_packets_a_frame_ = 0;
+  std::uint64_t received_ = 0;  ///< By the source, up to the newest fetch.
   std::uint64_t let_go_ = 0, device_info_ = 0;
   std::int64_t newest_packet_ns_ = 0;
   bool lets_go_ = false;
-  int frames_ = 0;                   ///< Handed over in this round.
-  float share_to_come_ = 1;          ///< Of the frame that is arriving, or of none yet.
-  std::int64_t last_packet_ns_ = 0;  ///< Of the newest frame handed over.
+  int frames_ = 0;           ///< Handed over in this round.
+  float share_to_come_ = 1;  ///< Of the frame that is arriving, or of none yet.
 
   std::int64_t spent_ns_;  ///< Processor time, up to the last hand-over.
   std::int64_t waited_before_fetch_ns_, waited_before_last_fetch_ns_;

@@ -13,8 +13,8 @@
 #include "pipeline/live/frame_records.hpp"
 #include "pipeline/live/latest_near_ground.hpp"
 #include "pipeline/live/live_pipeline.hpp"
+#include "pipeline/points/labelled_points.hpp"
 #include "pipeline/run/stage_clock.hpp"
-#include "pipeline/stream/labelled_points.hpp"
 #include "rt/threads/nonblocking.hpp"
 #include "rt/threads/wake_event.hpp"
 
@@ -31,7 +31,7 @@ class FrameSegmenter {
   struct Outlets {
     FrameRecords* records;
     FramePool<frame::Label>* labels;
-    FramePool<stream::LabelledPoint>* points;
+    FramePool<points::LabelledPoint>* points;
     const threads::WakeEvent* points_ready;
     LatestNearGround* near_ground = nullptr;
   };
@@ -100,10 +100,10 @@ class FrameSegmenter {
       });
     }
     if (to_.points != nullptr) {
-      to_.points->pass_on(frame.record, [&](std::span<stream::LabelledPoint> room) noexcept {
-        (void)stream::pack_labelled_points(
+      to_.points->pass_on(frame.record, [&](std::span<points::LabelledPoint> room) noexcept {
+        (void)points::pack_labelled_points(
             *frame.image, labels, room,
-            stream::FrameTiming::of(frame.record.info, pipeline_.decoder.beam_turns()));
+            points::FrameTiming::of(frame.record.info, pipeline_.decoder.beam_turns()));
       });
       to_.points_ready->wake();
     }

@@ -79,9 +79,9 @@ void LiveThreads::stop() {
 
 void LiveThreads::receive() noexcept {
   Receiver receiver({.deadline_ns = config_.deadline_ns,
-                     .frame_period_ns = config_.frame_period_ns,
-                     .longest_gathering_ns = config_.longest_gathering_ns,
-                     .room_packets = source_.room_packets()},
+                     .gathering = {.frame_period_ns = config_.frame_period_ns,
+                                   .longest_ns = config_.longest_gathering_ns,
+                                   .room_packets = source_.room_packets()}},
                     pipeline_, source_,
                     {.frames = &exchange_,
                      .frame_ready = &events_.frame_ready,

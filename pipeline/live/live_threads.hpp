@@ -52,7 +52,7 @@ class LiveThreads {
   struct Config {
     std::int64_t deadline_ns = 50'000'000;           ///< From a frame's last packet to its labels.
     std::int64_t frame_period_ns = 100'000'000;      ///< Of one revolution of the head.
-    std::int64_t longest_gathering_ns = 20'000'000;  ///< FrameReceiver::Config
+    std::int64_t longest_gathering_ns = 20'000'000;  ///< GatheringPolicy::Config
     bool keeps_labels = false;                       ///< labels()
     bool keeps_points = false;                       ///< points()
     bool compares_tables = false;                    ///< told_table()
@@ -81,7 +81,7 @@ class LiveThreads {
   /// The labels of every frame, by return index; null without Config::keeps_labels.
   [[nodiscard]] FramePool<frame::Label>* labels() noexcept { return labels_ ? &*labels_ : nullptr; }
   /// The labelled points of every frame; null without Config::keeps_points.
-  [[nodiscard]] FramePool<stream::LabelledPoint>* points() noexcept {
+  [[nodiscard]] FramePool<points::LabelledPoint>* points() noexcept {
     return points_ ? &*points_ : nullptr;
   }
   /// Woken after every frame that points() was given.
@@ -130,7 +130,7 @@ class LiveThreads {
   LatestNearGround near_ground_;
 
   std::optional<FramePool<frame::Label>> labels_;
-  std::optional<FramePool<stream::LabelledPoint>> points_;
+  std::optional<FramePool<points::LabelledPoint>> points_;
 
   std::atomic<bool> stop_{false};
   queues::LatestValue<status::InputState> intake_;

@@ -22,12 +22,12 @@ namespace fs = std::filesystem;
 using ros_messages::CloudOf;
 
 bool is_recorded(const ros_messages::Topic& topic, const McapSink::Config& config,
-                 const publish::Stream& stream) {
+                 const publish::RunFacts& facts) {
   if (&topic == &ros_messages::kTopics[ros_messages::kTransformsTopic]) {
-    return !stream.sensor_frame_id.empty();
+    return !facts.sensor_frame_id.empty();
   }
   if (!topic.cloud || *topic.cloud == CloudOf::kAll) return true;
-  return !config.points_alone && (*topic.cloud != CloudOf::kRoad || stream.has_road);
+  return !config.points_alone && (*topic.cloud != CloudOf::kRoad || facts.has_road);
 }
 
 /// Returns a bag's name, which is its folder's: "drive" for "out/drive/".
@@ -81,7 +81,7 @@ fs::path McapSink::free_place(const fs::path& path) {
   }
 }
 
-Expected<std::unique_ptr<McapSink>> McapSink::open(Config config, publish::Stream stream) {
+Expected<std::unique_ptr<McapSink>> McapSink::open(Config config, publish::RunFacts facts) {
   if (const Status status = check(config); !status) return tl::unexpected(status.error());
   if (config.unattended) {
     if (const Status room = files::check_room_left(config.path); !room) {
@@ -89,7 +89,7 @@ Expected<std::unique_ptr<McapSink>> McapSink::open(Config config, publish::Strea
     }
     config.path = free_place(config.path);
   }
-  std::unique_ptr<McapSink> sink(new McapSink(std::move(config), std::move(stream)));
+  std::unique_ptr<McapSink> sink(new McapSink(std::move(config), std::move(facts)));
   if (sink->is_bag()) {
     if (const Status made = make_bag_folder(sink->config_.path); !made) {
       return tl::unexpected(made.error());
@@ -102,11 +102,11 @@ Expected<std::unique_ptr<McapSink>> McapSink::open(Config config, publish::Strea
   return sink;
 }
 
-McapSink::McapSink(Config config, publish::Stream stream)
-    : config_(std::move(config)), stream_(std::move(stream)) {
+McapSink::McapSink(Config config, publish::RunFacts facts)
+    : config_(std::move(config)), facts_(std::move(facts)) {
   for (std::size_t i = 0; i < ros_messages::kTopics.size(); ++i) {
     const ros_messages::Topic& topic = ros_messages::kTopics[i];
-    if (!is_recorded(topic, config_, stream_)) continue;
+    if (!is_recorded(topic, config_, facts_)) continue;
     const Qos qos = i == ros_messages::kTransformsTopic ? Qos::kLatched : Qos::kReliable;
     topics_.push_back(i);
     channels_.push_back({std::string(topic.name), std::string(topic.schema.type),
@@ -129,7 +129,7 @@ Status McapSink::put(const publish::LabelledFrame& frame) {
   for (std::size_t channel = 0; channel < topics_.size(); ++channel) {
     const auto& cloud = ros_messages::kTopics[topics_[channel]].cloud;
     if (!cloud) continue;
-    ros_messages::write_point_cloud(frame, *cloud, stream_.frame_id, message_);
+    ros_messages::write_point_cloud(frame, *cloud, facts_.frame_id, message_);
     if (const Status added = file_->add_message(channel, time_ns, message_); !added) return added;
   }
   return {};
@@ -165,8 +165,8 @@ Status McapSink::make_room(std::int64_t time_ns) {
     if (!file) return tl::unexpected(file.error());
     file_.emplace(*std::move(file));
   }
-  if ((!is_empty && !is_full) || stream_.sensor_frame_id.empty()) return {};
-  ros_messages::write_mount_transform(time_ns, stream_, message_);
+  if ((!is_empty && !is_full) || facts_.sensor_frame_id.empty()) return {};
+  ros_messages::write_mount_transform(time_ns, facts_, message_);
   return file_->add_message(channel_of(ros_messages::kTransformsTopic), time_ns, message_);
 }
 

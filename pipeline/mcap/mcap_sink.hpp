@@ -50,13 +50,13 @@ class McapSink final : public publish::FrameSink {
   [[nodiscard]] static Status check(const Config& config);
   /// kInvalidArgument: as check(), or a bag's folder that is not empty. kWriteFailed.
   [[nodiscard]] static Expected<std::unique_ptr<McapSink>> open(Config config,
-                                                                publish::Stream stream);
+                                                                publish::RunFacts facts);
 
   /// Returns the memory for frames of so many returns with a full queue: the queue, the frames in
   /// work at either end, the message, its chunk, the compressed chunk, and zstd's own.
   [[nodiscard]] static constexpr std::size_t memory_bytes(std::size_t returns) noexcept {
     constexpr std::size_t kZstd_bytes = std::size_t{2} << 20;
-    return returns * sizeof(stream::LabelledPoint) * (kQueueFrames + 5) + kZstd_bytes;
+    return returns * sizeof(points::LabelledPoint) * (kQueueFrames + 5) + kZstd_bytes;
   }
 
   /// A second and a half, as disks stall at times.
@@ -71,7 +71,7 @@ class McapSink final : public publish::FrameSink {
   [[nodiscard]] Status finish() override;
 
  private:
-  McapSink(Config config, publish::Stream stream);
+  McapSink(Config config, publish::RunFacts facts);
   [[nodiscard]] bool is_bag() const { return is_bag(config_.path); }
   [[nodiscard]] static bool is_bag(const std::filesystem::path& path) {
     return path.extension() != ".mcap";
@@ -85,7 +85,7 @@ class McapSink final : public publish::FrameSink {
   [[nodiscard]] Status close_file();
 
   Config config_;
-  publish::Stream stream_;
+  publish::RunFacts facts_;
   std::vector<std::size_t> topics_;  ///< Indices into ros_messages::kTopics, one a channel.
   std::vector<Channel> channels_;
   std::optional<McapFile> file_;

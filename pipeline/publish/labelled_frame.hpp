@@ -5,15 +5,15 @@
 #include <memory>
 #include <vector>
 
+#include "pipeline/points/labelled_point.hpp"
 #include "pipeline/status/frame_record.hpp"
-#include "pipeline/stream/labelled_frame_wire.hpp"
 
 namespace terracut::publish {
 
 /// A labelled frame on its way to outputs without a deadline.
 struct LabelledFrame {
   status::FrameRecord record;                 ///< As far as it was known: up to the labels.
-  std::vector<stream::LabelledPoint> points;  ///< In order of arrival.
+  std::vector<points::LabelledPoint> points;  ///< In order of arrival.
 };
 
 /// One frame for all outputs; nobody changes it any more.

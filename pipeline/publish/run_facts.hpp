@@ -10,7 +10,7 @@
 namespace terracut::publish {
 
 /// What an output is told of a run before its first frame.
-struct Stream {
+struct RunFacts {
   std::string sensor;  ///< For people: "hdl64e at 192.168.1.201, 10.0 Hz, single return".
   int rows = 0;        ///< Of the range image; points have rows [0, rows).
   mount::Mount mount{};

@@ -8,8 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware_io/frame/label.hpp"
+#include "pipeline/output/label_sink.hpp"
 #include "pipeline/publish/labelled_frame.hpp"
-#include "pipeline/stream/labelled_frame_wire.hpp"
 
 namespace terracut::ros_messages {
 
@@ -20,7 +21,7 @@ struct CloudPoint {
   float x_m = 0, y_m = 0, z_m = 0;  ///< Vehicle frame (calib/mount/mount.hpp).
   float intensity = 0;              ///< 0 to 255.
   std::uint16_t ring = 0;           ///< Row of the range image, 0 is the lowest laser.
-  std::uint8_t label = 0;           ///< SemanticKITTI class, as of stream::LabelledPoint.
+  std::uint8_t label = 0;           ///< SemanticKITTI class, as in .label files.
   std::uint8_t unused = 0;
   float time_s = 0;  ///< When it was measured, after the header's stamp; before it, negative.
 };
@@ -44,19 +45,31 @@ inline constexpr CloudField kCloudFields[]{{"x", offsetof(CloudPoint, x_m), kFlo
 /// Which of a frame's points.
 enum class CloudOf : std::uint8_t { kAll, kGround, kObstacles, kRoad };
 
-/// Whether a point with this SemanticKITTI class is among them. Road is a part of the ground, and
+/// Whether a point of this label is among them. Road is a part of the ground, and
 /// all of it where the road surface is not looked for.
-[[nodiscard]] bool belongs_to(CloudOf which, std::uint8_t label) noexcept;
+[[nodiscard]] constexpr bool belongs_to(CloudOf which, frame::Label label) noexcept {
+  switch (which) {
+    case CloudOf::kAll:
+      return true;
+    case CloudOf::kGround:
+      return frame::is_ground(label);
+    case CloudOf::kObstacles:
+      return label == frame::Label::kObstacle;
+    case CloudOf::kRoad:
+      return label == frame::Label::kGround;
+  }
+  return false;
+}
 
 /// `time_of_first_s`: of the frame's first packet, after the stamp of its header.
-[[nodiscard]] constexpr CloudPoint cloud_point(const stream::LabelledPoint& point,
+[[nodiscard]] constexpr CloudPoint cloud_point(const points::LabelledPoint& point,
                                                float time_of_first_s) noexcept {
   return {.x_m = point.x_m,
           .y_m = point.y_m,
           .z_m = point.z_m,
           .intensity = static_cast<float>(point.intensity),
           .ring = point.row,
-          .label = point.label,
+          .label = static_cast<std::uint8_t>(output::semantic_kitti_class(point.label)),
           .unused = 0,
           .time_s = point.time_s + time_of_first_s};
 }

@@ -7,13 +7,13 @@
 
 namespace terracut::ros_messages {
 
-void write_mount_transform(std::int64_t stamp_ns, const publish::Stream& stream,
+void write_mount_transform(std::int64_t stamp_ns, const publish::RunFacts& facts,
                            std::vector<std::byte>& message) {
   CdrWriter to(message);
   to.add_length(1);
-  add_header(to, stamp_ns, stream.sensor_frame_id);
-  to.add(std::string_view(stream.frame_id));
-  const mount::Pose pose = mount::vehicle_in_lidar(stream.mount);
+  add_header(to, stamp_ns, facts.sensor_frame_id);
+  to.add(std::string_view(facts.frame_id));
+  const mount::Pose pose = mount::vehicle_in_lidar(facts.mount);
   for (const double metres : pose.translation_m) to.add(metres);
   for (const double part : pose.rotation_xyzw) to.add(part);
 }

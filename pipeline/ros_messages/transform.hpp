@@ -12,7 +12,7 @@ namespace terracut::ros_messages {
 
 /// tf2_msgs/TFMessage in place of what is in `message`: where the points' frame lies in the
 /// sensor's, by the mount.
-void write_mount_transform(std::int64_t stamp_ns, const publish::Stream& stream,
+void write_mount_transform(std::int64_t stamp_ns, const publish::RunFacts& facts,
                            std::vector<std::byte>& message);
 
 }  // namespace terracut::ros_messages

@@ -83,13 +83,12 @@ FrameStreamServer::FrameStreamServer(const FrameStreamConfig& config, ListeningS
       peers_(config.max_peers),
       slots_(memory.take<Slot>("stream of frames", config.max_peers)) {
   for (Slot& slot : slots_) {
-    slot = {memory.take<LabelledPoint>("stream of frames", config.max_points), 0, 0};
+    slot = {memory.take<WirePoint>("stream of frames", config.max_points), 0, 0};
   }
   const bool is_unix = config.address.is_unix();
-  const std::size_t wanted =
-      config.send_buffer_bytes > 0
-          ? config.send_buffer_bytes
-          : sizeof(FrameWireHeader) + config.max_points * sizeof(LabelledPoint);
+  const std::size_t wanted = config.send_buffer_bytes > 0
+                                 ? config.send_buffer_bytes
+                                 : sizeof(FrameWireHeader) + config.max_points * sizeof(WirePoint);
   const files::OwnedDescriptor trial(
       ::socket(is_unix ? AF_UNIX : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   send_buffer_ = send_buffer_grant(wanted, request_send_buffer(trial.get(), wanted));
@@ -114,7 +113,8 @@ bool FrameStreamServer::serve(const LabelledFrame& frame) noexcept {
     }
     if (slot == kNoSlot) {
       slot = free_slot();
-      std::copy(frame.points.begin(), frame.points.end(), slots_[slot].room.begin());
+      std::transform(frame.points.begin(), frame.points.end(), slots_[slot].room.begin(),
+                     wire_point);
       slots_[slot].points = frame.points.size();
       ++slots_[slot].holders;  // until the last reader has been looked at
     }
@@ -297,7 +297,7 @@ std::size_t FrameStreamServer::backlog(const Peer& peer) const noexcept {
 }
 
 std::size_t FrameStreamServer::frame_bytes(const Peer& peer) const noexcept {
-  return sizeof(FrameWireHeader) + slots_[peer.slot].points * sizeof(LabelledPoint);
+  return sizeof(FrameWireHeader) + slots_[peer.slot].points * sizeof(WirePoint);
 }
 
 }  // namespace terracut::stream

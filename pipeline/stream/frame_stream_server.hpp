@@ -34,7 +34,7 @@ struct LabelledFrame {
   status::FrameRecord record;
   StreamedSensor sensor = StreamedSensor::kUnknown;
   bool late = false;  ///< Labelled after its deadline.
-  std::span<const LabelledPoint> points{};
+  std::span<const points::LabelledPoint> points{};
 };
 
 /// Since the start. Of each frame that was taken, every reader connected then either was sent it,
@@ -109,7 +109,7 @@ class FrameStreamServer {
   static constexpr std::size_t kNoSlot = static_cast<std::size_t>(-1);
 
   struct Slot {
-    std::span<LabelledPoint> room;
+    std::span<WirePoint> room;
     std::size_t points = 0;
     std::size_t holders = 0;
   };

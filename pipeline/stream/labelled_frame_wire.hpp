@@ -9,6 +9,8 @@
 #include <type_traits>
 
 #include "firmware_io/packet/sensor_model.hpp"
+#include "pipeline/output/label_sink.hpp"
+#include "pipeline/points/labelled_point.hpp"
 #include "pipeline/status/frame_record.hpp"
 
 /// A labelled frame as it goes over a socket (docs/reference/labelled_stream.md): one header, then
@@ -17,20 +19,30 @@ namespace terracut::stream {
 
 static_assert(std::endian::native == std::endian::little, "the records below are sent as they lie");
 
-/// One return. `label` is the SemanticKITTI class as in the .label files (label_sink.hpp); `row`
-/// that of the range image, 0 is the lowest laser.
-struct LabelledPoint {
-  float x_m = 0, y_m = 0, z_m = 0;  ///< Vehicle frame (calib/mount/mount.hpp).
+/// One return on the wire. `label` is the SemanticKITTI class as in the .label files
+/// (label_sink.hpp); the rest is as in points::LabelledPoint.
+struct WirePoint {
+  float x_m = 0, y_m = 0, z_m = 0;
   std::uint8_t intensity = 0;
   std::uint8_t label = 0;
   std::uint16_t row = 0;
-  float time_s = 0;  ///< When it was measured, after the first firing of the frame's first packet.
+  float time_s = 0;
 
-  bool operator==(const LabelledPoint&) const = default;
+  bool operator==(const WirePoint&) const = default;
 };
-static_assert(sizeof(LabelledPoint) == 20 && std::is_trivially_copyable_v<LabelledPoint>);
-static_assert(offsetof(LabelledPoint, intensity) == 12 && offsetof(LabelledPoint, label) == 13 &&
-              offsetof(LabelledPoint, row) == 14 && offsetof(LabelledPoint, time_s) == 16);
+static_assert(sizeof(WirePoint) == 20 && std::is_trivially_copyable_v<WirePoint>);
+static_assert(offsetof(WirePoint, intensity) == 12 && offsetof(WirePoint, label) == 13 &&
+              offsetof(WirePoint, row) == 14 && offsetof(WirePoint, time_s) == 16);
+
+[[nodiscard]] constexpr WirePoint wire_point(const points::LabelledPoint& point) noexcept {
+  return {point.x_m,
+          point.y_m,
+          point.z_m,
+          point.intensity,
+          static_cast<std::uint8_t>(output::semantic_kitti_class(point.label)),
+          point.row,
+          point.time_s};
+}
 
 /// Numbers of FrameWireHeader::sensor; they never change their meaning.
 enum class StreamedSensor : std::uint8_t {
@@ -88,7 +100,7 @@ struct FrameWireHeader {
   std::int64_t first_packet_ns = 0;  ///< CLOCK_REALTIME, kernel's stamps.
   std::int64_t last_packet_ns = 0;
   std::int64_t labels_ns = 0;  ///< CLOCK_REALTIME; when the labels were there. 0: not known.
-  std::uint16_t point_bytes = sizeof(LabelledPoint);
+  std::uint16_t point_bytes = sizeof(WirePoint);
   std::uint8_t sensor = 0;   ///< StreamedSensor.
   std::uint8_t level = 0;    ///< status::Level: 0 full, 1 cut stopped, 2 coarse, 3 skipped.
   std::uint32_t flags = 0;   ///< kFrameComplete, ...

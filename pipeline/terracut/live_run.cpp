@@ -13,20 +13,11 @@
 #include "firmware_io/terracut/points.hpp"
 #include "firmware_io/terracut/public_sensor.hpp"
 #include "pipeline/live/live_parts.hpp"
-#include "pipeline/live/mount_on_air.hpp"
-#include "pipeline/output/label_sink.hpp"
+#include "pipeline/run/mount_on_air.hpp"
 #include "rt/memory/locked_memory.hpp"
 
 namespace terracut {
 namespace {
-
-/// What was packed for a stream as a class of SemanticKITTI.
-Label label_of(std::uint8_t semantic_kitti_class) noexcept {
-  for (const Label label : {Label::kGround, Label::kObstacle, Label::kOtherGround}) {
-    if (output::semantic_kitti_class(label) == semantic_kitti_class) return label;
-  }
-  return Label::kNone;
-}
 
 Expected<streams::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Config& config,
                                       const LiveRun::StopWanted& stop_wanted) {
@@ -83,11 +74,11 @@ struct LiveRun::Engine {
   }
   void hand_out(const OnFrame& on_frame) {
     auto& slots = *parts->threads.points();
-    for (live::FramePool<stream::LabelledPoint>::Frame taken; slots.take(taken);) {
+    for (live::FramePool<points::LabelledPoint>::Frame taken; slots.take(taken);) {
       for (std::size_t i = 0; i < taken.items.size(); ++i) {
-        const stream::LabelledPoint& point = taken.items[i];
+        const points::LabelledPoint& point = taken.items[i];
         points[i] = {point.x_m, point.y_m, point.z_m, point.row, point.intensity};
-        labels[i] = label_of(point.label);
+        labels[i] = point.label;
         times_s[i] = point.time_s;
       }
       Frame frame{.number = taken.record.info.number,
@@ -148,7 +139,7 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
   std::optional<FoundMount> mount;
   if (config.find_mount) {
     const auto found =
-        live::mount_on_air(*source, *sensor, of_run.decoder, live::kGroundPatience, stop_wanted)
+        run::mount_on_air(*source, *sensor, of_run.decoder, run::kGroundPatience, stop_wanted)
             .certain();
     if (found) mount = public_mount(*found);
     if (!found && !config.guess_mount) return tl::unexpected(mount_not_found(found.error()));

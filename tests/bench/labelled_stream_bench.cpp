@@ -10,14 +10,14 @@
 
 #include "firmware_io/frame/each_return.hpp"
 #include "pipeline/output/label_sink.hpp"
+#include "pipeline/points/labelled_points.hpp"
 #include "pipeline/stream/frame_stream_server.hpp"
-#include "pipeline/stream/labelled_points.hpp"
 #include "tests/support/frame_stream_reader.hpp"
 
 namespace terracut {
 namespace {
 
-using stream::LabelledPoint;
+using points::LabelledPoint;
 
 /// A frame of rows x columns that arrives firing by firing, each row shifted against the others as
 /// by its laser's rotational correction; `full_percent` of the cells hold a return.
@@ -62,7 +62,7 @@ Frame frame_for(std::int64_t rows) {
 void pack_points(benchmark::State& state) {
   Frame frame = frame_for(state.range(0));
   for (auto each : state) {
-    benchmark::DoNotOptimize(stream::pack_labelled_points(frame.image, frame.labels, frame.points));
+    benchmark::DoNotOptimize(points::pack_labelled_points(frame.image, frame.labels, frame.points));
     benchmark::ClobberMemory();
   }
   report(state, frame);
@@ -74,12 +74,11 @@ void pack_points_row_by_row(benchmark::State& state) {
   Frame frame = frame_for(state.range(0));
   for (auto each : state) {
     frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
-      const auto label = output::semantic_kitti_class(frame.labels[placed.return_index]);
       frame.points[placed.return_index] = {placed.point.x_m,
                                            placed.point.y_m,
                                            placed.point.z_m,
                                            placed.point.intensity,
-                                           static_cast<std::uint8_t>(label),
+                                           frame.labels[placed.return_index],
                                            static_cast<std::uint16_t>(placed.row)};
     });
     benchmark::ClobberMemory();

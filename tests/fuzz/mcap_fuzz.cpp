@@ -96,11 +96,11 @@ publish::LabelledFrame frame_of(Input& input) {
   frame.record.info.first_packet_ns = stamp_ns(input);
   frame.record.info.last_packet_ns = stamp_ns(input);
   frame.record.labels_ns = stamp_ns(input);
-  const auto bytes = input.take(sizeof(stream::LabelledPoint) * input.next(1));
-  frame.points.resize(bytes.size() / sizeof(stream::LabelledPoint));
+  const auto bytes = input.take(sizeof(points::LabelledPoint) * input.next(1));
+  frame.points.resize(bytes.size() / sizeof(points::LabelledPoint));
   if (!frame.points.empty()) {
     std::memcpy(frame.points.data(), bytes.data(),
-                frame.points.size() * sizeof(stream::LabelledPoint));
+                frame.points.size() * sizeof(points::LabelledPoint));
   }
   return frame;
 }
@@ -124,7 +124,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const auto text = input.take(input.next(1));
   config.metadata = {{"key", std::string(text.begin(), text.end())}};
-  publish::Stream stream;
+  publish::RunFacts stream;
   if (!has_transform) stream.sensor_frame_id.clear();
   auto sink = mcap::McapSink::open(std::move(config), stream);
   require(sink.has_value(), "a recording cannot be begun");

@@ -22,7 +22,7 @@ namespace terracut::test {
 
 struct ReceivedFrame {
   stream::FrameWireHeader header;
-  std::vector<stream::LabelledPoint> points;
+  std::vector<stream::WirePoint> points;
 };
 
 /// The other end of a FrameStreamServer, as a C++ program downstream may have it: senders with
@@ -51,7 +51,7 @@ class FrameStreamReader {
     const bool is_known = *begun == sizeof header && header.magic == stream::kFrameMagic &&
                           header.version == stream::kFrameWireVersion &&
                           header.header_bytes >= sizeof header &&
-                          header.point_bytes >= sizeof(stream::LabelledPoint) &&
+                          header.point_bytes >= sizeof(stream::WirePoint) &&
                           header.points <= stream::kMostFramePoints;
     if (!is_known) return fail(ErrorCode::kMalformed, "no header of a labelled frame");
     const std::size_t more_header = header.header_bytes - sizeof header;
@@ -62,7 +62,7 @@ class FrameStreamReader {
     frame.points.resize(header.points);
     for (std::size_t n = 0; n < frame.points.size(); ++n) {
       std::memcpy(&frame.points[n], rest_.data() + more_header + n * header.point_bytes,
-                  sizeof(stream::LabelledPoint));
+                  sizeof(stream::WirePoint));
     }
     return true;
   }

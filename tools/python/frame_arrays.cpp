@@ -13,7 +13,7 @@ namespace terracut::python {
 namespace py = pybind11;
 namespace {
 
-using Point = stream::LabelledPoint;
+using Point = stream::WirePoint;
 
 py::dtype point_type() {
   py::list names, formats, offsets;

@@ -18,7 +18,7 @@ namespace terracut::python {
 struct FrameData {
   frame::FrameInfo info;
   std::optional<status::FrameRecord> record;  ///< None: of a live run.
-  std::vector<stream::LabelledPoint> points;
+  std::vector<stream::WirePoint> points;
 };
 
 /// Frames whose memory is used again once Python has dropped the last array that looks at it.

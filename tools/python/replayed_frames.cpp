@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "json_object.hpp"
-#include "pipeline/stream/labelled_points.hpp"
+#include "pipeline/points/labelled_points.hpp"
 #include "raised_error.hpp"
 #include "tools/cli/arguments/arguments.hpp"
 
@@ -33,11 +33,13 @@ Expected<std::shared_ptr<FrameData>> ReplayedFrames::next_unlocked() {
     std::shared_ptr<FrameData> data = buffers_.take();
     data->info = frame->record.info;
     data->record = frame->record;
-    data->points.resize(frame->image->returns());
-    if (!stream::pack_labelled_points(*frame->image, capture_->labels(), data->points,
+    labelled_.resize(frame->image->returns());
+    if (!points::pack_labelled_points(*frame->image, capture_->labels(), labelled_,
                                       capture_->timing(*frame))) {
       return fail(ErrorCode::kMalformed, "a frame has not as many labels as returns");
     }
+    data->points.resize(labelled_.size());
+    std::ranges::transform(labelled_, data->points.begin(), stream::wire_point);
     return data;
   }
   if (std::exchange(concluded_, true)) return nullptr;

@@ -32,6 +32,7 @@ class ReplayedFrames {
   std::mutex mutex_;
   std::unique_ptr<cli::LabelledCapture> capture_;
   FrameBuffers buffers_;
+  std::vector<points::LabelledPoint> labelled_;  ///< Of the frame at hand.
   bool concluded_ = false;
 };
 

@@ -122,9 +122,9 @@ class LiveFrames : public testing::Test {
   void begin_receiving() { receive_gathering(0); }
   void receive_gathering(std::int64_t longest_gathering_ns, std::size_t room_packets = 10'000) {
     receiver_.emplace(Receiver::Config{.deadline_ns = kDeadline_ns,
-                                       .frame_period_ns = kFramePeriod_ns,
-                                       .longest_gathering_ns = longest_gathering_ns,
-                                       .room_packets = room_packets},
+                                       .gathering = {.frame_period_ns = kFramePeriod_ns,
+                                                     .longest_ns = longest_gathering_ns,
+                                                     .room_packets = room_packets}},
                       chain_, source_,
                       Receiver::Outlets{.frames = &frames_,
                                         .frame_ready = &*frame_ready_,

@@ -72,7 +72,7 @@ class McapSinkTest : public testing::Test {
       frame.points.resize(points);
       for (std::size_t i = 0; i < points; ++i) {
         frame.points[i].x_m = static_cast<float>(i) * 0.37F;
-        frame.points[i].label = i % 3 == 0 ? 99 : 40;
+        frame.points[i].label = i % 3 == 0 ? frame::Label::kObstacle : frame::Label::kGround;
       }
       ASSERT_TRUE(sink.put(frame));
     }

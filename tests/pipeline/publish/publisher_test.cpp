@@ -28,7 +28,7 @@ struct Watched {
   bool fails = false, throws = false;
   std::chrono::milliseconds frame_takes{0};  ///< put() takes so long
   Numbers begun, done;
-  std::set<const stream::LabelledPoint*> rooms;  ///< Where points lay.
+  std::set<const points::LabelledPoint*> rooms;  ///< Where points lay.
   int figures = 0, finished = 0;
 
   void set_open(bool open) {

@@ -50,10 +50,10 @@ publish::LabelledFrame small_frame() {
   publish::LabelledFrame frame;
   frame.record.info.first_packet_ns = 5'250'000'000;
   frame.record.info.last_packet_ns = 5'350'000'000;
-  frame.points = {{1, 2, 3, 200, 99, 63, 0.5F},
-                  {4, 5, 6, 100, 40, 0, 0.25F},
-                  {7, 8, 9, 50, 49, 1, 0.125F},
-                  {0, 0, 0, 0, 0, 2, 0}};
+  frame.points = {{1, 2, 3, 200, frame::Label::kObstacle, 63, 0.5F},
+                  {4, 5, 6, 100, frame::Label::kGround, 0, 0.25F},
+                  {7, 8, 9, 50, frame::Label::kOtherGround, 1, 0.125F},
+                  {0, 0, 0, 0, frame::Label::kNone, 2, 0}};
   return frame;
 }
 
@@ -117,7 +117,7 @@ TEST(DiagnosticArray, HoldsEachDiagnosisWithItsValues) {
 }
 
 TEST(Transform, TellsWhereThePointsFrameLiesInTheSensors) {
-  publish::Stream stream;
+  publish::RunFacts stream;
   stream.mount.height_m = 2;
   Bytes message;
   write_mount_transform(1'000'000'000, stream, message);

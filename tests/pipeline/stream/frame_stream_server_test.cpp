@@ -41,7 +41,7 @@ class FrameStream : public StreamTest {
     ASSERT_TRUE(result.has_value()) << result.error().message;
     ASSERT_TRUE(*result) << "the stream ended";
     EXPECT_EQ(frame.header.number, number);
-    EXPECT_EQ(frame.points, points_of_frame(number, points));
+    EXPECT_EQ(frame.points, on_wire(points_of_frame(number, points)));
   }
   void serve(std::uint32_t number, std::size_t points) {
     ASSERT_TRUE(server().serve(frame_of(number, points_of_frame(number, points))));
@@ -74,7 +74,7 @@ TEST_P(FrameStream, HandsOverHeaderAndPointsAsTheyWereGiven) {
                                            .sensor = 1,
                                            .level = 2,
                                            .flags = kFrameComplete | kFrameLate | kFrameDeskewed}));
-  EXPECT_EQ(frame.points, points);
+  EXPECT_EQ(frame.points, on_wire(points));
   given.record.info.deskew.state = frame::DeskewState::kNoEgoMotion;
   ASSERT_TRUE(server().serve(given));
   ASSERT_TRUE(receive(first, frame).value_or(false));
@@ -89,7 +89,7 @@ TEST_P(FrameStream, EveryReaderGetsTheWholeFrame) {
   for (FrameStreamReader& each : readers) expect_frame(each, 0, kManyPoints);
   EXPECT_EQ(figures().sent, 3U);
   EXPECT_EQ(figures().missed, 0U);
-  EXPECT_EQ(figures().bytes, 3 * (sizeof(FrameWireHeader) + kManyPoints * sizeof(LabelledPoint)));
+  EXPECT_EQ(figures().bytes, 3 * (sizeof(FrameWireHeader) + kManyPoints * sizeof(WirePoint)));
 }
 
 TEST_P(FrameStream, AFrameWithoutPointsIsAFrame) {
@@ -140,7 +140,7 @@ TEST_P(FrameStream, ASlowReaderMissesWholeFramesAndAQuickOneNone) {
   ASSERT_TRUE(receive(slow, frame).value_or(false));
   EXPECT_EQ(frame.header.number, 5U) << "the newest one, none of those between";
   EXPECT_EQ(frame.header.missed, 4U);
-  EXPECT_EQ(frame.points, points_of_frame(5, 10));
+  EXPECT_EQ(frame.points, on_wire(points_of_frame(5, 10)));
 }
 
 TEST_P(FrameStream, ReadersStuckInDifferentFramesLeaveRoomForTheOthers) {
@@ -398,7 +398,7 @@ Seen read_all(FrameStreamReader reader, std::chrono::microseconds pause) {
     const std::uint32_t number = frame.header.number;
     // Every frame before this one was either seen or is counted as missed.
     if (seen.frames + frame.header.missed != number) ++seen.wrong;
-    if (frame.points != points_of_frame(number, frame.header.points)) ++seen.wrong;
+    if (frame.points != on_wire(points_of_frame(number, frame.header.points))) ++seen.wrong;
     ++seen.frames;
     seen.missed = frame.header.missed;
     seen.last = number;
@@ -465,8 +465,8 @@ TEST(FrameStreamServer, TakesRoomForAFrameAReaderFromThePlannedMemory) {
   memory::FixedMemory memory;
   const auto server = FrameStreamServer::open({.max_points = 1000, .max_peers = 3}, memory);
   ASSERT_TRUE(server.has_value());
-  EXPECT_GE(memory.total_bytes(), 3 * 1000 * sizeof(LabelledPoint));
-  EXPECT_LE(memory.total_bytes(), 3 * 1000 * sizeof(LabelledPoint) + 1024);
+  EXPECT_GE(memory.total_bytes(), 3 * 1000 * sizeof(WirePoint));
+  EXPECT_LE(memory.total_bytes(), 3 * 1000 * sizeof(WirePoint) + 1024);
 }
 
 TEST(FrameStreamServer, TellsWhatSendBufferItGot) {

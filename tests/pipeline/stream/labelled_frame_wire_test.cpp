@@ -39,7 +39,7 @@ TEST(LabelledFrameWire, HeaderHasTheDocumentedBytes) {
 }
 
 TEST(LabelledFrameWire, PointHasTheDocumentedBytes) {
-  const LabelledPoint point{1.0F, -2.0F, 0.5F, 200, 99, 0x0102, 0.0625F};
+  const WirePoint point{1.0F, -2.0F, 0.5F, 200, 99, 0x0102, 0.0625F};
   const std::array<std::uint8_t, 20> expected{0, 0,    0x80, 0x3F, 0,    0,    0, 0xC0, 0,    0,
                                               0, 0x3F, 200,  99,   0x02, 0x01, 0, 0,    0x80, 0x3D};
   EXPECT_EQ((std::bit_cast<std::array<std::uint8_t, 20>>(point)), expected);

@@ -54,7 +54,7 @@ TEST_F(ListeningSocketTest, AnAddressOfAnotherMachineIsRefused) {
 
 TEST_F(ListeningSocketTest, AUnixSocketHasTheRightsThatAreAskedForWhateverTheUmask) {
   const auto mode = [&] {
-    struct ::stat status {};
+    struct ::stat status{};
     EXPECT_EQ(::lstat(address_.unix_path.c_str(), &status), 0);
     return status.st_mode & 0777U;
   };
@@ -78,7 +78,9 @@ TEST_F(ListeningSocketTest, TheFileOfAUnixSocketGoesWithIt) {
   auto socket = ListeningSocket::open(address_);
   ASSERT_TRUE(socket.has_value()) << socket.error().message;
   EXPECT_TRUE(std::filesystem::is_socket(address_.unix_path));
-  { const ListeningSocket moved = *std::move(socket); }
+  {
+    const ListeningSocket moved = *std::move(socket);
+  }
   EXPECT_FALSE(std::filesystem::exists(address_.unix_path));
 }
 

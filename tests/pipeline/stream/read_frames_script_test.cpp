@@ -83,8 +83,9 @@ TEST_P(ReadFramesScript, WritesPcdFilesWithThePointsAsTheyWere) {
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   std::ifstream file(folder_ / "000003.pcd", std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(file), {}};
-  const std::string_view bytes(reinterpret_cast<const char*>(points.data()),
-                               points.size() * sizeof(LabelledPoint));
+  const auto wire = on_wire(points);
+  const std::string_view bytes(reinterpret_cast<const char*>(wire.data()),
+                               wire.size() * sizeof(WirePoint));
   EXPECT_THAT(content, testing::HasSubstr("\nSIZE 4 4 4 1 1 2 4\n"));
   ASSERT_GT(content.size(), bytes.size());
   EXPECT_EQ(content.substr(content.size() - bytes.size()), bytes);

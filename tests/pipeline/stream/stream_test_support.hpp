@@ -29,20 +29,28 @@ using test::ReceivedFrame;
 inline constexpr int kTestPatience_ms = 200'000;
 
 /// Points of which each tells its frame and its place in it.
-inline std::vector<LabelledPoint> points_of_frame(std::uint32_t number, std::size_t count) {
-  std::vector<LabelledPoint> points(count);
+inline std::vector<points::LabelledPoint> points_of_frame(std::uint32_t number, std::size_t count) {
+  std::vector<points::LabelledPoint> points(count);
   for (std::size_t n = 0; n < count; ++n) {
     points[n] = {static_cast<float>(n),
                  static_cast<float>(number),
                  -0.5F,
                  static_cast<std::uint8_t>(n * 7 + number),
-                 static_cast<std::uint8_t>(n % 3 == 0 ? 40 : 99),
+                 n % 3 == 0 ? frame::Label::kGround : frame::Label::kObstacle,
                  static_cast<std::uint16_t>(n % 64)};
   }
   return points;
 }
 
-inline LabelledFrame frame_of(std::uint32_t number, const std::vector<LabelledPoint>& points) {
+/// The same points as they go over the wire.
+inline std::vector<WirePoint> on_wire(const std::vector<points::LabelledPoint>& points) {
+  std::vector<WirePoint> wire(points.size());
+  std::ranges::transform(points, wire.begin(), wire_point);
+  return wire;
+}
+
+inline LabelledFrame frame_of(std::uint32_t number,
+                              const std::vector<points::LabelledPoint>& points) {
   LabelledFrame frame{.record = {}, .sensor = StreamedSensor::kHdl64e, .points = points};
   frame.record.info.number = number;
   frame.record.info.first_packet_ns = 1'000'000'000LL * number;

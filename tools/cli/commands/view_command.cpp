@@ -21,7 +21,7 @@ namespace terracut::cli {
 
 namespace {
 
-ExitCode show(PlayedRecording& recording, const publish::Stream& stream, const Options& options) {
+ExitCode show(PlayedRecording& recording, const publish::RunFacts& stream, const Options& options) {
   CapturePlayer player(recording);
   auto page = ViewSink::open(options.view_at, stream, &player);
   if (!page) return refuse(page.error());

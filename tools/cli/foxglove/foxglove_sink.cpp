@@ -15,11 +15,11 @@ using Bytes = std::vector<std::byte>;
 
 }  // namespace
 
-FoxgloveSink::FoxgloveSink(FoxgloveServer server, publish::Stream stream)
-    : server_(std::move(server)), stream_(std::move(stream)) {
-  if (stream_.sensor_frame_id.empty()) return;
+FoxgloveSink::FoxgloveSink(FoxgloveServer server, publish::RunFacts facts)
+    : server_(std::move(server)), facts_(std::move(facts)) {
+  if (facts_.sensor_frame_id.empty()) return;
   auto message = std::make_shared<Bytes>();
-  ros_messages::write_mount_transform(0, stream_, *message);
+  ros_messages::write_mount_transform(0, facts_, *message);
   server_.keep(ros_messages::kTransformsTopic, 0, std::move(message));
 }
 
@@ -29,7 +29,7 @@ Status FoxgloveSink::put(const publish::LabelledFrame& frame) {
     const auto& cloud = ros_messages::kTopics[topic].cloud;
     if (!cloud || !server_.is_wanted(topic)) continue;
     auto message = std::make_shared<Bytes>();
-    ros_messages::write_point_cloud(frame, *cloud, stream_.frame_id, *message);
+    ros_messages::write_point_cloud(frame, *cloud, facts_.frame_id, *message);
     server_.publish(topic, time_ns, std::move(message));
   }
   return {};

@@ -18,7 +18,7 @@ namespace terracut::cli {
 /// subscribed to is not made.
 class FoxgloveSink final : public publish::FrameSink {
  public:
-  FoxgloveSink(FoxgloveServer server, publish::Stream stream);
+  FoxgloveSink(FoxgloveServer server, publish::RunFacts facts);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "foxglove"; }
   [[nodiscard]] Status put(const publish::LabelledFrame& frame) override;
@@ -27,7 +27,7 @@ class FoxgloveSink final : public publish::FrameSink {
 
  private:
   FoxgloveServer server_;
-  publish::Stream stream_;
+  publish::RunFacts facts_;
   publish::Diagnoses diagnoses_;
 };
 

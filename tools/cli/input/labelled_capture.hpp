@@ -12,8 +12,8 @@
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "mount_choice.hpp"
 #include "open_capture.hpp"
+#include "pipeline/points/labelled_points.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
-#include "pipeline/stream/labelled_points.hpp"
 #include "recorded_motion.hpp"
 #include "rt/error.hpp"
 #include "tools/cli/figures/run_report.hpp"
@@ -44,8 +44,8 @@ class LabelledCapture {
     return pipeline_->labels();
   }
   /// When its returns were measured.
-  [[nodiscard]] stream::FrameTiming timing(const run::Frame& frame) const noexcept {
-    return stream::FrameTiming::of(frame.record.info, decoder().beam_turns());
+  [[nodiscard]] points::FrameTiming timing(const run::Frame& frame) const noexcept {
+    return points::FrameTiming::of(frame.record.info, decoder().beam_turns());
   }
 
   /// From the beginning again, or from so many seconds behind it, where the first frame lacks what

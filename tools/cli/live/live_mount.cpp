@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "tools/cli/live/live_mount.hpp"
 
-#include "pipeline/live/mount_on_air.hpp"
+#include "pipeline/run/mount_on_air.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 
@@ -12,9 +12,9 @@ MountChoice mount_on_air(net::LiveSource& source, const streams::SensorOnAir& se
                          const Options& options, const OnWaiting& on_waiting) {
   if (!is_mount_open(options.mount)) return {.options = options.mount};
   constexpr std::chrono::seconds kForAGuess{3};
-  const mount::MountFinder finder = live::mount_on_air(
+  const mount::MountFinder finder = run::mount_on_air(
       source, sensor, decoder_config_of(options, sensor.columns, FramesAreFor::kPoints),
-      options.mount.may_guess ? kForAGuess : live::kGroundPatience, stop_wanted, on_waiting);
+      options.mount.may_guess ? kForAGuess : run::kGroundPatience, stop_wanted, on_waiting);
   return choose_mount(guessing(options.mount), finder).value();
 }
 

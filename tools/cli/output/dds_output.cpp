@@ -65,7 +65,7 @@ Status check_dds() {
 }
 
 Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& options,
-                                                            const publish::Stream& stream) {
+                                                            const publish::RunFacts& facts) {
   constexpr std::int64_t kPatience_ns = 10'000'000'000;
   const DdsTopics topics = dds_topics_of(options);
   const auto topic = [&](const std::string& name) { return dds_topic_of(name, options); };
@@ -75,13 +75,13 @@ Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& op
                           .points = topic(topics.points),
                           .ground = topic(topics.ground),
                           .obstacles = topic(topics.obstacles),
-                          .road = stream.has_road ? topic(topics.road) : "",
+                          .road = facts.has_road ? topic(topics.road) : "",
                           .raw = topic(topics.raw),
                           .diagnostics = topic(topics.diagnostics),
                           .tf_static = topic("/tf_static"),
                           // Nothing of a recording is to be lost; a live run waits for nobody.
-                          .patience_ns = stream.deadline_ns == 0 ? kPatience_ns : 0},
-                         stream);
+                          .patience_ns = facts.deadline_ns == 0 ? kPatience_ns : 0},
+                         facts);
   if (!sink) return tl::unexpected(sink.error());
   say(fmt::format("ROS 2 messages on DDS domain {}: {}", (*sink)->domain(), topic_list(options)));
   return std::unique_ptr<publish::FrameSink>(*std::move(sink));

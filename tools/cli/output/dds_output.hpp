@@ -23,6 +23,6 @@ struct DdsTopics {
 /// The output that --dds asks for; its topics are said. The errors of check_dds() and of
 /// dds::DdsSink::open().
 [[nodiscard]] Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(
-    const DdsOptions& options, const publish::Stream& stream);
+    const DdsOptions& options, const publish::RunFacts& facts);
 
 }  // namespace terracut::cli

@@ -83,21 +83,21 @@ Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImag
                    legend_of(judged)));
 }
 
-Status FrameOutputs::open(const publish::Stream& stream) {
+Status FrameOutputs::open(const publish::RunFacts& facts) {
   if (!wants_sinks(options_)) return {};
-  auto sinks = open_sinks(options_, stream);
+  auto sinks = open_sinks(options_, facts);
   if (!sinks) return tl::unexpected(sinks.error());
   publisher_.emplace(*std::move(sinks), publish::WhenFull::kWait, warn_of_failure);
   return {};
 }
 
 Status FrameOutputs::publish(const status::FrameRecord& record, const frame::RangeImage& image,
-                             std::span<const Label> labels, const stream::FrameTiming& timing) {
+                             std::span<const Label> labels, const points::FrameTiming& timing) {
   if (!publisher_) return {};
   const auto shared = publisher_->buffer();
   shared->record = record;
   shared->points.resize(labels.size());
-  (void)stream::pack_labelled_points(image, labels, shared->points, timing);
+  (void)points::pack_labelled_points(image, labels, shared->points, timing);
   publisher_->put(shared);
   return publisher_->outcome();
 }

@@ -13,9 +13,9 @@
 #include "pipeline/output/frame_folder.hpp"
 #include "pipeline/pictures/frame_colours.hpp"
 #include "pipeline/pictures/png_picture.hpp"
+#include "pipeline/points/labelled_points.hpp"
 #include "pipeline/publish/publisher.hpp"
 #include "pipeline/publish/run_facts.hpp"
-#include "pipeline/stream/labelled_points.hpp"
 #include "rt/error.hpp"
 #include "tools/cli/files/frame_folder_of.hpp"
 #include "tools/cli/options.hpp"
@@ -38,7 +38,7 @@ class FrameOutputs {
   }
 
   /// Before the first frame: the outputs that get frames as they come (export/output_sinks.hpp).
-  [[nodiscard]] Status open(const publish::Stream& stream);
+  [[nodiscard]] Status open(const publish::RunFacts& facts);
 
   /// NAME.label, in the order of `labels`.
   [[nodiscard]] Status write_labels(const std::string& name, std::span<const frame::Label> labels);
@@ -54,7 +54,7 @@ class FrameOutputs {
   /// error. `timing`: when its returns were measured.
   [[nodiscard]] Status publish(const status::FrameRecord& record, const frame::RangeImage& image,
                                std::span<const frame::Label> labels,
-                               const stream::FrameTiming& timing = {});
+                               const points::FrameTiming& timing = {});
 
   /// After the last frame, completes the outputs that open() opened.
   [[nodiscard]] Status finish();

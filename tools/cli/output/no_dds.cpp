@@ -26,7 +26,7 @@ ExitCode run_node(const Options& /*options*/) {
 }
 
 Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& /*options*/,
-                                                            const publish::Stream& /*stream*/) {
+                                                            const publish::RunFacts& /*facts*/) {
   return tl::unexpected(dds_absence());
 }
 

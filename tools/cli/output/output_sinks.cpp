@@ -36,29 +36,29 @@ mcap::McapSink::Config mcap_config_of(const OutputOptions& options, bool unatten
           .unattended = unattended};
 }
 
-Expected<Sink> open_mcap(const OutputOptions& options, const publish::Stream& stream,
+Expected<Sink> open_mcap(const OutputOptions& options, const publish::RunFacts& facts,
                          bool unattended) {
   std::error_code error;
   if (!unattended && std::filesystem::is_regular_file(options.mcap.path, error)) {
     say("will be replaced: " + options.mcap.path.string());
   }
-  auto sink = mcap::McapSink::open(mcap_config_of(options, unattended), stream);
+  auto sink = mcap::McapSink::open(mcap_config_of(options, unattended), facts);
   if (!sink) return tl::unexpected(sink.error());
   if (unattended) say("recording to " + (*sink)->path().string());
   return *std::move(sink);
 }
 
-Expected<Sink> open_view(const std::string& endpoint, const publish::Stream& stream) {
-  auto view = ViewSink::open(endpoint, stream, nullptr);
+Expected<Sink> open_view(const std::string& endpoint, const publish::RunFacts& facts) {
+  auto view = ViewSink::open(endpoint, facts, nullptr);
   if (!view) return tl::unexpected(view.error());
   say("look at the frames in a browser: " + (*view)->url());
   return *std::move(view);
 }
 
 /// The names of coordinate frames that the options say.
-void name_frames(const OutputOptions& options, publish::Stream& stream) {
-  stream.frame_id = options.frame_id;
-  stream.sensor_frame_id = options.sensor_frame_id == "off" ? "" : options.sensor_frame_id;
+void name_frames(const OutputOptions& options, publish::RunFacts& facts) {
+  facts.frame_id = options.frame_id;
+  facts.sensor_frame_id = options.sensor_frame_id == "off" ? "" : options.sensor_frame_id;
 }
 
 bool wants_view(const OutputOptions& options) {
@@ -73,27 +73,27 @@ struct Output {
   bool is_to_be_whole = false;
 };
 
-std::vector<Output> outputs_of(const OutputOptions& options, publish::Stream stream,
+std::vector<Output> outputs_of(const OutputOptions& options, publish::RunFacts facts,
                                bool unattended) {
-  name_frames(options, stream);
+  name_frames(options, facts);
   std::vector<Output> outputs;
   if (!options.mcap.path.empty()) {
     outputs.push_back({.name = "mcap",
-                       .open = [=] { return open_mcap(options, stream, unattended); },
+                       .open = [=] { return open_mcap(options, facts, unattended); },
                        .queue_frames = mcap::McapSink::kQueueFrames,
                        .is_to_be_whole = true});
   }
   if (!options.foxglove.empty()) {
     outputs.push_back(
-        {.name = "foxglove", .open = [=] { return open_foxglove(options, stream, nullptr); }});
+        {.name = "foxglove", .open = [=] { return open_foxglove(options, facts, nullptr); }});
   }
   if (options.dds.publishes) {
     outputs.push_back({.name = "dds",
-                       .open = [=] { return open_dds_sink(options.dds, stream); },
+                       .open = [=] { return open_dds_sink(options.dds, facts); },
                        .is_to_be_whole = true});
   }
   if (wants_view(options)) {
-    outputs.push_back({.name = "view", .open = [=] { return open_view(options.view, stream); }});
+    outputs.push_back({.name = "view", .open = [=] { return open_view(options.view, facts); }});
   }
   return outputs;
 }
@@ -101,27 +101,27 @@ std::vector<Output> outputs_of(const OutputOptions& options, publish::Stream str
 }  // namespace
 
 Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(const OutputOptions& options,
-                                                            publish::Stream stream,
+                                                            publish::RunFacts facts,
                                                             ViewedCapture* capture) {
-  name_frames(options, stream);
+  name_frames(options, facts);
   std::vector<bool> topics(ros_messages::kTopics.size(), true);
   for (std::size_t i = 0; i < topics.size(); ++i) {
     // Without the road's surface all ground is road.
     if (ros_messages::kTopics[i].cloud == ros_messages::CloudOf::kRoad) {
-      topics[i] = stream.has_road;
+      topics[i] = facts.has_road;
     }
   }
-  topics[ros_messages::kTransformsTopic] = !stream.sensor_frame_id.empty();
+  topics[ros_messages::kTransformsTopic] = !facts.sensor_frame_id.empty();
   const net::Ipv4Endpoint at = stream::parse_serving_endpoint(options.foxglove).value();
   auto server = FoxgloveServer::start({.at = at,
-                                       .name = "terracut: " + stream.sensor,
+                                       .name = "terracut: " + facts.sensor,
                                        .topics = std::move(topics),
                                        .origins = options.foxglove_origins,
                                        .capture = capture});
   if (!server) return tl::unexpected(server.error());
   say(fmt::format("Foxglove and Lichtblick connect to ws://{}:{}", net::ipv4_text(at.address),
                   server->port()));
-  return std::make_unique<FoxgloveSink>(*std::move(server), std::move(stream));
+  return std::make_unique<FoxgloveSink>(*std::move(server), std::move(facts));
 }
 
 bool wants_sinks(const OutputOptions& options) {
@@ -130,9 +130,9 @@ bool wants_sinks(const OutputOptions& options) {
 }
 
 Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
-                                               publish::Stream stream) {
+                                               publish::RunFacts facts) {
   publish::Publisher::Sinks sinks;
-  for (const Output& output : outputs_of(options, std::move(stream), false)) {
+  for (const Output& output : outputs_of(options, std::move(facts), false)) {
     auto sink = output.open();
     if (!sink) return tl::unexpected(sink.error());
     sinks.push_back(*std::move(sink));
@@ -140,9 +140,9 @@ Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
   return sinks;
 }
 
-publish::Publisher::Sinks retried_sinks(const OutputOptions& options, publish::Stream stream) {
+publish::Publisher::Sinks retried_sinks(const OutputOptions& options, publish::RunFacts facts) {
   publish::Publisher::Sinks sinks;
-  for (Output& output : outputs_of(options, std::move(stream), true)) {
+  for (Output& output : outputs_of(options, std::move(facts), true)) {
     const auto tell = [name = output.name](const Status& now) {
       tell_of_door("frames for " + name, now);
     };

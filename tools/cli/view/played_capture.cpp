@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "firmware_io/capture/capture_clock.hpp"
-#include "pipeline/stream/labelled_points.hpp"
+#include "pipeline/points/labelled_points.hpp"
 
 namespace terracut::cli {
 
@@ -73,7 +73,7 @@ std::optional<PlayedRecording::Span> PlayedCapture::next() {
 void PlayedCapture::take(publish::LabelledFrame& frame) {
   frame.record = frame_->record;
   frame.points.resize(frame_->image->returns());
-  (void)stream::pack_labelled_points(*frame_->image, capture_.labels(), frame.points,
+  (void)points::pack_labelled_points(*frame_->image, capture_.labels(), frame.points,
                                      capture_.timing(*frame_));
   if (!ahead_) ahead_ = frame.record.info.number - number_of(span_.end_ns);
   frame.record.info.number -= *ahead_;

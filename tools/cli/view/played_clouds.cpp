@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "pipeline/stream/labelled_points.hpp"
+#include "pipeline/points/labelled_points.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/recorded_frames.hpp"
@@ -78,7 +78,7 @@ Status PlayedClouds::label(std::size_t index) {
 void PlayedClouds::take(publish::LabelledFrame& frame) {
   frame.record = record_;
   frame.points.resize(labeller_->image.returns());
-  (void)stream::pack_labelled_points(labeller_->image, labeller_->method.labels(), frame.points);
+  (void)points::pack_labelled_points(labeller_->image, labeller_->method.labels(), frame.points);
 }
 
 Status PlayedClouds::go_to(double seek_s) {

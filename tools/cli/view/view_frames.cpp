@@ -18,12 +18,13 @@ double milliseconds(std::int64_t ns) {
 
 }  // namespace
 
-ViewFrames::ViewFrames(const publish::Stream& stream) : stream_(stream) {}
+ViewFrames::ViewFrames(const publish::RunFacts& facts) : facts_(facts) {}
 
 void ViewFrames::put(const publish::LabelledFrame& frame) {
   const std::shared_ptr<Kept> room = rooms_.take();
   const Shown of_frame = shown(frame.record);
-  room->points.assign(frame.points.begin(), frame.points.end());
+  room->points.resize(frame.points.size());
+  std::ranges::transform(frame.points, room->points.begin(), stream::wire_point);
   room->header = stream::header_of(frame.record, stream::StreamedSensor::kUnknown, of_frame.missed,
                                    frame.points.size());
   const std::lock_guard lock(mutex_);
@@ -45,20 +46,20 @@ ViewFrames::Turn ViewFrames::newest() const {
 }
 
 ViewFrames::Shown ViewFrames::shown(const status::FrameRecord& record) const noexcept {
-  if (stream_.deadline_ns == 0) {
+  if (facts_.deadline_ns == 0) {
     return {milliseconds(record.decode_cpu_ns + record.stages.sum_ns()), record.level, false};
   }
   const std::int64_t latency_ns = record.labels_ns - record.info.last_packet_ns;
-  return {milliseconds(latency_ns), record.level, latency_ns > stream_.deadline_ns};
+  return {milliseconds(latency_ns), record.level, latency_ns > facts_.deadline_ns};
 }
 
 nlohmann::ordered_json ViewFrames::figures() const {
   nlohmann::ordered_json json;
   const std::lock_guard lock(mutex_);
-  json["sensor"] = stream_.sensor;
-  json["rows"] = stream_.rows;
+  json["sensor"] = facts_.sensor;
+  json["rows"] = facts_.rows;
   json["deadline_ms"] = nullptr;
-  if (stream_.deadline_ns > 0) json["deadline_ms"] = milliseconds(stream_.deadline_ns);
+  if (facts_.deadline_ns > 0) json["deadline_ms"] = milliseconds(facts_.deadline_ns);
   json["frames"] = nlohmann::ordered_json::array();
   for (const Shown& frame : shown_) {
     json["frames"].push_back({frame.ms, static_cast<int>(frame.level), frame.missed});

@@ -27,7 +27,7 @@ class ViewFrames {
  public:
   struct Kept {
     stream::FrameWireHeader header;
-    std::vector<stream::LabelledPoint> points;
+    std::vector<stream::WirePoint> points;
   };
   struct Turn {
     std::uint64_t number = 0;           ///< 1.. of the frames that were put; 0: none yet.
@@ -35,7 +35,7 @@ class ViewFrames {
   };
   static constexpr std::size_t kFramesShown = 300;
 
-  explicit ViewFrames(const publish::Stream& stream);
+  explicit ViewFrames(const publish::RunFacts& facts);
 
   /// Copies the frame.
   void put(const publish::LabelledFrame& frame);
@@ -55,7 +55,7 @@ class ViewFrames {
   };
   [[nodiscard]] Shown shown(const status::FrameRecord& record) const noexcept;
 
-  publish::Stream stream_;
+  publish::RunFacts facts_;
   /// As many as browsers, one for the newest and one for the next.
   memory::UsedAgain<Kept> rooms_;
   mutable std::mutex mutex_;

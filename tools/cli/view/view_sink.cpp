@@ -12,16 +12,16 @@
 
 namespace terracut::cli {
 
-ViewSink::ViewSink(const publish::Stream& stream, ViewedCapture* capture)
-    : frames_(stream), source_{frames_, capture} {}
+ViewSink::ViewSink(const publish::RunFacts& facts, ViewedCapture* capture)
+    : frames_(facts), source_{frames_, capture} {}
 
 Expected<std::unique_ptr<ViewSink>> ViewSink::open(const std::string& endpoint,
-                                                   const publish::Stream& stream,
+                                                   const publish::RunFacts& facts,
                                                    ViewedCapture* capture,
                                                    const HttpBounds& bounds) {
   const auto at = stream::parse_serving_endpoint(endpoint);
   if (!at) return tl::unexpected(at.error());
-  std::unique_ptr<ViewSink> sink(new ViewSink(stream, capture));
+  std::unique_ptr<ViewSink> sink(new ViewSink(facts, capture));
   auto server = HttpServer::start(
       {.at = *at, .what = "the page", .bounds = bounds},
       [&source = sink->source_](const HttpRequest& asked) { return answer_view(source, asked); });

@@ -26,7 +26,7 @@ class ViewSink : public publish::FrameSink {
   /// `endpoint`: "127.0.0.1:8480". `capture`: its player, which outlives this; null where nobody
   /// plays. The errors of HttpServer::start().
   [[nodiscard]] static Expected<std::unique_ptr<ViewSink>> open(const std::string& endpoint,
-                                                                const publish::Stream& stream,
+                                                                const publish::RunFacts& facts,
                                                                 ViewedCapture* capture,
                                                                 const HttpBounds& bounds = {});
 
@@ -39,7 +39,7 @@ class ViewSink : public publish::FrameSink {
   [[nodiscard]] const std::string& url() const noexcept { return url_; }
 
  private:
-  ViewSink(const publish::Stream& stream, ViewedCapture* capture);
+  ViewSink(const publish::RunFacts& facts, ViewedCapture* capture);
 
   ViewFrames frames_;
   ViewSource source_;

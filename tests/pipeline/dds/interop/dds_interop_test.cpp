@@ -58,7 +58,8 @@ class DdsInterop : public testing::Test {
       frame.points.clear();
       for (std::uint32_t i = 0; i < kPoints; ++i) {
         const PatternPoint point = pattern_point(number, i);
-        frame.points.push_back({point.x_m, point.y_m, point.z_m, point.intensity, point.label,
+        frame.points.push_back({point.x_m, point.y_m, point.z_m, point.intensity,
+                                point.label == 99 ? frame::Label::kObstacle : frame::Label::kGround,
                                 point.ring, point.time_s});
       }
       std::this_thread::sleep_until(next);

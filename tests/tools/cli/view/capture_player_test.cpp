@@ -206,7 +206,7 @@ TEST_F(CapturePlayerTest, PlaysCloudsAndNumbersThemAsTheirFiles) {
         "VERSION .7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH {0}\n"
         "HEIGHT 1\nPOINTS {0}\nDATA ascii\n",
         frame.points.size());
-    for (const stream::LabelledPoint& point : frame.points) {
+    for (const points::LabelledPoint& point : frame.points) {
       text += fmt::format("{} {} {} {}\n", point.x_m, point.y_m,
                           point.z_m - *options_.mount.height_m, point.row);
     }

@@ -31,7 +31,7 @@ publish::LabelledFrame frame_of(std::uint32_t number, std::size_t points = 1000)
   frame.record.info.number = number;
   frame.record.info.last_packet_ns = 1'000'000'000;
   frame.record.labels_ns = 1'004'000'000;
-  frame.points.assign(points, {.x_m = 1, .label = 40});
+  frame.points.assign(points, {.x_m = 1, .label = frame::Label::kGround});
   return frame;
 }
 
@@ -90,7 +90,7 @@ stream::FrameWireHeader next_header(test::HttpClient& browser) {
 /// The header of a frame that was read whole.
 stream::FrameWireHeader next_frame(test::HttpClient& browser) {
   const stream::FrameWireHeader header = next_header(browser);
-  const std::size_t wanted = header.points * sizeof(stream::LabelledPoint);
+  const std::size_t wanted = header.points * sizeof(stream::WirePoint);
   EXPECT_EQ(browser.read(wanted).size(), wanted);
   return header;
 }
@@ -148,8 +148,8 @@ TEST_F(Page, SendsFramesAsTheLabelledStreamHasThem) {
   EXPECT_EQ(header.magic, stream::kFrameMagic);
   EXPECT_EQ(header.number, 7U);
   ASSERT_EQ(header.points, 1000U);
-  const std::string bytes = looking->read(1000 * sizeof(stream::LabelledPoint));
-  stream::LabelledPoint point;
+  const std::string bytes = looking->read(1000 * sizeof(stream::WirePoint));
+  stream::WirePoint point;
   ASSERT_EQ(bytes.size(), 1000 * sizeof(point));
   std::memcpy(&point, bytes.data() + 999 * sizeof(point), sizeof(point));
   EXPECT_EQ(point.x_m, 1);
@@ -178,7 +178,7 @@ TEST_F(Page, SlowBrowsersLeaveFramesOutWhichAreCounted) {
   for (std::uint32_t number = 2; number <= 6; ++number) {
     ASSERT_TRUE(sink_->put(frame_of(number, kMany)));
   }
-  (void)slow->read(kMany * sizeof(stream::LabelledPoint));
+  (void)slow->read(kMany * sizeof(stream::WirePoint));
   const stream::FrameWireHeader newest = next_frame(*slow);
   EXPECT_EQ(newest.number, 6U);
   EXPECT_EQ(newest.missed, 4U);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/live/mount_on_air.hpp"
+#include "pipeline/run/mount_on_air.hpp"
 
 #include <chrono>
 
 #include "pipeline/ground/mount_search.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
-namespace terracut::live {
+namespace terracut::run {
 
 mount::MountFinder mount_on_air(net::LiveSource& source, const streams::SensorOnAir& sensor,
                                 const decode::Decoder::Config& config,
@@ -40,4 +40,4 @@ mount::MountFinder mount_on_air(net::LiveSource& source, const streams::SensorOn
   return last.frames_looked_at() > 0 ? last : search.finder();
 }
 
-}  // namespace terracut::live
+}  // namespace terracut::run

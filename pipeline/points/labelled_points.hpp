@@ -7,10 +7,10 @@
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "pipeline/stream/labelled_frame_wire.hpp"
+#include "pipeline/points/labelled_point.hpp"
 #include "rt/threads/nonblocking.hpp"
 
-namespace terracut::stream {
+namespace terracut::points {
 
 /// When the returns of a frame were measured, as its packets tell: the head turned evenly from its
 /// first packet to its last. Of the default, all at 0: a cloud without times.
@@ -37,4 +37,4 @@ struct FrameTiming {
     const frame::RangeImage& image, std::span<const frame::Label> labels,
     std::span<LabelledPoint> points, const FrameTiming& timing = {}) noexcept TERRACUT_NONBLOCKING;
 
-}  // namespace terracut::stream
+}  // namespace terracut::points

@@ -11,7 +11,7 @@
 #include "firmware_io/net/live_source.hpp"
 #include "firmware_io/streams/first_seconds.hpp"
 
-namespace terracut::live {
+namespace terracut::run {
 
 /// Shows a finder the frames of a sensor that is heard, a second of them; where these do not show
 /// well enough how it stands, the next second's instead, for so long, and not beyond stop_wanted().
@@ -27,4 +27,4 @@ namespace terracut::live {
 /// labels.
 inline constexpr std::chrono::seconds kGroundPatience{10};
 
-}  // namespace terracut::live
+}  // namespace terracut::run

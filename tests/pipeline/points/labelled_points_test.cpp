@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/stream/labelled_points.hpp"
+#include "pipeline/points/labelled_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/synthetic_frame.hpp"
 
-namespace terracut::stream {
+namespace terracut::points {
 namespace {
 
 using frame::Label;
@@ -28,9 +28,9 @@ TEST(LabelledPoints, AreInOrderOfArrivalWithTheOverflowList) {
   small.add(3, 9, 6.0F, 7.0F, 8.0F, Label::kObstacle, 1);  // the cell is taken: overflow list
   std::vector<LabelledPoint> points(4);
   ASSERT_TRUE(pack_labelled_points(small.image, small.labels, points));
-  EXPECT_EQ(points[0], (LabelledPoint{1.0F, 2.0F, 3.0F, 200, 99, 3}));
-  EXPECT_EQ(points[1], (LabelledPoint{4.0F, 5.0F, 0.5F, 17, 40, 0}));
-  EXPECT_EQ(points[2], (LabelledPoint{6.0F, 7.0F, 8.0F, 1, 99, 3}));
+  EXPECT_EQ(points[0], (LabelledPoint{1.0F, 2.0F, 3.0F, 200, Label::kObstacle, 3}));
+  EXPECT_EQ(points[1], (LabelledPoint{4.0F, 5.0F, 0.5F, 17, Label::kGround, 0}));
+  EXPECT_EQ(points[2], (LabelledPoint{6.0F, 7.0F, 8.0F, 1, Label::kObstacle, 3}));
   EXPECT_EQ(points[3], LabelledPoint{}) << "nothing is written beyond the returns";
 }
 
@@ -46,13 +46,12 @@ TEST(LabelledPoints, OfAWholeFrameAreThoseOfTheImageOneByOne) {
   ASSERT_TRUE(pack_labelled_points(image, labels, points));
   std::size_t wrong = 0;
   frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
-    const LabelledPoint expected{
-        placed.point.x_m,
-        placed.point.y_m,
-        placed.point.z_m,
-        placed.point.intensity,
-        static_cast<std::uint8_t>(output::semantic_kitti_class(labels[placed.return_index])),
-        static_cast<std::uint16_t>(placed.row)};
+    const LabelledPoint expected{placed.point.x_m,
+                                 placed.point.y_m,
+                                 placed.point.z_m,
+                                 placed.point.intensity,
+                                 labels[placed.return_index],
+                                 static_cast<std::uint16_t>(placed.row)};
     if (points[placed.return_index] != expected) ++wrong;
   });
   EXPECT_GT(image.returns(), 100'000U);
@@ -110,4 +109,4 @@ TEST(LabelledPoints, ArePackedWithoutAllocation) {
 }
 
 }  // namespace
-}  // namespace terracut::stream
+}  // namespace terracut::points

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/stream/labelled_points.hpp"
+#include "pipeline/points/labelled_points.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
-#include "pipeline/output/label_sink.hpp"
-
-namespace terracut::stream {
+namespace terracut::points {
 namespace {
 
 /// Neighbours in arrival are the lasers of one firing, which lie one above the other in the image:
@@ -19,12 +17,7 @@ constexpr int kColumnsAtOnce = 256;
 
 LabelledPoint labelled_point(const frame::Return& point, int row, frame::Label label,
                              float time_s) noexcept TERRACUT_NONBLOCKING {
-  return {point.x_m,
-          point.y_m,
-          point.z_m,
-          point.intensity,
-          static_cast<std::uint8_t>(output::semantic_kitti_class(label)),
-          static_cast<std::uint16_t>(row),
+  return {point.x_m, point.y_m, point.z_m, point.intensity, label, static_cast<std::uint16_t>(row),
           time_s};
 }
 
@@ -78,4 +71,4 @@ bool pack_labelled_points(const frame::RangeImage& image, std::span<const frame:
   return true;
 }
 
-}  // namespace terracut::stream
+}  // namespace terracut::points

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "calib/ruby128/ruby128_geometry.hpp"
 
 namespace terracut::mount {
 namespace {

@@ -11,6 +11,11 @@
 namespace terracut::ruby128 {
 
 inline constexpr int kRuby128Lasers = 128;
+/// Metres per count of the wire's distance (RS-Ruby user manual).
+inline constexpr double kRuby128MetresPerCount = 0.005;
+/// The lens sits ahead of the axis of rotation, in the direction of the head
+/// (docs/reference/sensors.md).
+inline constexpr double kRuby128LensAhead_m = 0.03615;
 
 /// The direction of one channel of an RS-Ruby128 (docs/reference/sensors.md).
 struct Ruby128Channel {

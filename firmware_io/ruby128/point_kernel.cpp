@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/ruby128/ruby128_geometry.hpp"
 #include "rt/vector_clones.hpp"
 
 namespace terracut::ruby128 {

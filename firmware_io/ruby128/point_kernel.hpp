@@ -14,9 +14,9 @@
 namespace terracut::ruby128 {
 
 /// Converts measured distances of one channel to points of the vehicle frame: the formulas of
-/// Ruby128Geometry and mount::Mount in float, for the firings of a tile in one loop that compilers
-/// vectorise. Agrees with those double functions to within 1 mm + 1e-6 of the range; the same bits
-/// on every machine, as the HDL-64E's PointKernel.
+/// beams::StraightGeometry and mount::Mount in float, for the firings of a tile in one loop that
+/// compilers vectorise. Agrees with those double functions to within 1 mm + 1e-6 of the range; the
+/// same bits on every machine, as the HDL-64E's PointKernel.
 ///
 /// Real-time safe but for the constructor. One thread.
 class Ruby128PointKernel {

@@ -9,7 +9,6 @@
 
 #include "calib/mount/mount.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
-#include "calib/ruby128/ruby128_geometry.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
 #include "firmware_io/packet/beam_spread.hpp"
 #include "firmware_io/packet/datagram.hpp"

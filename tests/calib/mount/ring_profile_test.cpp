@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "calib/beams/angle.hpp"
+#include "calib/beams/straight_geometry.hpp"
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "calib/mount/ring_profile_estimate.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
-#include "calib/ruby128/ruby128_geometry.hpp"
 #include "tests/calib/calib_test_support.hpp"
 
 namespace terracut::mount {
@@ -77,7 +77,8 @@ TEST(RingProfile, RingsThatDoNotReachTheGroundInTimeAreInfinitelyFar) {
 
 TEST(RingProfile, OfARubyMeetsTheGroundWhereItsReturnsDo) {
   const ruby128::Ruby128Calibration calibration = ruby128::nominal_ruby128();
-  const ruby128::Ruby128Geometry geometry(calibration);
+  const beams::StraightGeometry geometry(calibration.channels, ruby128::kRuby128MetresPerCount,
+                                         ruby128::kRuby128LensAhead_m);
   const Mount mount{.height_m = 1.9};
   const RingProfile profile = ring_profile(calibration, mount, 120.0);
   ASSERT_EQ(profile.rings.size(), 128U);

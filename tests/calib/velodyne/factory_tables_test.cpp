@@ -80,5 +80,13 @@ TEST(FactoryTables, ARingLiesWhereItsBeamMeetsTheGround) {
   EXPECT_TRUE(std::isinf(profile.rings[8].ground_distance_m));  // one degree up
 }
 
+TEST(VelodyneTable, WithOtherThanItsModelsLasersIsRefused) {
+  EXPECT_TRUE(validate(factory_table(VelodyneModel::kVls128)));
+  EXPECT_FALSE(validate({VelodyneModel::kVlp16, {{}}, "by hand"}));
+  VelodyneCalibration broken = factory_table(VelodyneModel::kVlp16);
+  broken.lasers[3].elevation_rad = std::nan("");
+  EXPECT_FALSE(validate(broken));
+}
+
 }  // namespace
 }  // namespace terracut::velodyne

@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <string_view>
 
+#include "calib/beams/straight_geometry.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
-#include "calib/ruby128/ruby128_geometry.hpp"
 #include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "tools/lab/packets/group_azimuths.hpp"
@@ -25,7 +25,7 @@ namespace terracut::packets {
 /// or in dual return three firings in two packets, A A B and B C C.
 struct Ruby128EncoderTraits {
   using Calibration = ruby128::Ruby128Calibration;
-  using Geometry = ruby128::Ruby128Geometry;
+  using Geometry = beams::StraightGeometry;
   using Offsets = ruby128::Ruby128BeamOffsets;
   using Column = frame::Ruby128Column;
   using Sender = Ruby128PacketSender;
@@ -76,7 +76,7 @@ struct Ruby128EncoderTraits {
     return Offsets(calibration);
   }
   [[nodiscard]] static Geometry geometry(const Calibration& calibration, const Config&) {
-    return Geometry(calibration);
+    return {calibration.channels, ruby128::kRuby128MetresPerCount, ruby128::kRuby128LensAhead_m};
   }
   [[nodiscard]] static Expected<Sender> sender(const Calibration& calibration,
                                                const Config& config) {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "calib/velodyne/velodyne_geometry.hpp"
+#include "calib/beams/straight_geometry.hpp"
 #include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/velodyne/beam_offsets.hpp"
 #include "firmware_io/velodyne/hdl32e.hpp"
@@ -26,7 +26,7 @@ namespace terracut::packets {
 template <class Model>
 struct VelodyneEncoderTraits {
   using Calibration = velodyne::VelodyneCalibration;
-  using Geometry = velodyne::VelodyneGeometry;
+  using Geometry = beams::StraightGeometry;
   using Offsets = velodyne::BeamOffsets<Model>;
   using Column = frame::LabelledColumn<Model::kChannels>;
   using Sender = VelodynePacketSender<Model>;
@@ -81,7 +81,7 @@ struct VelodyneEncoderTraits {
     return Offsets(calibration);
   }
   [[nodiscard]] static Geometry geometry(const Calibration& calibration, const Config&) {
-    return Geometry(calibration, Model::kMetresPerCount);
+    return {calibration.lasers, Model::kMetresPerCount};
   }
   [[nodiscard]] static Expected<Sender> sender(const Calibration&, const Config& config) {
     return Sender(config.returns);

@@ -32,13 +32,25 @@ struct Hdl64e {
   }
   static Bytes encode(const std::array<Column, kColumns>& columns, std::int64_t first_reading,
                       bool dual, int encoding) {
-    (void)first_reading, (void)encoding;  // have no place in its packets
+    (void)first_reading;  // has no place in its packets
     hdl64e::wire::Packet packet = hdl64e::blank_packet();
     const std::int64_t end_ns = columns.back().stamp_ns + firing_ns(dual);
     packets::encode_hdl64e_packet(columns, end_ns, {}, packet);
+    if (encoding == 2) make_s1(packet);
     Bytes bytes;
     std::ranges::copy(hdl64e::payload_of(packet), bytes.begin());
     return bytes;
+  }
+  /// A block a firing, the upper lasers three times as often.
+  static void make_s1(hdl64e::wire::Packet& packet) {
+    const std::int32_t first_cdeg = packet.blocks[0].azimuth_cdeg.value();
+    const std::int32_t step_cdeg =
+        beams::step_cdeg(first_cdeg, packet.blocks[2].azimuth_cdeg.value());
+    for (std::size_t block = 0; block < packet.blocks.size(); ++block) {
+      packet.blocks[block].id = block % 4 != 0 ? hdl64e::kUpperBlockId : hdl64e::kLowerBlockId;
+      packet.blocks[block].azimuth_cdeg = static_cast<std::uint16_t>(
+          beams::wrap_cdeg(first_cdeg + static_cast<std::int32_t>(block) * step_cdeg / 2));
+    }
   }
   static std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
     const auto* packet = hdl64e::packet_in(payload);

@@ -25,7 +25,7 @@ struct Head {
   bool dual = false;
   std::int64_t readings = 0;  ///< Columns so far; in dual return a firing has two.
   std::uint32_t pattern = 1;  ///< What the lasers see.
-  int encoding = 1;           ///< Of stamps, where the sensor has several.
+  int encoding = 1;           ///< Of stamps, or of packets, where the sensor has several.
 
   [[nodiscard]] bool is_blind() const {
     return blind_cdeg > 0 &&
@@ -144,7 +144,7 @@ class PacketSequence {
       case 18:
         run_.keep_segmenter_away(input_.below(8));
         break;
-      case 19:  // a payload of another kind, or one byte of a good one changed
+      case 19:  // any payload, or some bytes of a good one changed
         foreign();
         break;
       default:
@@ -251,13 +251,15 @@ class PacketSequence {
     if (sent_last_.empty()) return;
     Bytes packet = sent_last_.back();
     if (input_.below(2) == 0) {
-      const auto bytes = input_.take(static_cast<std::size_t>(input_.below(64)));
+      const auto bytes = input_.take(static_cast<std::size_t>(input_.below(1'300)));
       ++sent_;
       run_.feed(bytes, kStart_ns + host_ns_ + time_ns_);
       return;
     }
-    packet[static_cast<std::size_t>(input_.below(static_cast<std::uint32_t>(packet.size())))] =
-        static_cast<std::uint8_t>(input_.next(1));
+    for (int n = 1 + input_.below(8); n > 0; --n) {
+      packet[static_cast<std::size_t>(input_.below(static_cast<std::uint32_t>(packet.size())))] =
+          static_cast<std::uint8_t>(input_.next(1));
+    }
     deliver(packet);
   }
 

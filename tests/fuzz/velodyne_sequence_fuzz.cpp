@@ -10,7 +10,6 @@
 #include "calib/velodyne/velodyne_calibration.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "packet_sequence.hpp"
-#include "velodyne_returns.hpp"
 
 namespace {
 
@@ -60,8 +59,18 @@ struct Velodyne {
     std::ranges::copy(hdl64e::payload_of(packet), bytes.begin());
     return bytes;
   }
+  /// The VLS-128's in dual return, which begins with two blocks of one id side by side, has nothing
+  /// in its last four blocks.
   static std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
-    return fuzz::velodyne_returns_in(payload);
+    const auto* packet = hdl64e::packet_in(payload);
+    if (packet == nullptr) return 0;
+    const bool has_empty_blocks = packet->status_type == velodyne::kDual &&
+                                  packet->blocks[2].id.value() == hdl64e::kLowerBlockId;
+    std::uint64_t returns = 0;
+    for (std::size_t block = 0; block < (has_empty_blocks ? 8U : 12U); ++block) {
+      for (const auto& one : packet->blocks[block].returns) returns += one.distance.value() != 0;
+    }
+    return returns;
   }
 };
 

@@ -97,9 +97,8 @@ TYPED_TEST(BlindSensor, GivesACompleteFrameARevolutionWithoutLossWhereverItIsBli
         if (blind_deg < 2.5 * packet_deg) continue;
         constexpr int kFrames = 12;
         const Head<TypeParam> rotating{spin_hz, dual, 0.02};
-        HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
-        stream.hear_all(without<TypeParam>(rotating.frames(kFrames), blind));
-        stream.flush();
+        HeardStream<TypeParam> stream(without<TypeParam>(rotating.frames(kFrames), blind),
+                                      HeardStream<TypeParam>::hasty());
         this->expect_no_loss(stream);
         EXPECT_EQ(incomplete(stream.frames, kLearnt), 0);
         EXPECT_NEAR(static_cast<double>(stream.frames.size()), kFrames + 1, 1);
@@ -158,9 +157,7 @@ TYPED_TEST(BlindSensor, CountsRealLossesBesideItToThePacket) {
         kept.push_back(sent[n]);
       }
     }
-    HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
-    stream.hear_all(kept);
-    stream.flush();
+    HeardStream<TypeParam> stream(kept, HeardStream<TypeParam>::hasty());
     EXPECT_EQ(stream.decoder.losses().network_gap_packets, lost);
     EXPECT_LE(stream.decoder.losses().rejected_total(), 1U);
     this->expect_blind(stream, blind);
@@ -271,9 +268,7 @@ TYPED_TEST(BlindSensor, CountsAWideLossThatTheStreamEndsBehind) {
   const auto from = static_cast<std::ptrdiff_t>(sent.size()) * 8 / 10;
   const auto lost = static_cast<std::ptrdiff_t>(sent.size()) / 20;
   sent.erase(sent.begin() + from, sent.begin() + from + lost);
-  HeardStream<TypeParam> stream;
-  stream.hear_all(sent);
-  stream.flush();
+  HeardStream<TypeParam> stream(sent);
   EXPECT_EQ(stream.decoder.losses().network_gap_packets, static_cast<std::uint64_t>(lost));
   EXPECT_GT(stream.frames.back().losses.network_gap_packets +
                 stream.frames[stream.frames.size() - 2].losses.network_gap_packets,
@@ -330,9 +325,7 @@ TYPED_TEST(BlindSensor, LosesItsViewsShareInAnOutage) {
   std::erase_if(sent, [&, from = sent[sent.size() / 2].stamp_ns](const Payload& payload) {
     return payload.stamp_ns > from && payload.stamp_ns <= from + 1'400'000'000;
   });
-  HeardStream<TypeParam> stream;
-  stream.hear_all(sent);
-  stream.flush();
+  HeardStream<TypeParam> stream(sent);
   const double packets_a_frame =
       1e5 / (TypeParam::firing_us(false) * TypeParam::firings_per_packet(false));
   EXPECT_NEAR(static_cast<double>(stream.decoder.losses().network_gap_packets),
@@ -418,9 +411,7 @@ class RubyAcrossItsSector : public testing::Test {
 TEST_F(RubyAcrossItsSector, IsDecodedOnBothSidesOfIt) {
   in_every_mode({{90, 270}, {20, 330}, {200, 206}},
                 [](const Sector& blind, const std::vector<Payload>& sent) {
-                  HeardStream<Ruby> stream(HeardStream<Ruby>::hasty());
-                  stream.hear_all(sent);
-                  stream.flush();
+                  HeardStream<Ruby> stream(sent, HeardStream<Ruby>::hasty());
                   expect_few_rejected(stream);
                   EXPECT_EQ(stream.decoder.losses().network_gap_packets, 0U);
                   EXPECT_LE(stream.decoder.losses().azimuth_hole_columns,
@@ -492,9 +483,7 @@ TEST_F(RubyAcrossItsSector, TouchesThreeFramesWhereTheViewIsNarrowerThanItsBeams
     for (const int reorder_packets : {0, 2}) {
       HeardStream<Ruby>::Config config;
       config.reorder_packets = reorder_packets;
-      HeardStream<Ruby> stream(config);
-      stream.hear_all(sent);
-      stream.flush();
+      HeardStream<Ruby> stream(sent, config);
       EXPECT_FALSE(stream.decoder.blind().is_none());
       expect_few_rejected(stream, kFrames);
       EXPECT_EQ(stream.packets_unaccounted(), 0);
@@ -505,9 +494,7 @@ TEST_F(RubyAcrossItsSector, TouchesThreeFramesWhereTheViewIsNarrowerThanItsBeams
 
 TEST_F(RubyAcrossItsSector, LosesNothingOfItWhereAFrameWaitsForLatePackets) {
   in_every_mode({{270, 90}}, [](const Sector&, const std::vector<Payload>& sent) {
-    HeardStream<Ruby> stream;  // as replay does
-    stream.hear_all(sent);
-    stream.flush();
+    HeardStream<Ruby> stream(sent);
     expect_few_rejected(stream);
     EXPECT_EQ(stream.decoder.losses().network_gap_packets, 0U);
     EXPECT_EQ(stream.decoder.losses().azimuth_hole_columns, 0U);
@@ -526,9 +513,7 @@ TEST_F(RubyAcrossItsSector, CountsPacketsLostBehindIt) {
     lost += is_lost ? 1U : 0U;
     if (!is_lost) kept.push_back(payload);
   }
-  HeardStream<Ruby> stream(HeardStream<Ruby>::hasty());
-  stream.hear_all(kept);
-  stream.flush();
+  HeardStream<Ruby> stream(kept, HeardStream<Ruby>::hasty());
   EXPECT_GT(lost, 15U);
   EXPECT_EQ(stream.decoder.losses().network_gap_packets, lost);
 }

@@ -75,6 +75,12 @@ class HeardStream {
   }
 
   explicit HeardStream(const Config& config = {}) : decoder(unit(), {}, config, memory_) {}
+  /// Of a stream that has ended.
+  explicit HeardStream(const std::vector<Payload>& payloads, const Config& config = {})
+      : HeardStream(config) {
+    hear_all(payloads);
+    flush();
+  }
 
   std::optional<frame::Reject> hear(const Payload& payload) {
     ++fed;

@@ -44,9 +44,7 @@ TEST(Disorder, LostPacketsAreCountedExactlyByDeviceStamps) {
       kept.push_back(packets[n]);
     }
   }
-  Recorder recorder;
-  recorder.decode_all(kept);
-  recorder.flush();
+  Recorder recorder(kept);
   const LossCounters losses = recorder.decoder.losses();
   EXPECT_EQ(losses.network_gap_packets, lost);
   // Azimuths are rounded, and holes are told in whole firings a frame.
@@ -65,18 +63,14 @@ TEST(Disorder, LossesBeforeThePeriodIsKnownAreCountedToo) {
   auto packets = long_drive();
   packets.erase(packets.begin() + 3, packets.begin() + 5);
   packets.erase(packets.begin() + 8);
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 3U);
 }
 
 TEST(Disorder, TheSlowerCycleHasItsOwnPeriod) {
   auto packets = random_packets({.step_deg = 0.20736, .column_ns = 57'600});
   packets.erase(packets.begin() + 100, packets.begin() + 103);
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   EXPECT_NEAR(static_cast<double>(recorder.decoder.packet_period_ns()), 345'600, 100);
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 3U);
 }
@@ -84,9 +78,7 @@ TEST(Disorder, TheSlowerCycleHasItsOwnPeriod) {
 TEST(Disorder, AMissingSectorSpoilsItsFrameOnly) {
   auto packets = long_drive();
   packets.erase(packets.begin() + 450, packets.begin() + 500);
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   ASSERT_EQ(recorder.frames.size(), 6U);  // five frames and what leads and trails
   EXPECT_TRUE(recorder.frames[1].info.complete);
   EXPECT_FALSE(recorder.frames[2].info.complete);
@@ -101,9 +93,7 @@ TEST(Disorder, AMissingSectorSpoilsItsFrameOnly) {
 TEST(Disorder, AGapOfMoreThanHalfARevolutionDoesNotLoseCountOfFrames) {
   auto packets = long_drive();
   packets.erase(packets.begin() + 450, packets.begin() + 450 + 600);  // 1.73 frames
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   const LossCounters losses = recorder.decoder.losses();
   EXPECT_EQ(losses.network_gap_packets, 600U);
   EXPECT_NEAR(static_cast<double>(losses.azimuth_hole_columns), 3600.0, 2.0);
@@ -117,9 +107,7 @@ TEST(Disorder, ReorderedPacketsStillFindTheirFrameAndAreNotMissing) {
   for (std::size_t n = 30; n + 3 < packets.size(); n += 3) {
     if (random() % 2 == 0) std::swap(packets[n], packets[n + 1 + random() % 2]);
   }
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   const LossCounters losses = recorder.decoder.losses();
   EXPECT_EQ(losses.network_gap_packets, 0U);
   EXPECT_EQ(losses.azimuth_hole_columns, 0U);
@@ -135,9 +123,7 @@ TEST(Disorder, AnyPacketMayComeAsManyPacketsLateAsIsWaitedFor) {
     for (std::size_t n = 30 + phase; n + 3 <= packets.size(); n += 3) {
       std::rotate(&packets[n], &packets[n + 1], &packets[n] + 3);
     }
-    Recorder recorder;
-    recorder.decode_all(packets);
-    recorder.flush();
+    Recorder recorder(packets);
     EXPECT_EQ(recorder.decoder.losses().rejected_total(), 0U) << phase;
     EXPECT_EQ(recorder.returns(), returns_in(packets)) << phase;
   }
@@ -180,9 +166,7 @@ TEST(Disorder, WithoutWaitingNothingIsLostWhereTheHeadRotatesUnevenly) {
   std::uniform_int_distribution<int> jitter_cdeg(-3, 3);  // recorded sensors: 1
   for (FiringColumn& firing : firings) firing.unwrapped_azimuth_cdeg += jitter_cdeg(random);
   const auto packets = to_packets(firings);
-  Recorder recorder(waiting_for(0));
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets, waiting_for(0));
   EXPECT_EQ(recorder.decoder.losses().rejected_total(), 0U);
   EXPECT_EQ(recorder.returns(), returns_in(packets));
 }
@@ -194,9 +178,7 @@ TEST(Disorder, WithoutWaitingALatePacketIsLostOnlyWhereItsFrameIsOver) {
   auto shuffled = packets;
   std::swap(shuffled[end - 200], shuffled[end - 199]);  // in the middle of a frame
   std::swap(shuffled[end], shuffled[end + 1]);          // where one ends
-  Recorder recorder(waiting_for(0));
-  recorder.decode_all(shuffled);
-  recorder.flush();
+  Recorder recorder(shuffled, waiting_for(0));
   EXPECT_EQ(recorder.rejected(Reject::kLate), 1U);
   EXPECT_EQ(recorder.decoder.losses().rejected_total(), 1U);
   EXPECT_EQ(returns_in(packets) - recorder.returns(), returns_in({&packets[end], 1}));
@@ -204,18 +186,14 @@ TEST(Disorder, WithoutWaitingALatePacketIsLostOnlyWhereItsFrameIsOver) {
 
 TEST(Disorder, AnySmallShuffleGivesTheSameFramesAsTheOrderedStream) {
   const auto packets = long_drive();
-  Recorder ordered;
-  ordered.decode_all(packets);
-  ordered.flush();
+  Recorder ordered(packets);
   for (unsigned seed = 0; seed < 5; ++seed) {
     auto shuffled = packets;
     std::mt19937 random(seed);
     for (std::size_t n = 0; n + 1 < shuffled.size(); n += 2) {
       if (random() % 2 == 0) std::swap(shuffled[n], shuffled[n + 1]);
     }
-    Recorder recorder;
-    recorder.decode_all(shuffled);
-    recorder.flush();
+    Recorder recorder(shuffled);
     ASSERT_EQ(recorder.frames.size(), ordered.frames.size());
     for (std::size_t n = 0; n < ordered.frames.size(); ++n) {
       EXPECT_EQ(recorder.frames[n].info.returns, ordered.frames[n].info.returns);
@@ -231,9 +209,7 @@ TEST(Disorder, APacketTooLateForItsFrameIsRefusedAsLate) {
   std::rotate(packets.begin() + static_cast<std::ptrdiff_t>(seam),
               packets.begin() + static_cast<std::ptrdiff_t>(seam) + 1,
               packets.begin() + static_cast<std::ptrdiff_t>(seam) + 50);
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   EXPECT_EQ(recorder.rejected(Reject::kLate), 1U);
   EXPECT_EQ(recorder.decoder.losses().rejected_total(), 1U);
   EXPECT_EQ(recorder.decoder.losses().azimuth_hole_columns, 6U);
@@ -268,9 +244,7 @@ TEST(Disorder, ADuplicatedFrameIsRepeatedPacketsAndNoSecondFrame) {
   std::vector<Packet> twice(packets.begin(), packets.begin() + 700);
   twice.insert(twice.end(), packets.begin() + 353, packets.begin() + 700);
   twice.insert(twice.end(), packets.begin() + 700, packets.end());
-  Recorder recorder;
-  recorder.decode_all(twice);
-  recorder.flush();
+  Recorder recorder(twice);
   EXPECT_EQ(recorder.frames.size(), 6U);
   EXPECT_EQ(recorder.rejected(Reject::kRepeated), 347U);
   EXPECT_EQ(recorder.returns(), returns_in(packets));
@@ -281,9 +255,7 @@ TEST(Disorder, TheDeviceClockWrapsAtTheHour) {
   constexpr std::int64_t kHour_ns = 3'600'000'000'000;
   const auto packets =
       random_packets({.first_stamp_ns = 472'222 * kHour_ns - 150'000'000, .share_of_returns = 0.3});
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   const LossCounters losses = recorder.decoder.losses();
   EXPECT_EQ(losses.network_gap_packets, 0U);
   EXPECT_EQ(losses.clock_jumps, 0U);
@@ -299,9 +271,7 @@ TEST(Disorder, ALossAcrossTheHourIsStillExact) {
   }
   // Packet 400 is stamped 3 599 999 900, the next one 188.
   packets.erase(packets.begin() + 399, packets.begin() + 402);
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 3U);
   EXPECT_EQ(recorder.decoder.losses().clock_jumps, 0U);
 }
@@ -311,9 +281,7 @@ TEST(Disorder, ASetDeviceClockDoesNotBreakTheFrame) {
   for (std::size_t n = 500; n < packets.size(); ++n) {
     packets[n].set_device_stamp_us(static_cast<std::uint32_t>(2'000'000'000U + 288 * n));
   }
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   EXPECT_EQ(recorder.decoder.losses().clock_jumps, 1U);
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 0U);
   EXPECT_EQ(recorder.frames.size(), 6U);
@@ -358,9 +326,7 @@ TEST(Disorder, AnOutageOfSecondsIsLossAndNoClockJump) {
     packets[n].set_device_stamp_us(
         static_cast<std::uint32_t>(packets[n].stamp_ns / 1000 % 3'600'000'000LL));
   }
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   const LossCounters losses = recorder.decoder.losses();
   EXPECT_EQ(losses.clock_jumps, 0U);
   EXPECT_EQ(losses.network_gap_packets, 20'000U);
@@ -406,9 +372,7 @@ TEST(Disorder, AHeadThatStopsAndRotatesOnLosesNothingElse) {
     stream.push_back(packets[n]);
     stream.back().set_device_stamp_us(stamp_us);
   }
-  Recorder recorder;
-  recorder.decode_all(stream);
-  recorder.flush();
+  Recorder recorder(stream);
   EXPECT_EQ(recorder.rejected(Reject::kStationary), 1'000U);
   EXPECT_EQ(recorder.decoder.losses().rejected_total(), 1'000U);
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 0U);
@@ -421,9 +385,7 @@ TEST(Disorder, AHeadThatJittersBackAtTheSeamStartsNoFalseFrame) {
   std::mt19937 random(8);
   for (auto& firing : firings) firing.unwrapped_azimuth_cdeg -= static_cast<int>(random() % 20);
   const auto packets = to_packets(firings);
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   EXPECT_EQ(recorder.frames.size(), 4U);
   EXPECT_EQ(recorder.rejected(Reject::kAzimuthJump) + recorder.decoder.packets_decoded(),
             packets.size());
@@ -443,9 +405,7 @@ TEST(Disorder, ForeignAzimuthsAreRefusedWhileTheStreamGoesOn) {
       ++foreign;
     }
   }
-  Recorder recorder;
-  recorder.decode_all(stream);
-  recorder.flush();
+  Recorder recorder(stream);
   EXPECT_EQ(recorder.rejected(Reject::kAzimuthJump), foreign);
   EXPECT_EQ(recorder.frames.size(), 6U);
   EXPECT_EQ(recorder.returns(), returns_in(packets));
@@ -460,9 +420,7 @@ TEST(Disorder, AHeadThatIsElsewhereForGoodIsFollowed) {
     stream.back().set_device_stamp_us(
         static_cast<std::uint32_t>(packets[n].stamp_ns / 1000 % 3'600'000'000LL));
   }
-  Recorder recorder;
-  recorder.decode_all(stream);
-  recorder.flush();
+  Recorder recorder(stream);
   EXPECT_EQ(recorder.decoder.losses().rejected_total(), 0U);
   EXPECT_EQ(recorder.decoder.packets_decoded(), stream.size());
 }
@@ -470,9 +428,7 @@ TEST(Disorder, AHeadThatIsElsewhereForGoodIsFollowed) {
 TEST(Disorder, RejectedPacketsAreNotCountedAsMissingToo) {
   auto packets = long_drive();
   for (std::size_t n = 50; n < packets.size(); n += 50) packets[n].set_u16(102, 40'000);
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   EXPECT_EQ(recorder.rejected(Reject::kAzimuthOutOfRange), (packets.size() - 1) / 50);
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 0U);
   EXPECT_EQ(recorder.decoder.losses().azimuth_hole_columns, 6 * ((packets.size() - 1) / 50));
@@ -481,9 +437,7 @@ TEST(Disorder, RejectedPacketsAreNotCountedAsMissingToo) {
 TEST(Disorder, AFrozenDeviceClockIsCountedAndDecodedAnyway) {
   auto packets = random_packets({.share_of_returns = 0.3});
   for (auto& packet : packets) packet.set_device_stamp_us(5);
-  Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets);
   EXPECT_EQ(recorder.returns(), returns_in(packets));
   EXPECT_EQ(recorder.decoder.losses().clock_jumps, packets.size() - 1);
   EXPECT_EQ(recorder.frames.size(), 4U);

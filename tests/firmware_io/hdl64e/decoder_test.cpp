@@ -128,9 +128,7 @@ TEST(Hdl64eDecoder, ReadsTheBytesOfTheFormatsDescription) {
   EXPECT_EQ(packets[0].bytes[1101], 0xDD);
 
   hdl64e::Hdl64eCalibration flat;  // all corrections 0
-  Recorder recorder({}, flat, {.height_m = 1.0});
-  recorder.decode_all(packets);
-  recorder.flush();
+  Recorder recorder(packets, {}, flat, {.height_m = 1.0});
   ASSERT_EQ(recorder.frames.size(), 1U);
   ASSERT_EQ(recorder.frames[0].returns.size(), 1U);
   const Frame::Placed& placed = recorder.frames[0].returns[0];
@@ -171,9 +169,7 @@ TEST(Hdl64eDecoder, FramesWithoutReturnsAreNoFrames) {
   for (auto& firing : firings) {
     if (firing.unwrapped_azimuth_cdeg < 72'000) firing.by_laser = {};
   }
-  Recorder recorder;
-  recorder.decode_all(to_packets(firings));
-  recorder.flush();
+  Recorder recorder(to_packets(firings));
   // The head's third frame from the start, what of it leads and trails, and no empty ones.
   ASSERT_EQ(recorder.frames.size(), 3U);
   EXPECT_EQ(recorder.frames[0].info.number, 0U);
@@ -194,9 +190,7 @@ TEST(Hdl64eDecoder, RotatesLaterLasersOn) {
   }
   firings[0].by_laser[31] = {10'000, 0, 0};
   hdl64e::Hdl64eCalibration flat;
-  Recorder recorder({}, flat);
-  recorder.decode_all(to_packets(firings));
-  recorder.flush();
+  Recorder recorder(to_packets(firings), {}, flat);
   const frame::Return& point = recorder.frames.at(0).returns.at(0).point;
   // The last group of four fires 42 us into the 48 us, its last laser 3.66 us later.
   EXPECT_NEAR(beams::rad_to_deg(std::atan2(-point.y_m, point.x_m)), 90.0 + 0.20 * 45.66 / 48.0,
@@ -240,9 +234,7 @@ TEST(Hdl64eDecoder, InSingleReturnACellStaysWithTheFirstToArrive) {
   Recorder::Config config;
   config.columns = 360;
   config.dual_owner = frame::CellOwner::kStrongest;
-  Recorder recorder(config, hdl64e::Hdl64eCalibration{});
-  recorder.decode_all(to_packets(firings));
-  recorder.flush();
+  Recorder recorder(to_packets(firings), config, hdl64e::Hdl64eCalibration{});
   ASSERT_EQ(recorder.returns(), 2U);
   const std::vector<Frame::Placed>& returns = recorder.frames.at(0).returns;
   EXPECT_EQ(returns[0].column, returns[1].column);
@@ -255,9 +247,7 @@ TEST(Hdl64eDecoder, ARestartAtAnotherSpinRateResetsTheStepBefore) {
   const auto slow = random_packets({.last_cdeg = 34'900 + 3 * 36'000, .step_deg = 0.0864});
   auto fast = random_packets({.step_deg = 0.3456});
   fast.erase(fast.begin() + 50, fast.begin() + 52);
-  Recorder recorder;
-  recorder.decode_all(slow);
-  recorder.flush();
+  Recorder recorder(slow);
   recorder.decode_all(fast);
   recorder.flush();
   EXPECT_EQ(recorder.decoder.losses().azimuth_hole_columns, 12U);

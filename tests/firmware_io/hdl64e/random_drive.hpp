@@ -125,6 +125,14 @@ class Recorder {
                     const hdl64e::Hdl64eCalibration& calibration = hdl64e::nominal_hdl64e(),
                     const mount::Mount& mount = {})
       : decoder(calibration, mount, config, memory) {}
+  /// Of a stream that has ended.
+  explicit Recorder(std::span<const Packet> packets, const Config& config = {},
+                    const hdl64e::Hdl64eCalibration& calibration = hdl64e::nominal_hdl64e(),
+                    const mount::Mount& mount = {})
+      : Recorder(config, calibration, mount) {
+    decode_all(packets);
+    flush();
+  }
 
   /// The callable to hand frames over to.
   [[nodiscard]] auto keep() {

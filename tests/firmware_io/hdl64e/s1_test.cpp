@@ -88,9 +88,7 @@ TEST(Hdl64eS1, PacketsOutOfOrderAndRepeatedOnesAreFound) {
   std::vector<Packet> packets = s1_packets(3);
   std::swap(packets[200], packets[201]);
   packets.insert(packets.begin() + 320, packets[319]);
-  test::Recorder recorder;
-  recorder.decode_all(packets);
-  recorder.flush();
+  test::Recorder recorder(packets);
   EXPECT_EQ(recorder.rejected(frame::Reject::kRepeated), 1U);
   EXPECT_EQ(recorder.decoder.losses().rejected_total(), 1U);
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 0U);
@@ -213,9 +211,7 @@ TEST_F(RealS1, EqualsVeloViewsDecodeInOrder) {
   // VeloView leaves the near corrections of the table out.
   for (Hdl64eLaser& laser : table_.lasers) laser.two_point = false;
   const mount::Mount mount{.height_m = 1.9};
-  test::Recorder recorder({}, table_, mount);
-  recorder.decode_all(packets_);
-  recorder.flush();
+  test::Recorder recorder(packets_, {}, table_, mount);
   EXPECT_EQ(recorder.returns(), 104'661U);
   EXPECT_EQ(recorder.decoder.losses().rejected_total(), 0U);
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 0U);

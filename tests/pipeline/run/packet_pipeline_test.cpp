@@ -51,9 +51,7 @@ TEST_F(PacketPipelineTest, HandsOutEveryFrameOnceInOrderWithAllItsReturns) {
   while (const Frame* frame = way->next()) take(*frame);
   ASSERT_GE(numbers.size(), static_cast<std::size_t>(kFrames));
   for (std::uint32_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], i);
-  test::Recorder decoder_alone;
-  decoder_alone.decode_all(packets_);
-  decoder_alone.flush();
+  test::Recorder decoder_alone(packets_);
   EXPECT_EQ(returns, decoder_alone.returns());
 }
 

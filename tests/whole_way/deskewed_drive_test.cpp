@@ -77,11 +77,8 @@ simulator::SimulationConfig<EncoderTraits> fast_bend(const std::string& scene, i
   return config;
 }
 
-class DeskewedDrive : public testing::Test {
+class DeskewedDrive : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = terracut::test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   [[nodiscard]] fs::path pcap() const { return folder_ / "drive.pcap"; }
 
   template <class EncoderTraits>
@@ -220,8 +217,6 @@ class DeskewedDrive : public testing::Test {
     EXPECT_FALSE(simulator::simulate_drive(config, sink));
     return seam_ns;
   }
-
-  fs::path folder_;
   std::vector<std::vector<Point>> in_world_;  ///< Of each frame's returns, in order of arrival.
 };
 

@@ -42,11 +42,8 @@ struct Measured {
   frame::LabelledReturn wire;
 };
 
-class SimulatedDriveDecoded : public testing::Test {
+class SimulatedDriveDecoded : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = terracut::test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Writes one frame of the world and returns what was measured, in order of arrival.
   template <class EncoderTraits>
   std::vector<Measured> write(const simulator::SimulationConfig<EncoderTraits>& config) {
@@ -141,8 +138,6 @@ class SimulatedDriveDecoded : public testing::Test {
   }
 
   [[nodiscard]] fs::path pcap() const { return folder_ / "drive.pcap"; }
-
-  fs::path folder_;
 };
 
 /// Half a count of the wire, and a little for single precision.

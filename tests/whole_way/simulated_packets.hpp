@@ -26,7 +26,7 @@ struct Packet {
 template <class EncoderTraits>
 std::vector<Packet> simulated_packets(const simulator::SimulationConfig<EncoderTraits>& setup) {
   std::vector<Packet> sent;
-  const std::filesystem::path folder = terracut::test::make_scratch_folder();
+  const terracut::test::ScratchFolder folder;
   const std::filesystem::path pcap = folder / "drive.pcap";
   auto writer = drive::DriveWriter<EncoderTraits>::create(pcap, setup.calibration, setup.sensor);
   EXPECT_TRUE(writer) << writer.error().message;
@@ -44,7 +44,6 @@ std::vector<Packet> simulated_packets(const simulator::SimulationConfig<EncoderT
     const auto payload = (*datagram)->payload;
     sent.push_back({{payload.begin(), payload.end()}, (*datagram)->stamp_ns});
   }
-  std::filesystem::remove_all(folder);
   return sent;
 }
 

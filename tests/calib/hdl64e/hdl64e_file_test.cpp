@@ -69,7 +69,7 @@ TEST_P(RealCalibration, SurvivesBeingWrittenAsXml) {
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
   const auto loaded = load_hdl64e_calibration(path);
   ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   ASSERT_TRUE(write_hdl64e_xml(folder / "copy.xml", *loaded));
   const auto copy = load_hdl64e_calibration(folder / "copy.xml");
   ASSERT_TRUE(copy.has_value()) << copy.error().message;
@@ -129,16 +129,16 @@ TEST(Hdl64eFile, EverySharedFileIsInOneOfTheTestsAbove) {
 }
 
 TEST(Hdl64eFile, GoesByContentBeforeTheExtension) {
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   ASSERT_TRUE(write_hdl64e_xml(folder / "unit.yaml", nominal_hdl64e()));
   EXPECT_TRUE(load_hdl64e_calibration(folder / "unit.yaml").has_value());
-  const std::string text = calib::read_text(folder / "unit.yaml");
+  const std::string text = test::content_of(folder / "unit.yaml");
   calib::write_text(folder / "marked", "\xEF\xBB\xBF \n" + text.substr(text.find("<boost")));
   EXPECT_TRUE(load_hdl64e_calibration(folder / "marked").has_value());
 }
 
 TEST(Hdl64eFile, NamesWhatWasExpectedForAnythingElse) {
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   calib::write_text(folder / "notes.txt", "calibrated on Monday\n");
   EXPECT_THAT(
       load_hdl64e_calibration(folder / "notes.txt"),

@@ -16,9 +16,9 @@ using testing::HasSubstr;
 
 /// The nominal unit's file as text, to be damaged.
 std::string nominal_text() {
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   EXPECT_TRUE(write_hdl64e_xml(folder / "db.xml", nominal_hdl64e()).has_value());
-  return calib::read_text(folder / "db.xml");
+  return test::content_of(folder / "db.xml");
 }
 
 Expected<Hdl64eCalibration> parsed(const std::string& text) {
@@ -41,7 +41,7 @@ TEST(Hdl64eXml, KeepsLengthsExactAndAnglesToTheLastPlaceForAnyDouble) {
     odd.lasers[i].vert_offset_m /= 3.0;
     odd.lasers[i].horiz_offset_m *= 1e-6;
   }
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   ASSERT_TRUE(write_hdl64e_xml(folder / "odd.xml", odd));
   const auto read = read_hdl64e_xml(folder / "odd.xml");
   ASSERT_TRUE(read.has_value()) << read.error().message;
@@ -71,7 +71,7 @@ TEST(Hdl64eXml, WritesTheUnitsAndPlacesOtherReadersExpect) {
 TEST(Hdl64eXml, LasersWithoutTwoPointAreWrittenSoThatNobodyInterpolates) {
   Hdl64eCalibration plain = nominal_hdl64e();
   for (Hdl64eLaser& laser : plain.lasers) laser.two_point = false;
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   ASSERT_TRUE(write_hdl64e_xml(folder / "plain.xml", plain));
   const auto read = read_hdl64e_xml(folder / "plain.xml");
   ASSERT_TRUE(read.has_value()) << read.error().message;
@@ -86,14 +86,14 @@ TEST(Hdl64eXml, LasersWithoutTwoPointAreWrittenSoThatNobodyInterpolates) {
 TEST(Hdl64eXml, WritesNothingWhenTheTableIsNotPlausible) {
   Hdl64eCalibration bad = nominal_hdl64e();
   bad.lasers[4].vert_offset_m = 20;
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   EXPECT_THAT(write_hdl64e_xml(folder / "bad.xml", bad),
               calib::IsRefusedWith(ErrorCode::kMalformed, HasSubstr("laser 4")));
   EXPECT_EQ(folder.files(), 0U);
 }
 
 TEST(Hdl64eXml, AFailedWriteLeavesTheOldFileAlone) {
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   std::filesystem::create_directories(folder / "db.xml" / "taken");  // a folder by that name
   EXPECT_THAT(write_hdl64e_xml(folder / "db.xml", nominal_hdl64e()),
               calib::IsRefusedWith(ErrorCode::kWriteFailed, HasSubstr("db.xml")));

@@ -43,7 +43,7 @@ class Scene : public test::SensorView {
 
 /// The strip of a recorded scan.
 Cloud strip_of_scan(const std::filesystem::path& path) {
-  const std::string bytes = calib::read_text(path);
+  const std::string bytes = test::content_of(path);
   Cloud points(bytes.size() / 16);
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::copy_n(bytes.data() + 16 * i, 12, reinterpret_cast<char*>(points[i].data()));

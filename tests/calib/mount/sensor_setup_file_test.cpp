@@ -20,7 +20,7 @@ Expected<SensorSetup> parsed(const std::string& text) {
 }
 
 TEST(SensorSetup, ReadsBackWhatItWrote) {
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   const SensorSetup setup{{1.78, beams::deg_to_rad(0.25), beams::deg_to_rad(-1.5)},
                           {3.7, 4.25, 1e3, INFINITY}};
   ASSERT_TRUE(write_sensor_setup(folder / "car.yaml", setup));
@@ -78,7 +78,7 @@ TEST(SensorSetup, RefusesValuesOutOfRangeWithTheirLine) {
 }
 
 TEST(SensorSetup, RefusesToWriteWhatItWouldNotRead) {
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   EXPECT_THAT(write_sensor_setup(folder / "car.yaml", SensorSetup{{.height_m = -1}, {}}),
               calib::IsRefusedWith(ErrorCode::kInvalidArgument, HasSubstr("height_m")));
   EXPECT_EQ(folder.files(), 0U);

@@ -72,7 +72,7 @@ TEST(Ruby128Csv, WritesNoNegativeZero) {
 }
 
 TEST(Ruby128Csv, ReadsBackTheSameBitsFromAFile) {
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   ASSERT_TRUE(write_ruby128_csv(folder / "angle.csv", nominal_ruby128()).has_value());
   const auto read = read_ruby128_csv(folder / "angle.csv");
   ASSERT_TRUE(read.has_value()) << read.error().message;
@@ -258,13 +258,13 @@ TEST(Ruby128Csv, NamesTheTableOfAnotherSensor) {
 }
 
 TEST(Ruby128Csv, SaysWhatAFileShouldHaveBeen) {
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   EXPECT_THAT(read_ruby128_csv(folder / "none.csv"),
               calib::IsRefusedWith(ErrorCode::kNotFound, HasSubstr("RS-Ruby128 angle.csv")));
 }
 
 TEST(Ruby128Csv, WritesNothingImplausible) {
-  const calib::ScratchFolder folder;
+  const test::ScratchFolder folder;
   Ruby128Calibration calibration = nominal_ruby128();
   calibration.channels[3] = calibration.channels[2];
   EXPECT_THAT(write_ruby128_csv(folder / "angle.csv", calibration),

@@ -177,7 +177,7 @@ TEST(CanPcapSource, RefusesOtherLinkLayersAndSaysWhereAFileBreaksOff) {
 }
 
 TEST(CanRecording, TellsACaptureFromALogByItsFirstBytes) {
-  const auto folder = make_scratch_folder();
+  const ScratchFolder folder;
   for (const bool other_order : {false, true}) {
     CaptureBytes capture(Link::kCan, other_order);
     capture.record(1, filled_up(big_endian(0x123) + Bytes{1, 0, 0, 0, 5}, 16));
@@ -193,7 +193,6 @@ TEST(CanRecording, TellsACaptureFromALogByItsFirstBytes) {
   const auto missing = can::CanRecording::open(folder / "none.log");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(CanWire, ReadsWhatItWrites) {

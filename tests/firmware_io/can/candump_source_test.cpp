@@ -109,10 +109,9 @@ TEST(CandumpSource, StepsOverLinesHoweverLong) {
 }
 
 TEST(CandumpSource, NamesFilesThatCannotBeRead) {
-  const auto folder = make_scratch_folder();
+  const ScratchFolder folder;
   EXPECT_EQ(CandumpSource::open(folder / "none.log").error().code, ErrorCode::kNotFound);
-  EXPECT_EQ(CandumpSource::open(folder).error().code, ErrorCode::kUnreadable);
-  std::filesystem::remove_all(folder);
+  EXPECT_EQ(CandumpSource::open(folder.path()).error().code, ErrorCode::kUnreadable);
 }
 
 }  // namespace

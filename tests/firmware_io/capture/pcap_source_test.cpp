@@ -137,7 +137,7 @@ TEST(PcapSource, AllocatesNothingAPacket) {
 }
 
 TEST(PcapSource, BeginsAgainAfterRewind) {
-  const test::TemporaryFolder folder;
+  const test::ScratchFolder folder;
   const CaptureFile file =
       CaptureFile().add(ethernet(IpFrame{}.bytes())).add(ethernet(IpFrame{}.bytes()));
   test::write_file(folder / "a.pcap", file.bytes());
@@ -207,7 +207,7 @@ TEST(PcapSource, BreaksOffAtARecordOfImpossibleLength) {
 }
 
 TEST(PcapSource, SaysWhatAFileIsThatIsNoCapture) {
-  const test::TemporaryFolder folder;
+  const test::ScratchFolder folder;
   const auto message_for = [&](std::string_view content) {
     test::write_file(folder / "x", Bytes(content.begin(), content.end()));
     const auto source = PcapSource::open(folder / "x");
@@ -232,7 +232,7 @@ TEST(PcapSource, SaysWhatAFileIsThatIsNoCapture) {
 }
 
 TEST(PcapSource, SaysWhyAFileCannotBeOpened) {
-  const test::TemporaryFolder folder;
+  const test::ScratchFolder folder;
   const auto missing = PcapSource::open(folder / "missing.pcap");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);

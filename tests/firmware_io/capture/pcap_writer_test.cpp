@@ -17,7 +17,7 @@ namespace terracut::capture {
 namespace {
 
 using test::Bytes;
-using test::TemporaryFolder;
+using test::ScratchFolder;
 
 packet::Datagram datagram_of(const Bytes& payload,
                              std::int64_t stamp_ns = 1'700'000'000'123'456'789) {
@@ -30,7 +30,7 @@ packet::Datagram datagram_of(const Bytes& payload,
 }
 
 TEST(PcapWriter, WritesWhatTheSourceReadsBack) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::mt19937 random(1);
   std::vector<Bytes> payloads;
   auto writer = PcapWriter::create(folder / "drive.pcap");
@@ -43,7 +43,7 @@ TEST(PcapWriter, WritesWhatTheSourceReadsBack) {
   }
   EXPECT_EQ(writer->packets(), 1000U);
   ASSERT_TRUE(writer->finish());
-  EXPECT_EQ(folder.entries(), 1U);
+  EXPECT_EQ(folder.files(), 1U);
 
   auto source = PcapSource::open(folder / "drive.pcap");
   ASSERT_TRUE(source) << source.error().message;
@@ -61,7 +61,7 @@ TEST(PcapWriter, WritesWhatTheSourceReadsBack) {
 }
 
 TEST(PcapWriter, PutsRightChecksumsInIpAndUdp) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   auto writer = PcapWriter::create(folder / "a.pcap");
   ASSERT_TRUE(writer);
   ASSERT_TRUE(writer->write(datagram_of({1, 2, 3})));
@@ -82,20 +82,20 @@ TEST(PcapWriter, KnowsTheChecksumOfRfc1071) {
 }
 
 TEST(PcapWriter, LeavesNothingBehindWhenDroppedUnfinished) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   test::write_file(folder / "drive.pcap", Bytes{1, 2, 3});
   {
     auto writer = PcapWriter::create(folder / "drive.pcap");
     ASSERT_TRUE(writer);
     ASSERT_TRUE(writer->write(datagram_of(Bytes(1206, 7))));
-    EXPECT_EQ(folder.entries(), 2U);
+    EXPECT_EQ(folder.files(), 2U);
   }
-  EXPECT_EQ(folder.entries(), 1U);
+  EXPECT_EQ(folder.files(), 1U);
   EXPECT_EQ(test::read_file(folder / "drive.pcap"), (Bytes{1, 2, 3}));
 }
 
 TEST(PcapWriter, MovedWritersFinishOnce) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   auto first = PcapWriter::create(folder / "a.pcap");
   ASSERT_TRUE(first);
   PcapWriter second = std::move(*first);
@@ -103,11 +103,11 @@ TEST(PcapWriter, MovedWritersFinishOnce) {
   ASSERT_TRUE(second.finish());
   EXPECT_FALSE(second.finish());
   EXPECT_FALSE(second.write(datagram_of(Bytes(5, 7))));
-  EXPECT_EQ(folder.entries(), 1U);
+  EXPECT_EQ(folder.files(), 1U);
 }
 
 TEST(PcapWriter, RefusesStampsAndPayloadsThatNoCaptureHolds) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   auto writer = PcapWriter::create(folder / "a.pcap");
   ASSERT_TRUE(writer);
   const Bytes payload(5, 7);
@@ -126,7 +126,7 @@ TEST(PcapWriter, RefusesStampsAndPayloadsThatNoCaptureHolds) {
 }
 
 TEST(PcapWriter, SaysWhyItCannotBegin) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   test::write_file(folder / "file", Bytes{1});
   const auto under_a_file = PcapWriter::create(folder / "file/drive.pcap");
   ASSERT_FALSE(under_a_file);
@@ -142,7 +142,7 @@ TEST(PcapWriter, SaysWhyItCannotBegin) {
 }
 
 TEST(PcapWriter, MakesMissingFolders) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   auto writer = PcapWriter::create(folder / "a/b/drive.pcap");
   ASSERT_TRUE(writer);
   ASSERT_TRUE(writer->finish());
@@ -171,7 +171,7 @@ class FullDisk {
 };
 
 TEST(PcapWriter, LeavesNothingBehindOnAFullDisk) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const Bytes payload(1206, 7);
   Status status;
   {
@@ -182,20 +182,20 @@ TEST(PcapWriter, LeavesNothingBehindOnAFullDisk) {
     ASSERT_FALSE(status);
     EXPECT_FALSE(writer->write(datagram_of(payload)));
     EXPECT_FALSE(writer->finish());
-    EXPECT_EQ(folder.entries(), 0U);
+    EXPECT_EQ(folder.files(), 0U);
   }
   EXPECT_EQ(status.error().code, ErrorCode::kWriteFailed);
   EXPECT_THAT(status.error().message, testing::HasSubstr("drive.pcap"));
 }
 
 TEST(PcapWriter, FindsAFullDiskInFinishToo) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const FullDisk disk(1'000);
   auto writer = PcapWriter::create(folder / "drive.pcap");
   ASSERT_TRUE(writer);
   ASSERT_TRUE(writer->write(datagram_of(Bytes(1206, 7))));
   EXPECT_FALSE(writer->finish());
-  EXPECT_EQ(folder.entries(), 0U);
+  EXPECT_EQ(folder.files(), 0U);
 }
 
 }  // namespace

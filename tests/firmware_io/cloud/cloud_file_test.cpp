@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "firmware_io/cloud/cloud_reach.hpp"
-#include "tests/firmware_io/scan/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::cloud {
 namespace {
@@ -37,7 +37,7 @@ void expect_points(const Cloud& cloud) {
 }
 
 TEST(CloudFile, IsReadByTheEndingOfItsName) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   Cloud cloud;
   const std::array kitti{3.0F, -1.0F, 0.5F, 0.2F, 1.0F, 1.0F, 1.0F, 1.0F};
   ASSERT_TRUE(read_cloud(folder.write_records("a.bin", kitti), cloud));
@@ -73,7 +73,7 @@ TEST(CloudFile, IsReadByTheEndingOfItsName) {
 }
 
 TEST(CloudFile, TellsTheLaserByAnyOfTheNamesInUseAndKeepsTheOrganisation) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   Cloud cloud;
   for (const std::string name :
        {"ring", "channel", "laser", "row", "laser_id", "line", "Ring", "scalar_ring",
@@ -89,7 +89,7 @@ TEST(CloudFile, TellsTheLaserByAnyOfTheNamesInUseAndKeepsTheOrganisation) {
 }
 
 TEST(CloudFile, ThatIsNoCloudIsRefusedByName) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto error_of = [&](const std::string& content) {
     Cloud cloud;
     const Status read = read_cloud(folder.write("a.pcd", content), cloud);
@@ -104,7 +104,7 @@ TEST(CloudFile, ThatIsNoCloudIsRefusedByName) {
 }
 
 TEST(CloudFile, DoesNotAskForTheLaserOfPointsThatAreNoReturns) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   Cloud cloud;
   for (const char* nothing : {"nan nan nan nan", "0 0 0 -1", "nan 1 1 65535", "99999 0 0 0.5"}) {
     const auto file = folder.write(
@@ -118,7 +118,7 @@ TEST(CloudFile, DoesNotAskForTheLaserOfPointsThatAreNoReturns) {
 }
 
 TEST(CloudFile, TakesNoFieldForTheLasersNumberThatHasOtherNumbersAndSaysSo) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   Cloud cloud;
   const auto read = [&](const std::string& fields, const std::string& data) {
     const std::size_t count = static_cast<std::size_t>(std::ranges::count(fields, ' ')) + 1;
@@ -146,7 +146,7 @@ TEST(CloudFile, TakesNoFieldForTheLasersNumberThatHasOtherNumbersAndSaysSo) {
 }
 
 TEST(CloudFile, KeepsWhatIntensitiesMeanWhateverTheirScale) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   Cloud cloud;
   const std::array kitti{1.0F, 1.0F, 1.0F, 51.0F, 1.0F, 1.0F, 1.0F, 255.0F};
   ASSERT_TRUE(read_cloud(folder.write_records("a.bin", kitti), cloud));
@@ -167,7 +167,7 @@ TEST(CloudFile, KeepsWhatIntensitiesMeanWhateverTheirScale) {
 }
 
 TEST(CloudFile, OfAnotherNumberOfFloatsAPointSaysHowToNameIt) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   Cloud cloud;
   const auto error_of = [&](const std::string& name, const std::vector<float>& floats) {
     const Status read = read_cloud(folder.write_records(name, floats), cloud);
@@ -197,7 +197,7 @@ TEST(CloudFile, OfAnotherNumberOfFloatsAPointSaysHowToNameIt) {
 }
 
 TEST(CloudFile, MayBeEmptyOrWithoutAPlaceWhereTheSensorIsCovered) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   Cloud cloud;
   for (const char* name : {"a.bin", "a.pcd.bin"}) {
     ASSERT_TRUE(read_cloud(folder.write(name, ""), cloud)) << name;
@@ -215,7 +215,7 @@ TEST(CloudFile, MayBeEmptyOrWithoutAPlaceWhereTheSensorIsCovered) {
 }
 
 TEST(CloudFile, IsMovedToItsViewpointWhereThatIsAskedFor) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   Cloud cloud;
   // Far from the origin, and turned by a quarter to the left.
   const auto file =

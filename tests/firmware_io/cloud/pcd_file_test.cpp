@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "firmware_io/cloud/cloud_bytes.hpp"
-#include "tests/firmware_io/scan/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::cloud {
 namespace {
@@ -226,7 +226,7 @@ TEST(PcdFile, SaysThatAFileIsNotThere) {
   const auto cloud = read_pcd("nowhere/a.pcd");
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, ErrorCode::kNotFound);
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   EXPECT_TRUE(read_pcd(folder.write("a.pcd", header("ascii") + "1 1 1 1\n2 2 2 2\n")));
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "tests/firmware_io/scan/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::cloud {
 namespace {
@@ -119,7 +119,7 @@ TEST(PlyFile, MayHaveNoVertices) {
 
 TEST(PlyFile, SaysThatAFileIsNotThere) {
   EXPECT_EQ(read_ply("nowhere/a.ply").error().code, ErrorCode::kNotFound);
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   EXPECT_TRUE(read_ply(folder.write("a.ply", header("ascii") + "1 1 1\n2 2 2\n")));
 }
 

@@ -32,8 +32,8 @@
 #include "pipeline/ground/profile.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "recorded_sequences.hpp"
-#include "scratch_folder.hpp"
 #include "tests/support/hand_out.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/vehicle_log_reader.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
 #include "tools/lab/encode/scan_drive.hpp"
@@ -168,7 +168,7 @@ double distance_p95_m(const Drive& drive, const fs::path& sequence, bool deskew)
 TEST(DeskewedScans, ReturnsLieWhereTheCompensatedScansHaveThem) {
   TERRACUT_RECORDED_SEQUENCES(sequences);
   for (const auto& sequence : sequences) {
-    const ScratchFolder folder;
+    const test::ScratchFolder folder;
     const Drive twisted = encode(sequence, folder.path() / "twisted.pcap", true);
     const double as_seen_m = distance_p95_m(twisted, sequence, false);
     const double deskewed_m = distance_p95_m(twisted, sequence, true);
@@ -183,7 +183,7 @@ TEST(DeskewedScans, TwistedPacketsAndTheCanLogGiveTheLabelsOfTheCompensatedScans
   double compensated_iou = 0, compensated_recall = 0, deskewed_iou = 0, deskewed_recall = 0;
   const auto share = 1 / static_cast<double>(sequences.size());
   for (const auto& sequence : sequences) {
-    const ScratchFolder folder;
+    const test::ScratchFolder folder;
     const Drive recorded = encode(sequence, folder.path() / "recorded.pcap", false);
     const Drive twisted = encode(sequence, folder.path() / "twisted.pcap", true);
     const quality::Quality compensated = label(recorded, false);

@@ -10,7 +10,7 @@
 
 #include "firmware_io/scan/label_file.hpp"
 #include "firmware_io/scan/scan_folder.hpp"
-#include "scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::scan {
 namespace {
@@ -26,7 +26,7 @@ std::vector<ScanPoint> three_points() {
 }
 
 TEST(KittiScan, ReadsPointsAndLabelsInTheFilesOrder) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto bin = folder.write_records("a.bin", three_points());
   const auto label = folder.write_records("a.label", std::vector<std::uint32_t>{40, 0x20000A, 72});
   KittiScan scan;
@@ -39,7 +39,7 @@ TEST(KittiScan, ReadsPointsAndLabelsInTheFilesOrder) {
 }
 
 TEST(KittiScan, ResetsTheScanBeforeWhenItIsReused) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto bin = folder.write_records("a.bin", three_points());
   const auto label = folder.write_records("a.label", std::vector<std::uint32_t>{1, 2, 3});
   const auto other = folder.write_records("b.bin", std::vector<ScanPoint>{{1, 1, 1, 0}});
@@ -59,7 +59,7 @@ TEST(KittiScan, RefusesAMissingFileByName) {
 }
 
 TEST(KittiScan, RefusesAnEmptyFile) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   KittiScan scan;
   const Status status = read_kitti_scan(folder.write("a.bin", ""), scan);
   ASSERT_FALSE(status);
@@ -68,7 +68,7 @@ TEST(KittiScan, RefusesAnEmptyFile) {
 }
 
 TEST(KittiScan, RefusesATruncatedFileAndSaysWhereItsLastWholePointEnds) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   KittiScan scan;
   const Status status = read_kitti_scan(folder.write("a.bin", std::string(37, 'x')), scan);
   ASSERT_FALSE(status);
@@ -77,7 +77,7 @@ TEST(KittiScan, RefusesATruncatedFileAndSaysWhereItsLastWholePointEnds) {
 }
 
 TEST(KittiScan, RefusesAFileLargerThanAnyFrameWithoutReadingIt) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto bin = folder.write("a.bin", "x");
   std::filesystem::resize_file(bin, (kMaxScanPoints + 1) * 16);  // sparse
   KittiScan scan;
@@ -87,7 +87,7 @@ TEST(KittiScan, RefusesAFileLargerThanAnyFrameWithoutReadingIt) {
 }
 
 TEST(KittiScan, RefusesAFolderInTheFilesPlace) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   KittiScan scan;
   const Status status = read_kitti_scan(folder.path(), scan);
   ASSERT_FALSE(status);
@@ -95,7 +95,7 @@ TEST(KittiScan, RefusesAFolderInTheFilesPlace) {
 }
 
 TEST(KittiScan, CountsPointsThatAreNoPlaceAndKeepsTheirEntries) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   auto points = three_points();
   points[0].y_m = kNaN;
   points[1].x_m = 3e38F;
@@ -110,7 +110,7 @@ TEST(KittiScan, CountsPointsThatAreNoPlaceAndKeepsTheirEntries) {
 }
 
 TEST(KittiScan, RefusesAScanWithoutAFinitePoint) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   KittiScan scan;
   const Status status = read_kitti_scan(
       folder.write_records("a.bin", std::vector<ScanPoint>{{kNaN, 0, 0, 0}, {0, kNaN, 0, 0}}),
@@ -120,7 +120,7 @@ TEST(KittiScan, RefusesAScanWithoutAFinitePoint) {
 }
 
 TEST(KittiScan, RefusesLabelsOfAnotherCount) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto bin = folder.write_records("a.bin", three_points());
   const auto label = folder.write_records("a.label", std::vector<std::uint32_t>{1, 2});
   KittiScan scan;
@@ -154,7 +154,7 @@ TEST(KittiScan, IntensityCoversAByteAndClampsTheRest) {
 }
 
 TEST(LabelFile, WritesWhatItReads) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const std::vector<std::uint32_t> labels{0, 40, 0xFFFF0063};
   ASSERT_TRUE(write_label_ids(folder.path() / "a.label", labels));
   EXPECT_EQ(std::filesystem::file_size(folder.path() / "a.label"), 12U);
@@ -164,7 +164,7 @@ TEST(LabelFile, WritesWhatItReads) {
 }
 
 TEST(ScanFolder, ListsASequenceByNameWithItsLabelsAndPoses) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   folder.write("velodyne/000010.bin", "x");
   folder.write("velodyne/000002.bin", "x");
   folder.write("velodyne/notes.txt", "x");
@@ -182,7 +182,7 @@ TEST(ScanFolder, ListsASequenceByNameWithItsLabelsAndPoses) {
 }
 
 TEST(ScanFolder, ListsAPlainFolderWithLabelsBesideTheScans) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   folder.write("first.bin", "x");
   folder.write("first.label", "x");
   const auto found = list_scan_folder(folder.path());
@@ -194,7 +194,7 @@ TEST(ScanFolder, ListsAPlainFolderWithLabelsBesideTheScans) {
 
 TEST(ScanFolder, RefusesTwoScansOfOneNameBecauseTheirOutputsWouldBeOneFile) {
   for (const char* twin : {"a.pcd.bin", "a.BIN", "a.PCD.bin"}) {
-    const ScratchFolder folder;
+    const test::ScratchFolder folder;
     folder.write("a.bin", "x");
     folder.write("b.bin", "x");
     folder.write(twin, "x");
@@ -207,7 +207,7 @@ TEST(ScanFolder, RefusesTwoScansOfOneNameBecauseTheirOutputsWouldBeOneFile) {
 }
 
 TEST(ScanFolder, TakesNamesInUpperCaseAndNoHiddenFiles) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   folder.write("000001.BIN", "x");
   folder.write("000000.bin", "x");
   folder.write("._000000.bin", "x");
@@ -219,7 +219,7 @@ TEST(ScanFolder, TakesNamesInUpperCaseAndNoHiddenFiles) {
 }
 
 TEST(ScanFolder, SaysOfAFileThatItIsNoScanNotThatThereIsNoSuchFolder) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto found = list_scan_folder(folder.write("scan.csv", "1,2,3"));
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::kUnsupported);
@@ -227,7 +227,7 @@ TEST(ScanFolder, SaysOfAFileThatItIsNoScanNotThatThereIsNoSuchFolder) {
 }
 
 TEST(ScanFolder, SaysWhatItExpectedWhereThereIsNoScan) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto empty = list_scan_folder(folder.path());
   ASSERT_FALSE(empty);
   EXPECT_THAT(empty.error().message, HasSubstr("no scan in it; expected KITTI's .bin"));

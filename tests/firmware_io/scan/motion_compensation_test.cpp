@@ -11,8 +11,8 @@
 #include <string>
 
 #include "firmware_io/scan/sensor_motion.hpp"
-#include "scratch_folder.hpp"
 #include "synthetic_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::scan {
 namespace {
@@ -77,7 +77,7 @@ constexpr const char* kPoses =
 constexpr const char* kTimes = "0\n0.1\n0.2\n";
 
 TEST(SensorMotion, TakesVelocityIntoTheSensorsFrame) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto motion = SensorMotion::read(folder.write("poses.txt", kPoses),
                                          folder.write("times.txt", kTimes), std::nullopt);
   ASSERT_TRUE(motion) << motion.error().message;
@@ -93,7 +93,7 @@ TEST(SensorMotion, TakesVelocityIntoTheSensorsFrame) {
 
 TEST(SensorMotion, FollowsACurve) {
   // Turning left at 0.5 rad/s about the sensor, which stands 0.27 m behind the camera.
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   std::string poses;
   for (int i = 0; i < 3; ++i) {
     const double a = 0.05 * i, c = std::cos(a), s = std::sin(a);  // about -y of the camera
@@ -112,7 +112,7 @@ TEST(SensorMotion, FollowsACurve) {
 }
 
 TEST(SensorMotion, TakesTheSensorsPlaceFromTheCalibration) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   // Sensor axes = camera axes: the velocity stays along z.
   const auto calib = folder.write("calib.txt", "P0: 1 2 3\nTr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
   const auto motion = SensorMotion::read(folder.write("poses.txt", kPoses),
@@ -122,7 +122,7 @@ TEST(SensorMotion, TakesTheSensorsPlaceFromTheCalibration) {
 }
 
 TEST(SensorMotion, TakesWhatOneFrameSeesToWhereAnotherSeesIt) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto calib = folder.write("calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
   const auto motion = SensorMotion::read(folder.write("poses.txt", kPoses),
                                          folder.write("times.txt", kTimes), calib);
@@ -134,7 +134,7 @@ TEST(SensorMotion, TakesWhatOneFrameSeesToWhereAnotherSeesIt) {
 }
 
 TEST(SensorMotion, RefusesFramesItHasNoPoseOf) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto motion = SensorMotion::read(folder.write("poses.txt", kPoses),
                                          folder.write("times.txt", kTimes), std::nullopt);
   ASSERT_TRUE(motion);
@@ -154,7 +154,7 @@ struct Malformed {
 class SensorMotionFiles : public testing::TestWithParam<Malformed> {};
 
 TEST_P(SensorMotionFiles, AreRefusedByFileAndLine) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto motion = SensorMotion::read(folder.write("poses.txt", GetParam().poses),
                                          folder.write("times.txt", GetParam().times),
                                          folder.write("calib.txt", GetParam().calib));
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& param) { return param.param.what; });
 
 TEST(SensorMotion, RefusesSpeedsNoCarHas) {
-  const ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto motion =
       SensorMotion::read(folder.write("poses.txt", kPoses),
                          folder.write("times.txt", "0\n0.001\n0.002\n"), std::nullopt);

@@ -8,7 +8,7 @@
 
 #include "firmware_io/scan/scan_reader.hpp"
 #include "recorded_sequences.hpp"
-#include "scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/lab/encode/recorded_spin.hpp"
 #include "tools/lab/encode/scan_encoder.hpp"
 
@@ -112,7 +112,7 @@ RowsKept rows_kept(const std::vector<std::int16_t>& truth, const std::vector<std
 TEST(RecordedScans, KeepARowForEachRingInACameraViewOfThem) {
   TERRACUT_RECORDED_SEQUENCES(sequences);
   for (const auto& sequence : sequences) {
-    const ScratchFolder folder;
+    const test::ScratchFolder folder;
     KittiScan scan;
     RingRecovery whole;
     ASSERT_TRUE(reader_of(sequence, false).read(0, scan, whole));

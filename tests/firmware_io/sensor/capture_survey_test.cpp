@@ -93,7 +93,7 @@ class SurveyOfAUnit : public testing::Test {
     return result->streams.at(0).hdl64e.value();
   }
 
-  test::TemporaryFolder folder_;
+  test::ScratchFolder folder_;
 };
 
 TEST_F(SurveyOfAUnit, TellsSpinStepFramesAndCalibration) {
@@ -168,7 +168,7 @@ TEST_F(SurveyOfAUnit, WithItsWholeViewIsBlindNowhereWhateverIsLost) {
 }
 
 TEST(CaptureSurvey, TellsStreamsApart) {
-  const test::TemporaryFolder folder;
+  const test::ScratchFolder folder;
   auto writer = capture::PcapWriter::create(folder / "a.pcap");
   ASSERT_TRUE(writer);
   Unit unit;
@@ -203,7 +203,7 @@ TEST(CaptureSurvey, TellsStreamsApart) {
 }
 
 TEST(CaptureSurvey, ReportsACaptureThatBreaksOff) {
-  const test::TemporaryFolder folder;
+  const test::ScratchFolder folder;
   test::CaptureFile file;
   file.add(test::ethernet(test::IpFrame{}.bytes())).add(test::ethernet(test::IpFrame{}.bytes()));
   Bytes cut = file.bytes();

@@ -33,7 +33,7 @@ std::string python_with_canmatrix() {
 TEST(Canmatrix, DecodesRandomSignalsToTheSameValues) {
   const std::string python = python_with_canmatrix();
   if (python.empty()) GTEST_SKIP() << "no python3 with canmatrix (package python3-canmatrix)";
-  const auto folder = make_scratch_folder();
+  const ScratchFolder folder;
   std::mt19937 random(77);
   DbcFile file;
   std::ofstream frames(folder / "frames");
@@ -57,8 +57,10 @@ TEST(Canmatrix, DecodesRandomSignalsToTheSameValues) {
   frames.close();
   std::ofstream(folder / "random.dbc") << dbc_text(file);
   const std::string command = fmt::format(
-      "{} {}/tests/firmware_io/vehicle/decode_with_canmatrix.py {}/random.dbc < {}/frames > {}/values",
-      python, test::source_folder().string(), folder.string(), folder.string(), folder.string());
+      "{} {}/tests/firmware_io/vehicle/decode_with_canmatrix.py {}/random.dbc < {}/frames > "
+      "{}/values",
+      python, test::source_folder().string(), folder.path().string(), folder.path().string(),
+      folder.path().string());
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
 
   const auto parsed = vehicle::read_dbc(folder / "random.dbc");
@@ -78,7 +80,6 @@ TEST(Canmatrix, DecodesRandomSignalsToTheSameValues) {
     ++compared;
   }
   EXPECT_EQ(compared, 60U * 8U);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -167,13 +167,12 @@ TEST(DbcFile, RefusesWhatIsNoDbcFile) {
   EXPECT_THAT(parse_dbc(" SG_ S : 0|8@1+ (1,0) [0|0] \"\" X\n", "car.dbc").error().message,
               HasSubstr("car.dbc:1: signal S stands before any message"));
 
-  const auto folder = make_scratch_folder();
+  const ScratchFolder folder;
   EXPECT_EQ(vehicle::read_dbc(folder / "none.dbc").error().code, ErrorCode::kNotFound);
   std::ofstream(folder / "large.dbc") << std::string(5 << 20, '\n');
   EXPECT_EQ(vehicle::read_dbc(folder / "large.dbc").error().code, ErrorCode::kUnsupported);
   std::ofstream(folder / "car.dbc") << kCar;
   EXPECT_TRUE(vehicle::read_dbc(folder / "car.dbc"));
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -295,9 +295,8 @@ TEST_F(LiveFrames, TheRecorderHasEveryDatagramWhateverBecameOfIt) {
   time_.now_ns += 400 * kMs;  // some of what comes now is let go
   run();
   EXPECT_GT(intake().account.let_go, 0U);
-  const auto folder = test::make_scratch_folder();
+  const test::ScratchFolder folder;
   const auto dump = recorder_.dump(folder / "all.pcap", recorder::DumpReason::kAsked, {});
-  std::filesystem::remove_all(folder);
   ASSERT_TRUE(dump) << dump.error().message;
   EXPECT_EQ(dump->datagrams, packets.size() + 1);
 }

@@ -24,10 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using test::content_of;
 
 /// How many records of each kind a file has, from its magic on, as long as they are whole.
 struct Records {
@@ -52,11 +49,8 @@ Records records_of(const fs::path& path) {
 }
 constexpr int kFooter = 2, kChunk = 6, kStatistics = 11;
 
-class McapSinkTest : public testing::Test {
+class McapSinkTest : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::unique_ptr<McapSink> open(McapSink::Config config) {
     auto sink = McapSink::open(std::move(config), {.sensor = "a sensor"});
     EXPECT_TRUE(sink) << sink.error().message;
@@ -84,8 +78,6 @@ class McapSinkTest : public testing::Test {
     }
     return names;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(McapSinkTest, AFileIsWholeWhenItHasItsName) {

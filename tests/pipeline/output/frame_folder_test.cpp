@@ -20,11 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 
-class FrameFolders : public testing::Test {
+class FrameFolders : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   [[nodiscard]] FrameFolder folder_of(const std::string& input,
                                       const std::string& ending = ".label") {
     return FrameFolder({.folder = folder_,
@@ -57,7 +54,6 @@ class FrameFolders : public testing::Test {
     std::ranges::sort(names);
     return names;
   }
-  fs::path folder_;
   std::size_t replaced_ = 0;  ///< Files, as runs were told.
 };
 

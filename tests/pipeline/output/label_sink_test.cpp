@@ -9,7 +9,9 @@ namespace {
 
 using frame::Label;
 
-class LabelSink : public OutputFolder {};
+using test::content_of;
+
+class LabelSink : public test::InScratchFolder {};
 
 TEST_F(LabelSink, WritesOneLittleEndianClassAReturnInOrder) {
   const std::vector labels{Label::kGround, Label::kObstacle, Label::kOtherGround};

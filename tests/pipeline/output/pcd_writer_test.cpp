@@ -22,7 +22,9 @@ T field(const std::string& file, std::size_t point, std::size_t offset) {
   return value;
 }
 
-class PcdWriter : public OutputFolder {};
+using test::content_of;
+
+class PcdWriter : public test::InScratchFolder {};
 
 TEST_F(PcdWriter, WritesAllFieldsInOrderOfArrival) {
   SmallFrame small;

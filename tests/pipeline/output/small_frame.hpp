@@ -35,18 +35,4 @@ struct SmallFrame {
   [[nodiscard]] pictures::LabelledFrame frame() const { return {image, labels, mistakes}; }
 };
 
-/// A file in a folder of this test's own, removed with everything in it at the end.
-class OutputFolder : public testing::Test {
- protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] static std::string content_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  std::filesystem::path folder_;
-};
-
 }  // namespace terracut::output

@@ -18,7 +18,9 @@ Colour colour_at(const Picture& picture, const BirdEyeView& view, double x_m, do
                     static_cast<int>(picture.height() / 2.0 - x_m * view.pixels_per_m));
 }
 
-class Pictures : public output::OutputFolder {};
+using test::content_of;
+
+class Pictures : public test::InScratchFolder {};
 
 TEST_F(Pictures, SurviveThePngFile) {
   Picture picture(7, 3, {1, 2, 3});

@@ -26,10 +26,8 @@ using testing::UnorderedElementsAre;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kStart_ns = 1'795'264'493'123 * (kSecond_ns / 1000);
 
-class DumpFolderTest : public testing::Test {
+class DumpFolderTest : public test::InScratchFolder {
  protected:
-  ~DumpFolderTest() override { fs::remove_all(folder_); }
-
   [[nodiscard]] DumpFolderLimits limits() const {
     return {.folder = folder_, .least_free_bytes = 0};
   }
@@ -64,8 +62,6 @@ class DumpFolderTest : public testing::Test {
     ::waitpid(child, nullptr, 0);
     return child;
   }
-
-  fs::path folder_ = make_scratch_folder();
 };
 
 TEST_F(DumpFolderTest, NamesADumpByNumberTimeAndReasonAndMakesTheFolder) {

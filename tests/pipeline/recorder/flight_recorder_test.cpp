@@ -80,10 +80,8 @@ void expect_same_image(const Frame& live, const Frame& replayed) {
   }
 }
 
-class FlightRecorderTest : public testing::Test {
+class FlightRecorderTest : public test::InScratchFolder {
  protected:
-  ~FlightRecorderTest() override { fs::remove_all(folder_); }
-
   [[nodiscard]] DumpLimits limits() const {
     DumpLimits limits;
     limits.folder.folder = folder_;
@@ -157,8 +155,6 @@ class FlightRecorderTest : public testing::Test {
     }
     EXPECT_GE(compared, 2U) << json;
   }
-
-  fs::path folder_ = make_scratch_folder();
   memory::FixedMemory memory_;
 };
 

@@ -17,15 +17,9 @@
 namespace terracut::stream {
 namespace {
 
-class ListeningSocketTest : public testing::Test {
+class ListeningSocketTest : public test::InScratchFolder {
  protected:
-  void SetUp() override {
-    folder_ = test::make_scratch_folder();
-    address_ = {.unix_path = (folder_ / "frames").string()};
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path folder_;
+  void SetUp() override { address_ = {.unix_path = (folder_ / "frames").string()}; }
   StreamAddress address_;
 };
 

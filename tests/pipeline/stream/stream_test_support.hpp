@@ -77,13 +77,9 @@ inline std::ostream& operator<<(std::ostream& out, Transport transport) {
 }
 
 /// A server on the loopback address or on a Unix socket in a folder of this test's own.
-class StreamTest : public testing::TestWithParam<Transport> {
+class StreamTest : public test::InScratchFolder, public testing::WithParamInterface<Transport> {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override {
-    server_.reset();
-    std::filesystem::remove_all(folder_);
-  }
+  void TearDown() override { server_.reset(); }
 
   [[nodiscard]] StreamAddress any_address() const {
     if (GetParam() == Transport::kTcp) return {};
@@ -128,8 +124,6 @@ class StreamTest : public testing::TestWithParam<Transport> {
     ::poll(&polled, 1, 5);
     server_->work_round();
   }
-
-  std::filesystem::path folder_;
   memory::FixedMemory memory_;
   std::optional<FrameStreamServer> server_;
 };

@@ -14,22 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class FilePlaces : public testing::Test {
+class FilePlaces : public test::InScratchFolder {
  protected:
   void SetUp() override {
-    folder_ = test::make_scratch_folder();
     fs::create_directory(folder_ / "d");
     std::ofstream(folder_ / "d" / "file") << "x";
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
   [[nodiscard]] bool same(const fs::path& a, const fs::path& b) const {
     return FilePlace(folder_ / a).is_same_as(FilePlace(folder_ / b));
   }
   [[nodiscard]] bool in(const fs::path& a, const fs::path& b) const {
     return FilePlace(folder_ / a).lies_in(FilePlace(folder_ / b));
   }
-  fs::path folder_;
 };
 
 TEST_F(FilePlaces, OfOneFileAreOneWhateverItIsCalled) {

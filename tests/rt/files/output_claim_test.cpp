@@ -18,15 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class OutputClaims : public testing::Test {
+class OutputClaims : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static std::optional<ErrorCode> refusal(const Expected<OutputClaim>& claim) {
     return claim ? std::nullopt : std::optional(claim.error().code);
   }
-  fs::path folder_;
 };
 
 TEST_F(OutputClaims, OfAFileIsOneRunsAloneAndLeavesNothing) {

@@ -16,15 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class PartFile : public testing::Test {
+class PartFile : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void tidy_up(std::string_view place) const {
     remove_abandoned_parts(folder_, [&](std::string_view name) { return name == place; });
   }
-  fs::path folder_;
 };
 
 TEST_F(PartFile, StaysWhileItsMakerLives) {

@@ -16,15 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class PlainFiles : public testing::Test {
+class PlainFiles : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   [[nodiscard]] Expected<std::string> read(const fs::path& path) const {
     return read_plain_file(path, 100'000);
   }
-  fs::path folder_;
 };
 
 TEST_F(PlainFiles, AreReadWholeAlsoByALink) {

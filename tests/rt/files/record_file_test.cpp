@@ -16,17 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class RecordFiles : public testing::Test {
+class RecordFiles : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// What reading eight bytes of a file of the folder ends with.
   [[nodiscard]] Status read(const char* name) const {
     std::array<char, 8> bytes{};
     return read_bytes(folder_ / name, bytes.data(), bytes.size());
   }
-  fs::path folder_;
 };
 
 TEST_F(RecordFiles, ThatBecameAPipeOrShorterSinceTheyWereCountedAreRefused) {

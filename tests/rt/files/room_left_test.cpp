@@ -19,15 +19,14 @@ TEST(RoomLeft, IsATenthOfADiskAndAGibibyteAtMost) {
 }
 
 TEST(RoomLeft, IsThatOfTheDiskThatAMissingFolderWillLieOn) {
-  const auto folder = test::make_scratch_folder();
+  const test::ScratchFolder folder;
   EXPECT_TRUE(check_room_left(folder / "not" / "yet" / "there"));
   EXPECT_TRUE(check_room_left("not-there-either"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(RoomLeft, EndsBeforeTheDiskIsFull) {
-  const auto folder = test::make_scratch_folder();
-  const auto outcome = test::on_a_disk_of(1000, folder, [&] {
+  const test::ScratchFolder folder;
+  const auto outcome = test::on_a_disk_of(1000, folder.path(), [&] {
     const auto grow_to = [&](std::size_t bytes) {
       std::ofstream(folder / "recording") << std::string(bytes, 'x');
     };
@@ -39,7 +38,6 @@ TEST(RoomLeft, EndsBeforeTheDiskIsFull) {
         !status && status.error().message.find("leave 102400 to others") != std::string::npos;
     return says_so ? test::InChild::kAsExpected : test::InChild::kOtherwise;
   });
-  std::filesystem::remove_all(folder);
   if (outcome == test::InChild::kNotPossible) GTEST_SKIP() << "no file system may be mounted here";
   EXPECT_EQ(outcome, test::InChild::kAsExpected);
 }

@@ -19,21 +19,13 @@ namespace terracut::files {
 namespace {
 
 namespace fs = std::filesystem;
+using test::content_of;
 
-class WholeFile : public testing::Test {
+class WholeFile : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  [[nodiscard]] static std::string content_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   [[nodiscard]] static std::ptrdiff_t files_in(const fs::path& folder) {
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
   }
-
-  fs::path folder_;
 };
 
 TEST_F(WholeFile, WritesContentAndLeavesNoTemporaryFile) {

@@ -17,7 +17,7 @@ namespace terracut::measure {
 namespace {
 
 TEST(ProcFile, ReadsFromTheBeginningEachTime) {
-  const auto folder = test::make_scratch_folder();
+  const test::ScratchFolder folder;
   const std::string path = (folder / "file").string();
   std::ofstream(path) << "1 2 3";
   auto file = ProcFile::open(path.c_str());

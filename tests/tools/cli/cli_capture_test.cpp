@@ -4,13 +4,11 @@
 #include <sys/stat.h>
 
 #include "cli_fixture.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/capture/pcap_writer.hpp"
+#include "tests/support/rewritten_capture.hpp"
 
 namespace terracut::cli {
 namespace {
 
-using packet::Datagram;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -36,19 +34,13 @@ class CliCapture : public Cli {
   /// The drive's first packets, each changed.
   template <class Change>
   void write_capture(const std::string& name, std::size_t packets, Change change) const {
-    auto drive = capture::PcapSource::open(kDrive);
-    auto capture = capture::PcapWriter::create(folder_ / name);
-    ASSERT_TRUE(drive && capture);
-    for (std::size_t i = 0; i < packets; ++i) {
-      const auto next = *drive->next();
-      ASSERT_TRUE(next);
-      std::vector<std::uint8_t> payload(next->payload.begin(), next->payload.end());
+    test::rewrite_capture(kDrive, folder_ / name, [&](auto datagram, auto n, auto& write) {
+      if (n >= packets) return;
+      std::vector<std::uint8_t> payload(datagram.payload.begin(), datagram.payload.end());
       change(payload);
-      Datagram datagram = *next;
       datagram.payload = payload;
-      ASSERT_TRUE(capture->write(datagram));
-    }
-    ASSERT_TRUE(capture->finish());
+      write(datagram);
+    });
   }
 };
 

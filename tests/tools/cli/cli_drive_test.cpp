@@ -7,9 +7,8 @@
 
 #include "calib/beams/angle.hpp"
 #include "cli_fixture.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/capture/pcap_writer.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/rewritten_capture.hpp"
 #include "tools/cli/exit_codes.hpp"
 
 namespace terracut::cli {
@@ -69,18 +68,11 @@ TEST_F(Cli, InfoNamesTheSensorItsRateAndTheTableInTheStream) {
 }
 
 TEST_F(Cli, InfoAndReplayNameABlindSectorAndDoNotTakeItForLoss) {
-  auto whole = capture::PcapSource::open(kDrive);
-  auto narrow = capture::PcapWriter::create(folder_ / "narrow.pcap");
-  ASSERT_TRUE(whole && narrow);
-  for (auto next = whole->next(); next && *next; next = whole->next()) {
-    const packet::Datagram& datagram = **next;
-    const int rotor_cdeg = datagram.payload[2] + 256 * datagram.payload[3];
-    if (rotor_cdeg < 10'000 || rotor_cdeg >= 20'000) {
-      ASSERT_TRUE(narrow->write(datagram));
-    }
-  }
-  ASSERT_TRUE(narrow->finish());
-
+  test::rewrite_capture(kDrive, folder_ / "narrow.pcap",
+                        [](const auto& datagram, auto, auto& write) {
+                          const int rotor_cdeg = datagram.payload[2] + 256 * datagram.payload[3];
+                          if (rotor_cdeg < 10'000 || rotor_cdeg >= 20'000) write(datagram);
+                        });
   const Outcome outcome = run("info --json info.json narrow.pcap");
   EXPECT_THAT(outcome.out, HasSubstr("  blind        from 10"));
   EXPECT_THAT(outcome.out, HasSubstr("  lost         0 packets"));

@@ -24,10 +24,7 @@ namespace terracut::cli {
 
 namespace fs = std::filesystem;
 
-[[nodiscard]] inline std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using test::content_of;
 
 [[nodiscard]] inline std::vector<std::uint32_t> ids_of(const fs::path& path) {
   const std::string bytes = content_of(path);
@@ -50,14 +47,11 @@ struct Outcome {
 };
 
 /// A folder of this test's own and the built program to run in it.
-class Cli : public testing::Test {
+class Cli : public test::InScratchFolder {
  protected:
   void SetUp() override {
-    folder_ = test::make_scratch_folder();
     ::setenv("STATE_DIRECTORY", folder_.c_str(), 1);  // what live runs remember goes with the test
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Runs `terracut ARGUMENTS` with the test's folder as working directory. From any thread.
   [[nodiscard]] Outcome run(const std::string& arguments) const {
     static std::atomic<int> runs = 0;
@@ -76,11 +70,6 @@ class Cli : public testing::Test {
   [[nodiscard]] nlohmann::json json(const std::string& name) const {
     return nlohmann::json::parse(content_of(folder_ / name), nullptr, false);
   }
-  void write(const std::string& name, const std::string& content) const {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-  }
-
-  fs::path folder_;
 };
 
 /// 1.3 s of the scene "street": 13 frames, and one whole round of the status stream.

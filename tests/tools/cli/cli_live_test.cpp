@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_io/capture/pcap_writer.hpp"
 #include "firmware_io/net/live_pcap_source.hpp"
 #include "firmware_io/net/udp_source.hpp"
 #include "pipeline/stream/stream_address.hpp"
 #include "tests/support/frame_stream_reader.hpp"
+#include "tests/support/rewritten_capture.hpp"
 #include "tests/tools/cli/live/cli_live.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
 
@@ -26,29 +26,19 @@ using testing::HasSubstr;
 /// A Ruby128's capture with what it says of itself, which comes once a second, before every 100th
 /// packet: a run waits seconds for it, in which a busy machine hears little of the stream.
 void tell_angles_often(const fs::path& from, const fs::path& to) {
-  auto capture = capture::PcapSource::open(from);
-  auto often = capture::PcapWriter::create(to);
-  ASSERT_TRUE(capture && often);
   std::vector<std::uint8_t> told;
   std::uint16_t device_port = 0;
-  for (std::size_t n = 0;; ++n) {
-    const auto next = capture->next();
-    ASSERT_TRUE(next) << next.error().message;
-    if (!*next) break;
-    packet::Datagram datagram = **next;
+  test::rewrite_capture(from, to, [&](auto datagram, auto n, auto& write) {
     if (n == 0) {
       told.assign(datagram.payload.begin(), datagram.payload.end());
       device_port = datagram.destination_port;
     }
-    ASSERT_TRUE(often->write(datagram));
+    write(datagram);
     datagram.payload = told;
     datagram.destination_port = device_port;
-    if (n % 100 == 0) {
-      ASSERT_TRUE(often->write(datagram));
-    }
-  }
+    if (n % 100 == 0) write(datagram);
+  });
   ASSERT_EQ(device_port, 7788) << "the capture begins with what the sensor says of itself";
-  ASSERT_TRUE(often->finish());
 }
 
 TEST_F(CliLive, FindsTheMountBeforeItLabels) {
@@ -78,17 +68,13 @@ TEST_F(CliLive, CountsWhatCameBeforeLabellingBegan) {
 
 TEST_F(CliLive, GoesOnWithAGuessThatItShowsWhereNoGroundIsSeen) {
   // Of every revolution a fifth, and so no ground behind the vehicle nor straight ahead.
-  auto capture = capture::PcapSource::open(kDrive);
-  auto part = capture::PcapWriter::create(folder_ / "aside.pcap");
-  ASSERT_TRUE(capture && part);
   std::int64_t begin_ns = 0;
-  for (auto next = capture->next(); next && *next; next = capture->next()) {
-    if (begin_ns == 0) begin_ns = (*next)->stamp_ns;
-    const std::int64_t into_ns = ((*next)->stamp_ns - begin_ns) % 100'000'000;
-    if (into_ns < 20'000'000 || into_ns > 40'000'000) continue;
-    ASSERT_TRUE(part->write(**next));
-  }
-  ASSERT_TRUE(part->finish());
+  test::rewrite_capture(kDrive, folder_ / "aside.pcap",
+                        [&](const auto& datagram, auto n, auto& write) {
+                          if (n == 0) begin_ns = datagram.stamp_ns;
+                          const std::int64_t into_ns = (datagram.stamp_ns - begin_ns) % 100'000'000;
+                          if (into_ns >= 20'000'000 && into_ns <= 40'000'000) write(datagram);
+                        });
   LiveRun run = live_with_table("--mount-guess --json live.json");
   const Sensors sender({Sensors::kLocalhost}, {{Sensors::kAnyPort, run.port()}},
                        folder_ / "aside.pcap");

@@ -62,6 +62,11 @@ struct BothWays {
 
 class CliScans : public Cli {
  protected:
+  /// The drive's first frame in the folder "scans".
+  void make_scan() const {
+    expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
+    write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  }
   /// Both ways of a sequence folder; checks what holds for either.
   BothWays both_ways(const fs::path& sequence) {
     expect_done("encode " + quoted(sequence) + " -o drive.pcap");
@@ -81,8 +86,7 @@ class CliScans : public Cli {
 };
 
 TEST_F(CliScans, OfASimulatedDriveGiveTheSameAccuracyThroughPackets) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
-  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  make_scan();
   const BothWays ways = both_ways(folder_ / "scans");
   EXPECT_NEAR(ways.packets_recall_o, ways.direct_recall_o, 0.01);
   EXPECT_EQ(fs::file_size(folder_ / "direct" / "000000.label"),
@@ -90,8 +94,7 @@ TEST_F(CliScans, OfASimulatedDriveGiveTheSameAccuracyThroughPackets) {
 }
 
 TEST_F(CliScans, TellTheMountTheyWereTakenFrom) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
-  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  make_scan();
   const Outcome found = run("segment scans --json found.json");
   EXPECT_EQ(found.exit_code, 0) << found.err;
   EXPECT_THAT(found.err, HasSubstr("mount: height 1.7"));
@@ -131,8 +134,7 @@ TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
 }
 
 TEST_F(CliScans, AreLabelledByTheBaselineThatIsNamedDirectlyAndThroughPackets) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
-  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  make_scan();
   for (const std::string method : {"pfaff", "bogoslavskyi", "zhang"}) {
     const std::string quick = method == "zhang" ? " --set zhang.iterations=8" : "";
     const std::string chosen = quick + " --method " + method;
@@ -150,8 +152,7 @@ TEST_F(CliScans, AreLabelledByTheBaselineThatIsNamedDirectlyAndThroughPackets) {
 }
 
 TEST_F(CliScans, WithNullPointsGetALabelForEveryPoint) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
-  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  make_scan();
   expect_done("segment scans --labels without");
   std::ofstream(folder_ / "scans/velodyne/000000.bin", std::ios::binary | std::ios::app)
       << std::string(16, '\0');
@@ -167,8 +168,7 @@ TEST_F(CliScans, WithNullPointsGetALabelForEveryPoint) {
 }
 
 TEST_F(CliScans, ThatAreCroppedOrInAnotherOrderAreTakenAllTheSameOrRefusedWithACure) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
-  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  make_scan();
   fs::remove_all(folder_ / "scans/labels");
   const fs::path bin = folder_ / "scans/velodyne/000000.bin";
   const std::string file = content_of(bin);
@@ -236,8 +236,7 @@ TEST_F(CliScans, OfOtherFormatsGetTheSameLabelsInTheOrderOfTheirPoints) {
 }
 
 TEST_F(CliScans, AreEncodedWithTheirMotionPutBackWherePosesLieBesideThem) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
-  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  make_scan();
   Outcome outcome = run("encode scans -o drive.pcap");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("as recorded: poses.txt is missing beside velodyne/"));

@@ -5,10 +5,9 @@
 #include <optional>
 
 #include "background_program.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/capture/pcap_writer.hpp"
 #include "firmware_io/net/udp_source.hpp"
 #include "firmware_io/sensor/hdl64e_survey.hpp"
+#include "tests/support/rewritten_capture.hpp"
 #include "tools/cli/exit_codes.hpp"
 
 namespace terracut::cli {
@@ -35,18 +34,11 @@ class CliSend : public Cli {
   /// Every 40th packet of the drive as a capture: the smallest receive buffer there is holds them
   /// all, however late they are read.
   [[nodiscard]] fs::path sparse_drive() const {
-    constexpr int kEvery = 40;
-    auto drive = capture::PcapSource::open(kDrive);
-    auto sparse = capture::PcapWriter::create(folder_ / "sparse.pcap");
-    EXPECT_TRUE(drive && sparse);
-    for (int n = 0;; ++n) {
-      const auto next = drive->next();
-      if (!next || !*next) break;
-      if (n % kEvery != 0) continue;
-      EXPECT_TRUE(sparse->write(**next));
-    }
-    EXPECT_TRUE(sparse->finish());
-    return folder_ / "sparse.pcap";
+    const fs::path sparse = folder_ / "sparse.pcap";
+    test::rewrite_capture(kDrive, sparse, [](const auto& datagram, auto n, auto& write) {
+      if (n % 40 == 0) write(datagram);
+    });
+    return sparse;
   }
   /// Takes what comes until that is so many datagrams, with those the kernel says it dropped.
   void receive(std::uint64_t datagrams) {

@@ -4,8 +4,7 @@
 #include <functional>
 
 #include "cli_fixture.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/capture/pcap_writer.hpp"
+#include "tests/support/rewritten_capture.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -22,37 +21,28 @@ class CliSenders : public Cli {
   /// The drive, and beside each of its datagrams those of another sender, if `is_sent(number)`.
   void write_capture(const std::string& name,
                      const std::function<bool(std::size_t)>& is_sent) const {
-    auto drive = capture::PcapSource::open(kDrive);
-    auto capture = capture::PcapWriter::create(folder_ / name);
-    ASSERT_TRUE(drive && capture);
-    std::size_t number = 0;
-    while (const auto next = *drive->next()) {
-      Datagram datagram = *next;
-      ASSERT_TRUE(capture->write(datagram));
+    test::rewrite_capture(kDrive, folder_ / name, [&](auto datagram, auto number, auto& write) {
+      write(datagram);
       datagram.source_address = kOther;
-      if (is_sent(number++)) {
-        ASSERT_TRUE(capture->write(datagram));
-      }
-    }
-    ASSERT_TRUE(capture->finish());
+      if (is_sent(number)) write(datagram);
+    });
   }
   /// The drive, and by turns with its packets those of a sensor whose head and clock are ahead, or
   /// the same ones, on a way of their own.
   void write_two(const std::string& name, std::size_t ahead,
                  const std::function<void(Datagram&)>& lead) const {
-    auto drive = capture::PcapSource::open(kDrive);
     auto later = capture::PcapSource::open(kDrive);
-    auto capture = capture::PcapWriter::create(folder_ / name);
-    ASSERT_TRUE(drive && later && capture);
+    ASSERT_TRUE(later);
     for (std::size_t i = 0; i < ahead; ++i) ASSERT_TRUE(*later->next());
-    while (const auto second = *later->next()) {
-      const auto first = *drive->next();
+    test::rewrite_capture(kDrive, folder_ / name, [&](const auto& first, auto, auto& write) {
+      const auto second = *later->next();
+      if (!second) return;
       Datagram datagram = *second;
-      datagram.stamp_ns = first->stamp_ns;
+      datagram.stamp_ns = first.stamp_ns;
       lead(datagram);
-      ASSERT_TRUE(capture->write(*first) && capture->write(datagram));
-    }
-    ASSERT_TRUE(capture->finish());
+      write(first);
+      write(datagram);
+    });
   }
   [[nodiscard]] static std::string with_calibration(const std::string& arguments) {
     return arguments + " --duration 0.35 --calibration " + quoted(kDriveCalibration);
@@ -114,20 +104,15 @@ TEST_F(CliSenders, OfOneSensorThatIsHeardTwiceAreOneSensors) {
 }
 
 TEST_F(CliSenders, OfASensorThatJoinsLaterAreLeftOutAndCounted) {
-  auto drive = capture::PcapSource::open(kDrive);
-  auto capture = capture::PcapWriter::create(folder_ / "joins.pcap");
-  ASSERT_TRUE(drive && capture);
   std::vector<std::uint8_t> earlier;
-  for (std::size_t number = 0; const auto next = *drive->next(); ++number) {
-    Datagram datagram = *next;
-    ASSERT_TRUE(capture->write(datagram));
-    if (number == 3000) earlier.assign(datagram.payload.begin(), datagram.payload.end());
-    if (number != 4000) continue;
+  test::rewrite_capture(kDrive, folder_ / "joins.pcap", [&](auto datagram, auto n, auto& write) {
+    write(datagram);
+    if (n == 3000) earlier.assign(datagram.payload.begin(), datagram.payload.end());
+    if (n != 4000) return;
     datagram.payload = earlier;  // no copy of what was just sent
     datagram.destination_port = 2369;
-    ASSERT_TRUE(capture->write(datagram));
-  }
-  ASSERT_TRUE(capture->finish());
+    write(datagram);
+  });
   const Outcome outcome = run("replay joins.pcap --json report.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("warning: 1 data packets of 192.168.3.43 are not of the "

@@ -4,8 +4,7 @@
 #include <functional>
 
 #include "cli_fixture.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/capture/pcap_writer.hpp"
+#include "tests/support/rewritten_capture.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -20,16 +19,10 @@ class CliStamps : public Cli {
   /// The drive with every stamp shifted by `shift_ns(number of the packet)`; how many there are.
   std::size_t write_capture(const std::string& name,
                             const std::function<std::int64_t(std::size_t)>& shift_ns) const {
-    auto drive = capture::PcapSource::open(kDrive);
-    auto capture = capture::PcapWriter::create(folder_ / name);
-    std::size_t number = 0;
-    while (const auto next = *drive->next()) {
-      packet::Datagram datagram = *next;
-      datagram.stamp_ns += shift_ns(number++);
-      EXPECT_TRUE(capture->write(datagram));
-    }
-    EXPECT_TRUE(capture->finish());
-    return number;
+    return test::rewrite_capture(kDrive, folder_ / name, [&](auto datagram, auto n, auto& write) {
+      datagram.stamp_ns += shift_ns(n);
+      write(datagram);
+    });
   }
   [[nodiscard]] std::string labels_in(const std::string& folder) const {
     std::string all;

@@ -15,15 +15,9 @@
 namespace terracut::doctor {
 
 /// A machine of the test's own making: files below a scratch folder.
-class MadeUpMachine : public testing::Test {
+class MadeUpMachine : public test::InScratchFolder {
  protected:
-  void SetUp() override { root_ = test::make_scratch_folder(); }
-  void TearDown() override { std::filesystem::remove_all(root_); }
-
-  void file(const std::string& path, const std::string& content) const {
-    std::filesystem::create_directories((root_ / path).parent_path());
-    std::ofstream(root_ / path, std::ios::binary) << content;
-  }
+  void file(const std::string& path, const std::string& content) const { write(path, content); }
   void process(int number, const std::string& name) const {
     file("proc/" + std::to_string(number) + "/comm", name + "\n");
   }
@@ -45,10 +39,8 @@ class MadeUpMachine : public testing::Test {
     file("sys/class/net/" + name + "/operstate", state + "\n");
   }
 
-  [[nodiscard]] SystemView system() const { return SystemView(root_); }
-  [[nodiscard]] SystemView system(ClockState clock) const { return SystemView(root_, clock); }
-
-  std::filesystem::path root_;
+  [[nodiscard]] SystemView system() const { return SystemView(folder_); }
+  [[nodiscard]] SystemView system(ClockState clock) const { return SystemView(folder_, clock); }
 };
 
 /// The finding's verdict, and that words stand in what was found and, unless ok, how to mend it.

@@ -23,7 +23,7 @@ namespace {
 
 using cli::BackgroundProgram;
 
-class DdsInterop : public testing::Test {
+class DdsInterop : public test::InScratchFolder {
  protected:
   /// Of everything here: loopback, and a buffer for large clouds; and what else is said.
   static void configure(const std::string& more = "") {
@@ -34,9 +34,6 @@ class DdsInterop : public testing::Test {
     ::setenv("CYCLONEDDS_URI", configuration.c_str(), 1);
   }
   static void SetUpTestSuite() { configure(); }
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { cli::fs::remove_all(folder_); }
-
   [[nodiscard]] std::unique_ptr<dds::DdsSink> open_sink() const {
     auto sink = dds::DdsSink::open(
         {.participant = {.domain = domain_, .interface = {}}, .points = kTopic}, {});
@@ -71,7 +68,6 @@ class DdsInterop : public testing::Test {
   }
 
   static constexpr const char* kTopic = "rt/terracut_interop/points";
-  cli::fs::path folder_;
   const int domain_ = 1 + static_cast<int>(::getpid() % 200);
 };
 

@@ -218,16 +218,13 @@ TEST(Arguments, EveryOptionOfACommandIsItsOwn) {
   }
 }
 
-class ArgumentsAndFile : public testing::Test {
+class ArgumentsAndFile : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
   /// "--config FILE ", a file of that content.
   [[nodiscard]] std::string config(const std::string& content) const {
     std::ofstream(folder_ / "a.yaml") << content;
     return "--config " + (folder_ / "a.yaml").string() + " ";
   }
-  fs::path folder_;
 };
 
 TEST_F(ArgumentsAndFile, TheFileIsNamedBeforeAndBehindTheCommand) {

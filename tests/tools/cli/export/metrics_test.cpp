@@ -154,7 +154,7 @@ TEST(MetricsText, PassesPromtoolsCheck) {
     GTEST_SKIP() << "promtool is not installed (Debian package prometheus)";
   }
   status::WatchedRun run;
-  const auto folder = test::make_scratch_folder();
+  const test::ScratchFolder folder;
   const auto check = [&](const std::string& text) {
     std::ofstream(folder / "metrics.txt") << text;
     const std::string command = "promtool check metrics <'" + (folder / "metrics.txt").string() +
@@ -168,7 +168,6 @@ TEST(MetricsText, PassesPromtoolsCheck) {
   EXPECT_EQ(check(metrics_text(run.figures())), "");
   EXPECT_EQ(check(metrics_text(*std::make_unique<status::MonitorSnapshot>())), "");
   EXPECT_NE(check("terracut_frames_total{level=full} 1\n"), "") << "promtool checks nothing";
-  std::filesystem::remove_all(folder);
 }
 
 class MetricsServerOf : public testing::Test {

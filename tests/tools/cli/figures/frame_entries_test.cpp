@@ -19,11 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-class ReportFrames : public testing::Test {
+class ReportFrames : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// A report of so many frames as a run writes it, and its text as json_text() has it in one
   /// piece.
   void expect_report_of(int frames) const {
@@ -42,8 +39,6 @@ class ReportFrames : public testing::Test {
     EXPECT_TRUE(text == json_text(report)) << text.substr(0, 300);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
   }
-
-  fs::path folder_;
 };
 
 TEST_F(ReportFrames, AreWrittenAsIfTheyHadBeenInMemory) {

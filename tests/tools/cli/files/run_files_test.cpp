@@ -43,17 +43,13 @@ Options results_to(const fs::path& json) {
 }
 
 /// Works in a folder of its own, so that paths can be typed as people do.
-class RunFilesTest : public testing::Test {
+class RunFilesTest : public test::InScratchFolder {
  protected:
   void SetUp() override {
-    folder_ = test::make_scratch_folder();
     before_ = fs::current_path();
     fs::current_path(folder_);
   }
-  void TearDown() override {
-    fs::current_path(before_);
-    fs::remove_all(folder_);
-  }
+  void TearDown() override { fs::current_path(before_); }
 
   static void make(const fs::path& file) {
     if (file.has_parent_path()) fs::create_directories(file.parent_path());
@@ -68,7 +64,7 @@ class RunFilesTest : public testing::Test {
     return refusal(files_of(command, options));
   }
 
-  fs::path folder_, before_;
+  fs::path before_;
 };
 
 TEST_F(RunFilesTest, NoOutputIsAnInputWhateverItIsCalled) {

@@ -18,11 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class LabelledDrive : public testing::Test {
+class LabelledDrive : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// A sealed folder of two label files.
   [[nodiscard]] fs::path sealed(const std::string& name, const std::string& content = "ground") {
     fs::create_directories(folder_ / name);
@@ -31,11 +28,6 @@ class LabelledDrive : public testing::Test {
     EXPECT_TRUE(seal(folder_ / name, {{"drive", "d"}}));
     return folder_ / name;
   }
-  void write(const std::string& name, const std::string& content) const {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-  }
-
-  fs::path folder_;
 };
 
 TEST_F(LabelledDrive, IsWholeOnceItIsSealed) {

@@ -25,14 +25,10 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class FleetManifest : public testing::Test {
+class FleetManifest : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = fs::canonical(test::make_scratch_folder()); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void write(const std::string& name, const std::string& content = "x") const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << content;
+    InScratchFolder::write(name, content);
   }
   [[nodiscard]] Expected<Manifest> read(const std::string& content) const {
     write("m.json", content);
@@ -46,8 +42,6 @@ class FleetManifest : public testing::Test {
     for (const FleetDrive& drive : manifest->drives) drives.emplace(drive.name, drive);
     return drives;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(FleetManifest, FindsCapturesAndScansAtAnyDepth) {

@@ -7,10 +7,9 @@
 #include <csignal>
 #include <thread>
 
-#include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/capture/pcap_writer.hpp"
 #include "relabel_fixture.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/rewritten_capture.hpp"
 #include "tests/tools/cli/background_program.hpp"
 #include "tools/cli/fleet/content_hash.hpp"
 
@@ -27,18 +26,12 @@ constexpr int kOutputFailedCode = 4, kRefusedCode = 3, kMountNotFoundCode = 10;
 void cut_to_a_fifth_of_a_revolution(const fs::path& capture) {
   const fs::path whole = fs::path(capture).replace_extension("whole");
   fs::rename(capture, whole);
-  auto source = capture::PcapSource::open(whole);
-  ASSERT_TRUE(source);
-  auto part = capture::PcapWriter::create(capture);
-  ASSERT_TRUE(part);
   std::int64_t begin_ns = 0;
-  for (auto next = source->next(); next && *next; next = source->next()) {
-    if (begin_ns == 0) begin_ns = (*next)->stamp_ns;
-    const std::int64_t at_ns = (*next)->stamp_ns - begin_ns;
-    if (at_ns < 20'000'000 || at_ns > 40'000'000) continue;
-    ASSERT_TRUE(part->write(**next));
-  }
-  ASSERT_TRUE(part->finish());
+  test::rewrite_capture(whole, capture, [&](const auto& datagram, auto n, auto& write) {
+    if (n == 0) begin_ns = datagram.stamp_ns;
+    const std::int64_t at_ns = datagram.stamp_ns - begin_ns;
+    if (at_ns >= 20'000'000 && at_ns <= 40'000'000) write(datagram);
+  });
   fs::remove(whole);
 }
 

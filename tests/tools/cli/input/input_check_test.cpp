@@ -21,11 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class InputCheck : public testing::Test {
+class InputCheck : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   [[nodiscard]] static std::string refusal_of(const Options& options) {
     const Status ready = check_inputs(options);
     return ready ? "" : ready.error().message;
@@ -37,7 +34,6 @@ class InputCheck : public testing::Test {
     options.capture.sensor = sensor;
     return options;
   }
-  fs::path folder_;
 };
 
 TEST_F(InputCheck, NamesAFileThatIsNotThere) {

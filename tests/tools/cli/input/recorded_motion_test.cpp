@@ -24,19 +24,14 @@ constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000;
 
 /// Frames every 10 ms and packets every millisecond, on the same clock or on two.
-class RecordedMotionTest : public testing::Test {
+class RecordedMotionTest : public test::InScratchFolder {
  protected:
   using Clock = std::function<std::int64_t(std::int64_t ms)>;  ///< What it shows at a time.
 
   void SetUp() override {
-    folder_ = test::make_scratch_folder();
     options_.can_recording = folder_ / "car.log";
     options_.motion.dbc = folder_ / "car.dbc";
     write("car.dbc", drive::vehicle_dbc());
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  void write(const char* name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
   }
 
   static Clock stepping(std::int64_t at_ms, std::int64_t step_ms) {
@@ -72,8 +67,6 @@ class RecordedMotionTest : public testing::Test {
     EXPECT_EQ(motion.error().code, code);
     return motion.error().message;
   }
-
-  std::filesystem::path folder_;
   Options options_;
 };
 

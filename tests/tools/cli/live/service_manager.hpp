@@ -18,13 +18,11 @@
 namespace terracut::cli {
 
 /// What systemd is to a service: a socket that takes datagrams, and the environment that names it.
-class Service : public testing::Test {
+class Service : public test::InScratchFolder {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
   void TearDown() override {
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) ::unsetenv(name);
     if (manager_ >= 0) ::close(manager_);
-    std::filesystem::remove_all(folder_);
   }
 
   void listen(const std::string& name) {
@@ -44,8 +42,6 @@ class Service : public testing::Test {
     const ssize_t size = ::recv(manager_, bytes, sizeof bytes, MSG_DONTWAIT);
     return size < 0 ? std::string() : std::string(bytes, static_cast<std::size_t>(size));
   }
-
-  std::filesystem::path folder_;
   int manager_ = -1;
 };
 

@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "tests/support/places.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/cli/settings/configuration_file.hpp"
 #include "tools/cli/settings/configuration_text.hpp"
 
@@ -15,14 +16,10 @@ namespace terracut::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using test::content_of;
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// What is in force after a file was read.
 std::string printed_again(const std::string& content) {

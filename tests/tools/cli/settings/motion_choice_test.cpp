@@ -13,10 +13,9 @@ namespace {
 
 using testing::HasSubstr;
 
-class MotionChoice : public testing::Test {
+class MotionChoice : public test::InScratchFolder {
  protected:
   void SetUp() override {
-    folder_ = test::make_scratch_folder();
     options_.dbc = folder_ / "car.dbc";
     std::ofstream(options_.dbc)
         << "BO_ 416 MOTION: 8 X\n SG_ SPEED : 7|16@0- (0.01,0) [0|0] \"km/h\" X\n"
@@ -25,8 +24,6 @@ class MotionChoice : public testing::Test {
            " SG_ FR : 8|8@1+ (1,0) [0|0] \"\" X\n SG_ BACK : 16|1@1+ (1,0) [0|0] \"\" X\n"
            " SG_ OK : 17|2@1+ (1,0) [0|0] \"\" X\n";
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   static can::CanFrame frame(std::uint32_t id, std::initializer_list<std::uint8_t> bytes) {
     can::CanFrame frame;
     frame.id = {id, false};
@@ -41,8 +38,6 @@ class MotionChoice : public testing::Test {
     EXPECT_EQ(motion.error().code, code);
     return motion.error().message;
   }
-
-  std::filesystem::path folder_;
   MotionOptions options_;
 };
 

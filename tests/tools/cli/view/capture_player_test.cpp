@@ -12,9 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/capture/pcap_writer.hpp"
 #include "tests/support/no_threads.hpp"
+#include "tests/support/rewritten_capture.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/cli/view/played_capture.hpp"
 #include "tools/cli/view/played_clouds.hpp"
@@ -31,10 +30,9 @@ using Traits = packets::Vlp16EncoderTraits;
 constexpr double kFrame_s = 0.1;
 
 /// A capture of eight frames, played by a script: each frame shown lets the next command be given.
-class CapturePlayerTest : public testing::Test {
+class CapturePlayerTest : public test::InScratchFolder {
  protected:
   void SetUp() override {
-    folder_ = test::make_scratch_folder();
     options_.capture.file = folder_ / "drive.pcap";
     options_.mount.height_m = 1.73;
     simulator::SimulationConfig<Traits> config;
@@ -59,23 +57,16 @@ class CapturePlayerTest : public testing::Test {
   }
   /// From the middle on its stamps are a minute older.
   void set_the_clock_back() {
-    auto source = capture::PcapSource::open(options_.capture.file);
-    ASSERT_TRUE(source);
-    options_.capture.file = folder_ / "back.pcap";
-    auto writer = capture::PcapWriter::create(options_.capture.file);
-    ASSERT_TRUE(writer);
+    const std::filesystem::path back = folder_ / "back.pcap";
     std::int64_t first_ns = 0;
-    while (const auto next = *source->next()) {
-      packet::Datagram datagram = *next;
-      if (first_ns == 0) first_ns = datagram.stamp_ns;
+    test::rewrite_capture(options_.capture.file, back, [&](auto datagram, auto n, auto& write) {
+      if (n == 0) first_ns = datagram.stamp_ns;
       if (datagram.stamp_ns - first_ns > 400'000'000) datagram.stamp_ns -= 60'000'000'000;
-      ASSERT_TRUE(writer->write(datagram));
-    }
-    ASSERT_TRUE(writer->finish());
+      write(datagram);
+    });
+    options_.capture.file = back;
     open();
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   /// Shows frames until the script is through.
   static void play(CapturePlayer& player, std::deque<std::string> script,
                    const std::function<void(const frame::FrameInfo&)>& on_frame) {
@@ -103,8 +94,6 @@ class CapturePlayerTest : public testing::Test {
     });
     return shown_s;
   }
-
-  std::filesystem::path folder_;
   Options options_;
   std::unique_ptr<LabelledCapture> capture_;
   std::unique_ptr<PlayedCapture> played_;

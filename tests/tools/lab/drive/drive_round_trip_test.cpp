@@ -6,12 +6,14 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <map>
+#include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
+#include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "firmware_io/ruby128/difop_angles.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
 #include "made_drive.hpp"
@@ -39,18 +41,17 @@ std::vector<std::uint8_t> arrivals(const frame::RangeImage& image) {
 }
 
 template <class EncoderTraits>
-class DriveRoundTrip : public testing::Test {
+class DriveRoundTrip : public terracut::test::InScratchFolder {
  protected:
   using Written = EncoderTraits;
   using Column = typename Written::Column;
 
-  void SetUp() override { folder = terracut::test::make_scratch_folder(); }
-  void TearDown() override { fs::remove_all(folder); }
+  [[nodiscard]] fs::path pcap() const { return folder_ / "drive.pcap"; }
 
-  [[nodiscard]] fs::path pcap() const { return folder / "drive.pcap"; }
-
-  DriveSummary write(const std::vector<Column>& columns, const typename Written::Config& config) {
-    auto writer = DriveWriter<Written>::create(pcap(), Written::nominal(), config);
+  DriveSummary write(const std::vector<Column>& columns,
+                     const typename Written::Config& config = {},
+                     const typename Written::Calibration& calibration = Written::nominal()) {
+    auto writer = DriveWriter<Written>::create(pcap(), calibration, config);
     EXPECT_TRUE(writer) << writer.error().message;
     for (const Column& column : columns) {
       const Status added =
@@ -65,7 +66,7 @@ class DriveRoundTrip : public testing::Test {
   [[nodiscard]] std::vector<std::uint32_t> truth(std::size_t frame) const {
     char name[32];
     std::snprintf(name, sizeof name, "%06zu.label", frame);
-    std::ifstream file(folder / "drive.truth" / name, std::ios::binary);
+    std::ifstream file(folder_ / "drive.truth" / name, std::ios::binary);
     EXPECT_TRUE(file) << name;
     std::vector<std::uint32_t> labels;
     packet::Le32 label{};
@@ -118,7 +119,10 @@ class DriveRoundTrip : public testing::Test {
     EXPECT_EQ(out_of_order, 0U);
   }
 
-  fs::path folder;
+  [[nodiscard]] std::size_t files_in_folder() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
 };
 
 using Sensors = testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits,
@@ -170,7 +174,7 @@ TYPED_TEST(DriveRoundTrip, AnUnfinishedDriveLeavesNothingBehind) {
       ASSERT_TRUE(writer->add_column(c.stamp_ns, c.unwrapped_azimuth_cdeg, c.by_laser));
     }
   }
-  EXPECT_TRUE(fs::is_empty(this->folder));
+  EXPECT_TRUE(fs::is_empty(this->folder_));
 }
 
 TYPED_TEST(DriveRoundTrip, ColumnsThatFillNoPacketAreRefusedAtTheEnd) {
@@ -241,6 +245,93 @@ TEST_F(Ruby128Drive, AnyEncodingOfTheStampsIsUnderstoodFromTheFirstPacketOn) {
       expect_truth_fits(written, returns, 10);
     }
   }
+}
+
+using Hdl64e = packets::Hdl64eEncoderTraits;
+using Hdl64eDrive = DriveRoundTrip<Hdl64e>;
+
+TEST_F(Hdl64eDrive, WideRotationalCorrectionsKeepTheirFrames) {
+  hdl64e::Hdl64eCalibration calibration = hdl64e::nominal_hdl64e();
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> any_deg(-10, 10);
+  for (auto& laser : calibration.lasers) {
+    laser.rot_correction_rad = beams::deg_to_rad(any_deg(random));
+  }
+  for (const unsigned seed : {0U, 1U, 2U}) {
+    const double spin_hz = 10 + 2.9 * seed;
+    const auto columns = test::random_columns<Hdl64e>({.spin_hz = spin_hz,
+                                                       .first_cdeg = 20'000 + 3'333.0 * seed,
+                                                       .share_of_returns = 0.4,
+                                                       .seed = seed});
+    expect_truth_fits(write(columns, {}, calibration), packets::ReturnMode::kSingle, spin_hz);
+  }
+}
+
+TEST_F(Hdl64eDrive, OneRevolutionIsOneFrame) {
+  auto columns =
+      test::random_columns<Hdl64e>({.first_cdeg = 35'000, .last_cdeg = 73'000, .seed = 3});
+  const hdl64e::BeamOffsets offsets(hdl64e::nominal_hdl64e());
+  for (std::size_t n = 0; n < columns.size(); ++n) {
+    const std::size_t packet = n / 6 * 6;
+    const std::int32_t step_ticks =
+        hdl64e::column_step_ticks(beams::wrap_cdeg(columns[packet].unwrapped_azimuth_cdeg),
+                                  beams::wrap_cdeg(columns[packet + 5].unwrapped_azimuth_cdeg));
+    for (int i = 0; i < 64; ++i) {
+      const auto beam = packet::beam_azimuth(columns[n].unwrapped_azimuth_cdeg,
+                                             offsets.offset_ticks(step_ticks, i));
+      if (beam.frame != 1) columns[n].by_laser[static_cast<std::size_t>(i)] = {};
+    }
+  }
+  const auto summary = write(columns);
+  EXPECT_EQ(summary.frames, 1U);
+  expect_truth_fits(summary, packets::ReturnMode::kSingle, 10);
+}
+
+TEST_F(Hdl64eDrive, TheCaptureCarriesTheCalibration) {
+  write(test::random_columns<Hdl64e>(
+      {.last_cdeg = 37'000 + 13 * 36'000.0, .share_of_returns = 0.01}));
+  auto source = capture::PcapSource::open(pcap());
+  ASSERT_TRUE(source);
+  std::array<std::uint8_t, hdl64e::kStreamTableBytes> table{};
+  std::size_t written = 0;
+  // The first round of the status stream, byte by byte: places 9..15 of each cycle of 16.
+  for (std::size_t n = 0; written < table.size(); ++n) {
+    const auto datagram = source->next();
+    ASSERT_TRUE(datagram);
+    ASSERT_TRUE(*datagram) << "the drive is shorter than a round";
+    if (n % 16 >= 9) table[written++] = (*datagram)->payload[1205];
+  }
+  const auto parsed = hdl64e::parse_stream_table(table);
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  EXPECT_EQ(fingerprint(*parsed), fingerprint(hdl64e::nominal_hdl64e()));
+}
+
+TEST_F(Hdl64eDrive, ReplacesAnOlderDriveAndItsTruth) {
+  EXPECT_EQ(write(test::random_columns<Hdl64e>({.share_of_returns = 0.1})).frames, 4U);
+  const auto shorter = test::random_columns<Hdl64e>({.last_cdeg = 38'000, .share_of_returns = 0.1});
+  EXPECT_EQ(write(shorter).frames, 2U);
+  EXPECT_FALSE(fs::exists(folder_ / "drive.truth" / "000002.label"));
+  EXPECT_EQ(files_in_folder(), 3U);
+}
+
+TEST_F(Hdl64eDrive, ReplacesNeitherAFolderThatIsNotTruthNorATableThatIsOfNoDrive) {
+  for (const char* const name : {"drive.calibration.xml", "drive.truth/thesis.tex"}) {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << "precious";
+    const auto writer = DriveWriter<Hdl64e>::create(pcap(), Hdl64e::nominal());
+    ASSERT_FALSE(writer);
+    EXPECT_EQ(writer.error().code, ErrorCode::kInvalidArgument);
+    EXPECT_NE(writer.error().message.find(fs::path(name).filename()), std::string::npos);
+    EXPECT_EQ(files_in_folder(), 1U);
+    EXPECT_TRUE(fs::remove(folder_ / name));
+  }
+}
+
+TEST_F(Hdl64eDrive, IsNotMadeOfAnUnusableCalibration) {
+  hdl64e::Hdl64eCalibration broken = hdl64e::nominal_hdl64e();
+  broken.lasers[7].vert_correction_rad = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(DriveWriter<Hdl64e>::create(pcap(), broken));
+  EXPECT_EQ(files_in_folder(), 0U);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(VehicleLog, TheDbcNamesTheMessageAndItsSignals) {
 }
 
 TEST(VehicleLog, BothFilesLieBesideTheCaptureAndAnErrorNamesTheFile) {
-  const auto folder = terracut::test::make_scratch_folder();
+  const terracut::test::ScratchFolder folder;
   const std::array<vehicle::MotionSample, 1> samples{{{0, 1, 0}}};
   ASSERT_TRUE(write_vehicle_log(folder / "drive.pcap", samples));
   EXPECT_GT(std::filesystem::file_size(folder / "drive.can.log"), 0U);
@@ -63,7 +63,6 @@ TEST(VehicleLog, BothFilesLieBesideTheCaptureAndAnErrorNamesTheFile) {
   const auto refused = write_vehicle_log(folder / "drive.can.log" / "drive.pcap", samples);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("drive.can.dbc"));
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -8,15 +8,15 @@
 #include "calib/hdl64e/hdl64e_xml.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
-#include "tests/firmware_io/scan/scratch_folder.hpp"
 #include "tests/firmware_io/scan/synthetic_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::encode {
 namespace {
 
 using testing::HasSubstr;
 
-void write_sequence(const scan::ScratchFolder& folder, int scans) {
+void write_sequence(const test::ScratchFolder& folder, int scans) {
   for (int i = 0; i < scans; ++i) {
     synthetic::World world;
     world.ground_m = -1.73 + 0.01 * i;
@@ -29,7 +29,7 @@ void write_sequence(const scan::ScratchFolder& folder, int scans) {
 }
 
 /// Poses of a drive straight ahead (the camera's z) at `speed_mps`, a frame each 0.1 s.
-void write_poses(const scan::ScratchFolder& folder, int frames, double speed_mps) {
+void write_poses(const test::ScratchFolder& folder, int frames, double speed_mps) {
   std::string poses, times;
   for (int i = 0; i < frames; ++i) {
     poses += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(0.1 * i * speed_mps) + "\n";
@@ -40,7 +40,7 @@ void write_poses(const scan::ScratchFolder& folder, int frames, double speed_mps
 }
 
 TEST(ScanDrive, ACanLogIsRefusedWhereNoMotionIsPutBack) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   write_sequence(folder, 1);
   ScanDriveOptions options;
   options.can_log = true;
@@ -57,7 +57,7 @@ TEST(ScanDrive, ACanLogIsRefusedWhereNoMotionIsPutBack) {
 }
 
 TEST(ScanDrive, PutsTheMotionBackWherePosesLieBesideTheScans) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   write_sequence(folder, 2);
   const auto pcap = folder.path() / "drive.pcap";
   ScanDriveOptions options;
@@ -76,7 +76,7 @@ TEST(ScanDrive, PutsTheMotionBackWherePosesLieBesideTheScans) {
 }
 
 TEST(ScanDrive, WritesCaptureCalibrationAndTruthOfEveryScan) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   write_sequence(folder, 2);
   std::size_t progress = 0;
   ScanDriveOptions options;
@@ -107,7 +107,7 @@ TEST(ScanDrive, WritesCaptureCalibrationAndTruthOfEveryScan) {
 }
 
 TEST(ScanDrive, ThatIsEndedEarlyLeavesNothing) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   write_sequence(folder, 2);
   ScanDriveOptions options;
   options.on_scan = [](std::size_t done, std::size_t) -> Status {
@@ -122,7 +122,7 @@ TEST(ScanDrive, ThatIsEndedEarlyLeavesNothing) {
 }
 
 TEST(ScanDrive, UsesAGivenCalibration) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   write_sequence(folder, 1);
   ScanDriveOptions options;
   options.calibration = scan::hdl64e_calibration(synthetic::table());
@@ -134,7 +134,7 @@ TEST(ScanDrive, UsesAGivenCalibration) {
 }
 
 TEST(ScanDrive, LeavesNothingWhenAScanIsRefused) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   write_sequence(folder, 1);
   folder.write("scans/velodyne/000001.bin", "seven b");
   const auto report = encode_scan_folder(folder.path() / "scans", folder.path() / "drive.pcap", {});
@@ -147,7 +147,7 @@ TEST(ScanDrive, LeavesNothingWhenAScanIsRefused) {
 }
 
 TEST(ScanReader, NamesWhatUndoingTheCompensationNeeds) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   write_sequence(folder, 1);
   const auto reader = scan::ScanReader::open(folder.path() / "scans", scan::PutMotionBack::kAlways);
   ASSERT_FALSE(reader);
@@ -156,7 +156,7 @@ TEST(ScanReader, NamesWhatUndoingTheCompensationNeeds) {
 }
 
 TEST(ScanReader, UndoesTheCompensationOnlyOfScansNamedByTheirFrame) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   folder.write_records("velodyne/first.bin", synthetic::scan(synthetic::table()));
   folder.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n");
   folder.write("times.txt", "0\n0.1\n");
@@ -169,7 +169,7 @@ TEST(ScanReader, UndoesTheCompensationOnlyOfScansNamedByTheirFrame) {
 }
 
 TEST(ScanReader, TakesScansAsRecordedWhereThePosesEndBeforeThem) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   write_sequence(folder, 3);
   write_poses(folder, 2, 15);
   const auto reader =
@@ -180,7 +180,7 @@ TEST(ScanReader, TakesScansAsRecordedWhereThePosesEndBeforeThem) {
 }
 
 TEST(ScanReader, FitsTheTableFromWholeScansAndAlignsTheOthersWithIt) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   write_sequence(folder, 1);
   auto points = synthetic::scan(synthetic::table());
   synthetic::erase_ring(points, 30);
@@ -197,7 +197,7 @@ TEST(ScanReader, FitsTheTableFromWholeScansAndAlignsTheOthersWithIt) {
 }
 
 TEST(ScanReader, TellsRingsWhereNoScanOfTheFolderHasAll) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   // What a camera sees of the scans: 45 degrees to either side, and the upper rings see nothing.
   constexpr int kMissing = 18, kSeen = scan::kScanRings - kMissing;
   const scan::RingTable truth = synthetic::table();

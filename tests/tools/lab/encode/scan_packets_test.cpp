@@ -12,8 +12,8 @@
 #include "firmware_io/scan/label_file.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
-#include "tests/firmware_io/scan/scratch_folder.hpp"
 #include "tests/support/hand_out.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 #include "tools/lab/encode/recorded_spin.hpp"
 #include "tools/lab/encode/scan_encoder.hpp"
@@ -104,7 +104,7 @@ TEST(ScanPackets, BringBackEveryEncodedReturnInItsFrameAtItsPlace) {
   TERRACUT_RECORDED_SEQUENCES(sequences);
   for (const auto& sequence : sequences) {
     SCOPED_TRACE(sequence);
-    const scan::ScratchFolder folder;
+    const test::ScratchFolder folder;
     Drive drive;
     drive.pcap = folder.path() / "drive.pcap";
     ASSERT_NO_FATAL_FAILURE(encode(sequence, drive));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
+#include "tests/support/scratch_folder.hpp"
 #include "tools/research/datasets/dataset.hpp"
 
 #include <gmock/gmock.h>
@@ -16,13 +17,9 @@
 namespace terracut::datasets {
 namespace {
 
+using test::content_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 CloudLayout koblenz() {
   return *built_in_table("koblenz")->layout();

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "calib/beams/angle.hpp"
-#include "tests/firmware_io/scan/scratch_folder.hpp"
 #include "tests/firmware_io/scan/synthetic_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
 #include "tools/research/eval/evaluation.hpp"
 #include "tools/research/statistics/measures.hpp"
@@ -108,7 +108,7 @@ class LayoutsTest : public testing::Test {
   }
   ClassTable own() const { return *ClassTable::parse(kOwnTable, "own.yaml"); }
 
-  scan::ScratchFolder folder_;
+  test::ScratchFolder folder_;
 };
 
 TEST_F(LayoutsTest, EveryTableThatComesAlongHasALayoutAndClasses) {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/firmware_io/scan/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/tools/research/eval/made_up_dataset.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
 #include "tools/research/eval/evaluation.hpp"
@@ -44,7 +44,7 @@ class ChangedFramesTest : public testing::Test {
   }
 
   static constexpr Label kG = Label::kGround, kO = Label::kObstacle;
-  scan::ScratchFolder folder_;
+  test::ScratchFolder folder_;
   memory::FixedMemory memory_;
   frame::RangeImage image_{{.rows = 2, .columns = 8}, 0, memory_};
   std::vector<std::uint32_t> truth_{40, 10, 40, 0};
@@ -96,7 +96,7 @@ TEST_F(ChangedFramesTest, AreDrawnForEveryMethodOfADatasetAndOfADriveButTheFirst
                                        {[](double, double) {}, [](std::size_t, std::size_t) {}},
                                        [] { return false; }));
   for (const ChangedFrames* const changed : {&of_scans, &of_drive}) {
-    const scan::ScratchFolder folder;
+    const test::ScratchFolder folder;
     ASSERT_TRUE(changed->write(folder.path()));
     EXPECT_TRUE(fs::exists(folder.path() / "blind.png"));
     EXPECT_FALSE(fs::exists(folder.path() / "terracut.png"));

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <thread>
 
-#include "tests/firmware_io/scan/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::eval {
 namespace {
@@ -28,7 +28,7 @@ class JournalTest : public testing::Test {
     return journal ? journal->take_results() : FrameResults{};
   }
 
-  scan::ScratchFolder folder_;
+  test::ScratchFolder folder_;
   std::filesystem::path path_ = folder_.path() / "sub" / "a.journal";
 };
 

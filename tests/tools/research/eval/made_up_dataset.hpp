@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/firmware_io/scan/scratch_folder.hpp"
 #include "tests/firmware_io/scan/synthetic_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::eval {
 
@@ -54,7 +54,7 @@ class MadeUpDataset {
     (void)folder_.write_records(this->labels(sequence, frame), labels);
   }
 
-  scan::ScratchFolder folder_;
+  test::ScratchFolder folder_;
 };
 
 }  // namespace terracut::eval

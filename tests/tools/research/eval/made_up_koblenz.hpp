@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/firmware_io/scan/scratch_folder.hpp"
 #include "tests/firmware_io/scan/synthetic_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::eval {
 
@@ -93,7 +93,7 @@ class MadeUpKoblenz {
     content.append(bytes, sizeof(T));
   }
 
-  scan::ScratchFolder folder_;
+  test::ScratchFolder folder_;
 };
 
 }  // namespace terracut::eval

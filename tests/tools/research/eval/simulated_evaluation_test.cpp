@@ -8,7 +8,7 @@
 #include <iterator>
 #include <map>
 
-#include "tests/firmware_io/scan/scratch_folder.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
 #include "tools/research/statistics/measures.hpp"
 
@@ -110,7 +110,7 @@ TEST_F(SimulatedEvaluationTest, TakesOnlyTheFramesItIsTold) {
 }
 
 TEST_F(SimulatedEvaluationTest, GoesOnWhereItWasInterruptedAndSimulatesNothingThatIsDone) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   const auto journal = [&] { return *Journal::open(folder.path() / "a.journal", "settings"); };
   EvaluationOutcome first;
   {
@@ -134,7 +134,7 @@ TEST_F(SimulatedEvaluationTest, GoesOnWhereItWasInterruptedAndSimulatesNothingTh
 }
 
 TEST_F(SimulatedEvaluationTest, WritesALabelAReturn) {
-  const scan::ScratchFolder folder;
+  const test::ScratchFolder folder;
   config_.predictions = folder.path();
   for (const auto& [key, result] : run().results) {
     const auto path =

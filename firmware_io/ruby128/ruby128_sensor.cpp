@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/ruby128/ruby128_sensor.hpp"
 
-#include <algorithm>
-
 #include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/packet_check.hpp"
 
@@ -21,7 +19,7 @@ Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const mount::Mount&
                              const Config& config)
     : given_timestamp_(config.timestamp),
       offsets_(calibration),
-      kernel_(calibration, mount),
+      kernel_(calibration.channels, mount, kRuby128LensAhead_m),
       rows_(mount::rows_upward(rows_by_elevation(calibration), mount)) {}
 
 std::optional<frame::Reject> Ruby128Sensor::check(const packet::Datagram& datagram,

@@ -15,8 +15,8 @@
 #include "firmware_io/packet/firing_returns.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
+#include "firmware_io/packet/straight_point_kernel.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
-#include "firmware_io/ruby128/point_kernel.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -87,7 +87,7 @@ class Ruby128Sensor {
   RubyTimestampDetector timestamp_;
   std::optional<RubyTimestamp> last_encoding_;
   Ruby128BeamOffsets offsets_;
-  Ruby128PointKernel kernel_;
+  packet::StraightPointKernel kernel_;
   HeldFiring held_;
   std::int32_t step_ticks_ = 0;        ///< The last packet's that had one; 0: none yet.
   std::int32_t first_step_ticks_ = 0;  ///< For the packet's first block, perhaps a held firing's.

@@ -15,10 +15,10 @@
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/firing_returns.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/packet/straight_point_kernel.hpp"
 #include "firmware_io/velodyne/beam_offsets.hpp"
 #include "firmware_io/velodyne/packet_layout.hpp"
 #include "firmware_io/velodyne/packet_reader.hpp"
-#include "firmware_io/velodyne/point_kernel.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::velodyne {
@@ -51,7 +51,7 @@ class VelodyneSensor {
 
   VelodyneSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config)
       : reader_(Model::kLayout, config.is_named),
-        kernel_(calibration, mount),
+        kernel_(calibration.lasers, mount),
         offsets_(calibration) {
     const std::vector<int> rows = mount::rows_upward(rows_by_elevation(calibration), mount);
     for (std::size_t channel = 0; channel < rows_.size(); ++channel) {
@@ -116,7 +116,7 @@ class VelodyneSensor {
   }
 
   PacketReader reader_;
-  PointKernel kernel_;
+  packet::StraightPointKernel kernel_;
   BeamOffsets<Model> offsets_;
   std::array<std::int32_t, kChannels> rows_{};
   bool is_dual_packet_ = false;

@@ -1,47 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/velodyne/point_kernel.hpp"
+#include "firmware_io/packet/straight_point_kernel.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "rt/vector_clones.hpp"
 
-namespace terracut::velodyne {
+namespace terracut::packet {
 
-PointKernel::PointKernel(const VelodyneCalibration& calibration,
-                         const mount::Mount& mount) noexcept {
-  const auto T = mount::T_vehicle_lidar(mount);
-  std::transform(T.begin(), T.end(), T_vehicle_lidar_.begin(),
-                 [](double v) { return static_cast<float>(v); });
-  for (std::size_t i = 0; i < calibration.lasers.size(); ++i) {
-    const VelodyneLaser& laser = calibration.lasers[i];
-    laser_[i] = {.sin_offset = static_cast<float>(std::sin(laser.azimuth_offset_rad)),
-                 .cos_offset = static_cast<float>(std::cos(laser.azimuth_offset_rad)),
-                 .sin_elevation = static_cast<float>(std::sin(laser.elevation_rad)),
-                 .cos_elevation = static_cast<float>(std::cos(laser.elevation_rad)),
-                 .vert_offset_m = static_cast<float>(laser.vert_offset_m)};
-  }
-}
-
-TERRACUT_VECTOR_CLONES void PointKernel::compute(
+TERRACUT_VECTOR_CLONES void StraightPointKernel::compute(
     const Laser& __restrict laser, const float* __restrict sin_rotor,
     const float* __restrict cos_rotor, const float* __restrict sin_advance,
     const float* __restrict cos_advance, const float* __restrict measured_m, float* __restrict x_m,
     float* __restrict y_m, float* __restrict z_m, float* __restrict ground_range_m) const noexcept {
   const Laser k = laser;
+  const float ahead_m = lens_ahead_m_;
   const std::array<float, 12> T = T_vehicle_lidar_;
 
   for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
     const float beam_sin = sin_advance[f] * k.cos_offset + cos_advance[f] * k.sin_offset;
     const float beam_cos = cos_advance[f] * k.cos_offset - sin_advance[f] * k.sin_offset;
+    const float sin_lens = sin_rotor[f] * cos_advance[f] + cos_rotor[f] * sin_advance[f];
+    const float cos_lens = cos_rotor[f] * cos_advance[f] - sin_rotor[f] * sin_advance[f];
     const float sin_beam = sin_rotor[f] * beam_cos + cos_rotor[f] * beam_sin;
     const float cos_beam = cos_rotor[f] * beam_cos - sin_rotor[f] * beam_sin;
 
     const float distance_m = measured_m[f];
     const float along_m = distance_m * k.cos_elevation;
-    const float x = along_m * cos_beam;
-    const float y = -(along_m * sin_beam);
+    const float x = along_m * cos_beam + ahead_m * cos_lens;
+    const float y = -(along_m * sin_beam + ahead_m * sin_lens);
     const float z = distance_m * k.sin_elevation + k.vert_offset_m;
 
     const float vehicle_x = T[0] * x + T[1] * y + T[2] * z + T[3];
@@ -53,11 +40,11 @@ TERRACUT_VECTOR_CLONES void PointKernel::compute(
   }
 }
 
-void PointKernel::compute(std::size_t laser, const packet::LaserHeads& heads,
-                          const frame::TileRow<float>& measured_m,
-                          const frame::PointsOut& out) const noexcept {
+void StraightPointKernel::compute(std::size_t laser, const LaserHeads& heads,
+                                  const frame::TileRow<float>& measured_m,
+                                  const frame::PointsOut& out) const noexcept {
   compute(laser_[laser], heads.sin_rotor, heads.cos_rotor, heads.sin_advance, heads.cos_advance,
           measured_m.data(), out.x_m, out.y_m, out.z_m, out.ground_range_m);
 }
 
-}  // namespace terracut::velodyne
+}  // namespace terracut::packet

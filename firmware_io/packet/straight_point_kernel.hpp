@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "calib/mount/mount.hpp"
+#include "firmware_io/packet/firing_returns.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::packet {
+
+/// Converts measured distances of one laser to points of the vehicle frame: the formulas of
+/// beams::StraightGeometry and mount::Mount in float, for the firings of a tile in one loop that
+/// compilers vectorise. Agrees with those double functions to within 1 mm + 1e-6 of the range; the
+/// same bits on every machine, as the HDL-64E's PointKernel.
+///
+/// Real-time safe but for the constructor. One thread.
+class StraightPointKernel {
+ public:
+  static constexpr std::size_t kMostLasers = 128;
+
+  /// `lasers`, kMostLasers at most: as of beams::StraightGeometry.
+  template <class Lasers>
+  StraightPointKernel(const Lasers& lasers, const mount::Mount& mount, double lens_ahead_m = 0)
+      : lens_ahead_m_(static_cast<float>(lens_ahead_m)) {
+    const auto T = mount::T_vehicle_lidar(mount);
+    for (std::size_t i = 0; i < T.size(); ++i) T_vehicle_lidar_[i] = static_cast<float>(T[i]);
+    std::size_t i = 0;
+    for (const auto& laser : lasers) {
+      laser_[i] = {.sin_offset = static_cast<float>(std::sin(laser.azimuth_offset_rad)),
+                   .cos_offset = static_cast<float>(std::cos(laser.azimuth_offset_rad)),
+                   .sin_elevation = static_cast<float>(std::sin(laser.elevation_rad)),
+                   .cos_elevation = static_cast<float>(std::cos(laser.elevation_rad))};
+      if constexpr (requires { laser.vert_offset_m; }) {
+        laser_[i].vert_offset_m = static_cast<float>(laser.vert_offset_m);
+      }
+      ++i;
+    }
+  }
+
+  /// `heads` are of the laser's group. `measured_m` are wire distances, NaN for no return.
+  void compute(std::size_t laser, const LaserHeads& heads, const frame::TileRow<float>& measured_m,
+               const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
+
+ private:
+  struct Laser {
+    float sin_offset, cos_offset, sin_elevation, cos_elevation, vert_offset_m = 0;
+  };
+
+  /// All it reads and writes is passed as a parameter, for __restrict: without it the loop is not
+  /// vectorised in clones.
+  void compute(const Laser& __restrict laser, const float* __restrict sin_rotor,
+               const float* __restrict cos_rotor, const float* __restrict sin_advance,
+               const float* __restrict cos_advance, const float* __restrict measured_m,
+               float* __restrict x_m, float* __restrict y_m, float* __restrict z_m,
+               float* __restrict ground_range_m) const noexcept TERRACUT_NONBLOCKING;
+
+  std::array<float, 12> T_vehicle_lidar_{};
+  float lens_ahead_m_;
+  std::array<Laser, kMostLasers> laser_{};
+};
+
+}  // namespace terracut::packet

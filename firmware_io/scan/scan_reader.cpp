@@ -54,10 +54,7 @@ Expected<ScanReader> ScanReader::open(const std::filesystem::path& folder, PutMo
     reader.why_as_recorded_ = fmt::format("{} ends at frame {}, before {}", found.poses->string(),
                                           motion->frames() - 1, beyond->points.string());
   }
-  if (put_back == PutMotionBack::kWhereKnown) return reader;
-  return fail(ErrorCode::kNotFound,
-              fmt::format("{}: the motion cannot be put back into the scans: {}", folder.string(),
-                          reader.why_as_recorded_));
+  return reader;
 }
 
 Status ScanReader::read(std::size_t index, KittiScan& scan, RingRecovery& rings) const {

@@ -22,14 +22,13 @@ namespace terracut::scan {
 enum class PutMotionBack {
   kNever,
   kWhereKnown,  ///< If these are there.
-  kAlways,      ///< It is an error if they are not.
 };
 
 /// Reads the scans of a folder one by one, with the ring of every point.
 class ScanReader {
  public:
   /// Lists the folder (scan_folder.hpp). Errors: of the listing; of SensorMotion::read() if motion
-  /// is put back; kNotFound with kAlways if a needed file is missing.
+  /// is put back.
   [[nodiscard]] static Expected<ScanReader> open(const std::filesystem::path& folder,
                                                  PutMotionBack motion = PutMotionBack::kNever);
 

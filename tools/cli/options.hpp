@@ -196,8 +196,7 @@ struct SimulateOptions {
 
 /// Recorded scans that become packets.
 struct EncodeOptions {
-  bool undo_compensation = false;  ///< Refuse where the motion cannot be put back.
-  bool keep_compensation = false;  ///< Do not put it back.
+  bool keep_compensation = false;  ///< Do not put the sensor's motion back.
 };
 
 struct EvalOptions {

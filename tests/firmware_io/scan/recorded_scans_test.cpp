@@ -16,8 +16,10 @@ namespace terracut::scan {
 namespace {
 
 ScanReader reader_of(const std::filesystem::path& sequence, bool undo) {
-  auto reader = ScanReader::open(sequence, undo ? PutMotionBack::kAlways : PutMotionBack::kNever);
+  auto reader =
+      ScanReader::open(sequence, undo ? PutMotionBack::kWhereKnown : PutMotionBack::kNever);
   EXPECT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(reader->why_as_recorded().empty(), undo);
   return std::move(*reader);
 }
 

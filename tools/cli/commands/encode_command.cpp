@@ -20,12 +20,6 @@ namespace {
 /// drown.
 constexpr double kTooFarOff_m = 0.08;
 
-scan::PutMotionBack motion_of(const Options& options) {
-  if (options.encode.keep_compensation) return scan::PutMotionBack::kNever;
-  return options.encode.undo_compensation ? scan::PutMotionBack::kAlways
-                                          : scan::PutMotionBack::kWhereKnown;
-}
-
 std::string motion_line(const std::string& why_as_recorded) {
   return "motion    " + (why_as_recorded.empty()
                              ? "put back, by poses.txt and times.txt beside the scans"
@@ -82,7 +76,7 @@ ExitCode run_encode(const Options& options) {
   catch_stop_signals();
   encode::ScanDriveOptions drive;
   drive.can_log = options.can_log;
-  drive.motion = motion_of(options);
+  if (options.encode.keep_compensation) drive.motion = scan::PutMotionBack::kNever;
   if (!options.capture.calibration.empty()) {
     auto calibration = made_calibration(options.capture, packets::Hdl64eEncoderTraits{});
     if (!calibration) return refuse(calibration.error());

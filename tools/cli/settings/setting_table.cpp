@@ -342,8 +342,6 @@ constexpr std::array kSettings{
             .least = 0, .most = 60, .field = [](O& o) -> F { return &o.simulate.speed_mps; }},
     Setting{.option = "--yaw-rate", .commands = C::kSimulate, .unit = "deg/s", .help = "To the left positive: drive on an arc instead of along the road",
             .least = -57, .most = 57, .field = [](O& o) -> F { return &o.simulate.yaw_rate_dps; }},
-    Setting{.option = "--undo-compensation", .commands = C::kEncode, .help = "Put the sensor's motion back into the points, by poses.txt and times.txt; refuse where they are not there (default: where they are)",
-            .bare = "yes", .excludes = "--keep-compensation", .field = [](O& o) -> F { return &o.encode.undo_compensation; }},
     Setting{.option = "--keep-compensation", .commands = C::kEncode, .help = "Take the points as they are recorded, poses or not",
             .bare = "yes", .field = [](O& o) -> F { return &o.encode.keep_compensation; }},
     Setting{.option = "--can-log", .commands = C::kSimulate, .help = "Write the vehicle's speed and yaw rate beside the capture: NAME.can.log, NAME.can.dbc",

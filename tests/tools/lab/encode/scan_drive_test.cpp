@@ -146,23 +146,11 @@ TEST(ScanDrive, LeavesNothingWhenAScanIsRefused) {
   EXPECT_EQ(entries, 1U);
 }
 
-TEST(ScanReader, NamesWhatUndoingTheCompensationNeeds) {
-  const test::ScratchFolder folder;
-  write_sequence(folder, 1);
-  const auto reader = scan::ScanReader::open(folder.path() / "scans", scan::PutMotionBack::kAlways);
-  ASSERT_FALSE(reader);
-  EXPECT_EQ(reader.error().code, ErrorCode::kNotFound);
-  EXPECT_THAT(reader.error().message, HasSubstr("poses.txt is missing"));
-}
-
 TEST(ScanReader, UndoesTheCompensationOnlyOfScansNamedByTheirFrame) {
   const test::ScratchFolder folder;
   folder.write_records("velodyne/first.bin", synthetic::scan(synthetic::table()));
   folder.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n");
   folder.write("times.txt", "0\n0.1\n");
-  const auto refused = scan::ScanReader::open(folder.path(), scan::PutMotionBack::kAlways);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("not named by its frame number"));
   const auto reader = scan::ScanReader::open(folder.path(), scan::PutMotionBack::kWhereKnown);
   ASSERT_TRUE(reader) << reader.error().message;
   EXPECT_THAT(reader->why_as_recorded(), HasSubstr("not named by its frame number"));

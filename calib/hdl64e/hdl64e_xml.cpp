@@ -7,7 +7,6 @@
 #include <bitset>
 #include <cmath>
 #include <pugixml.hpp>
-#include <string_view>
 #include <vector>
 
 #include "calib/beams/angle.hpp"

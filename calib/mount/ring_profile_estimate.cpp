@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "calib/mount/ring_profile_estimate.hpp"
 
-#include <cmath>
-
 namespace terracut::mount {
 
 RingProfileEstimate::RingProfileEstimate(const RingProfile& geometry, std::uint64_t min_returns)

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 // Tables of the maker's manuals, by laser (docs/reference/sensors.md names the manuals).
 #include <array>
-#include <cstddef>
 #include <span>
 
 #include "calib/beams/angle.hpp"

@@ -13,7 +13,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "firmware_io/net/network_interface.hpp"
 
 namespace terracut::can {
 namespace {

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/hdl64e/status_position.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "firmware_io/hdl64e/status_cycle.hpp"

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <limits>
 
-#include "firmware_io/ruby128/firing_azimuth.hpp"
 
 namespace terracut::ruby128 {
 namespace {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
-#include <utility>
 
 #include "firmware_io/vehicle/motion_units.hpp"
 

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/ground/near_ground.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "firmware_io/frame/each_return.hpp"

@@ -14,7 +14,6 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
-#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>

@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstring>
 #include <optional>
-#include <string_view>
 #include <system_error>
 
 #include "rt/files/trusted_file.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include "firmware_io/capture/pcap_writer.hpp"
 #include "pipeline/recorder/frame_times_json.hpp"

@@ -3,7 +3,6 @@
 #include "pipeline/road/road_surface.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/stage/row_steps.hpp"
 
-#include <cstddef>
-
 #include "calib/beams/angle.hpp"
 
 namespace terracut::stage {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // Every frame of a capture, labelled: packets_to_labels drive.pcap FOLDER
-#include <cstdio>
 #include <iostream>
 #include <string>
 #include <terracut/decoder.hpp>

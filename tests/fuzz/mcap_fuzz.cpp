@@ -14,7 +14,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "input.hpp"
 #include "pipeline/mcap/mcap_sink.hpp"

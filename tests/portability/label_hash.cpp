@@ -4,7 +4,6 @@
 // plain IEEE arithmetic (no sin, cos or atan2, whose last bit differs between libraries), so that
 // the same line must come out on every machine: docs/design.md, promise 5. tools/test --all
 // compares x86-64 with AArch64.
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <limits>

@@ -18,7 +18,6 @@
 #include <utility>
 #include <vector>
 
-#include "calib/beams/angle.hpp"
 #include "calib/mount/mount.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/capture/pcap_source.hpp"

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "json_object.hpp"
 #include "tools/cli/figures/run_report.hpp"

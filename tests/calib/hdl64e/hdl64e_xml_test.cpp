@@ -2,9 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "calib/hdl64e/hdl64e_xml.hpp"
 
-#include <algorithm>
-
-#include "calib/beams/angle.hpp"
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "tests/calib/calib_test_support.hpp"
 

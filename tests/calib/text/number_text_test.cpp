@@ -6,7 +6,6 @@
 
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <random>
 
 namespace terracut::text {

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 // What the CAN thread does for ever: receive, make motion of it. Counted heap allocations; and in a
 // build with -fsanitize=realtime the program ends at the first call that may wait.
-#include <gmock/gmock.h>
 
 #include "firmware_io/can/can_sender.hpp"
 #include "firmware_io/can/socketcan_source.hpp"

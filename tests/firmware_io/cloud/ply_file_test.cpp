@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <string>
 
 #include "tests/support/scratch_folder.hpp"

@@ -3,7 +3,6 @@
 // Whatever becomes of a stream on its way, everything of it is in exactly one place.
 #include <gtest/gtest.h>
 
-#include <string>
 #include <utility>
 
 #include "heard_stream.hpp"

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <set>
 #include <string>
 
 #include "firmware_io/sensor/ruby128_survey.hpp"

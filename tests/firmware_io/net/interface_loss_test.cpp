@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // What the live sources do when the cable is pulled.
-#include <gmock/gmock.h>
 
 #include "firmware_io/net/live_pcap_source.hpp"
 #include "restricted_thread.hpp"

@@ -2,10 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/net/udp_source.hpp"
 
-#include <gmock/gmock.h>
 #include <linux/sock_diag.h>
 
-#include <algorithm>
 #include <csignal>
 #include <ctime>
 #include <numeric>

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <random>
 
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "random_stream.hpp"

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <random>
 
 #include "firmware_io/capture/pcap_source.hpp"
 #include "random_stream.hpp"

@@ -4,13 +4,10 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "calib/hdl64e/nominal_hdl64e.hpp"
-#include "calib/ruby128/nominal_ruby128.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 
 namespace terracut::streams {

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 // DBC files as canmatrix understands them: a second opinion on bit numbering, ids and scaling.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include <cmath>
 #include <cstdlib>

@@ -11,8 +11,6 @@
 #include <random>
 #include <string>
 #include <string_view>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "plain_coarse_labels.hpp"

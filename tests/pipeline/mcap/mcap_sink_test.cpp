@@ -14,7 +14,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/small_disk.hpp"

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "boost_oracle.hpp"
 
-#include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 #include <boost/property_map/property_map.hpp>

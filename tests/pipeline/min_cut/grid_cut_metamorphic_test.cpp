@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "boost_oracle.hpp"
 #include "solving.hpp"
 
 namespace terracut::test {

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <numeric>
 #include <stdexcept>
 
 namespace terracut::test {

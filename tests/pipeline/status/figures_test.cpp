@@ -12,7 +12,6 @@
 #include <string>
 #include <variant>
 
-#include "pipeline/page/status_page.hpp"
 #include "pipeline/status/figure_lines.hpp"
 #include "tests/pipeline/status/watched_run.hpp"
 

@@ -10,7 +10,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 
 #include "tests/support/scratch_folder.hpp"
 

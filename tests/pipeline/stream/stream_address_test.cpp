@@ -4,8 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <array>
-
 namespace terracut::stream {
 namespace {
 

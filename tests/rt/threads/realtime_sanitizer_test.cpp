@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstddef>
-#include <cstdlib>
 #include <mutex>
 #include <vector>
 

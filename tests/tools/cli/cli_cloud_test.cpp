@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 // Clouds of named fields through `segment`.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 

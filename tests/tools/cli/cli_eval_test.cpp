@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 // `terracut eval`: what its report says is what somebody else finds in its predictions, and what
 // the scripts that read it make of it.
-#include <csignal>
 #include <optional>
 
 #include "cli_fixture.hpp"

@@ -5,7 +5,6 @@
 
 #include <csignal>
 #include <filesystem>
-#include <utility>
 #include <vector>
 
 #include "firmware_io/net/live_pcap_source.hpp"

@@ -19,7 +19,6 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/json_text.hpp"
-#include "tools/cli/settings/sensor_choice.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/settings/words.hpp"
 #include "tools/cli/stop_signal.hpp"

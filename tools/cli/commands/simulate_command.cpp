@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <string>
 #include <thread>
 
 #include "calib/beams/angle.hpp"

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "protocol.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>

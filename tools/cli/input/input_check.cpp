@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "input_check.hpp"
 
-#include <string>
-
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"

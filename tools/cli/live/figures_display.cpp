@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <utility>
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "pipeline/status/loss_causes.hpp"

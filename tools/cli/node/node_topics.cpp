@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "node_topics.hpp"
 
-#include <array>
 #include <string>
 #include <utility>
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <utility>
 
 #include "pipeline/dds/dds_sink.hpp"

@@ -2,9 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "view_frames.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "pipeline/status/loss_causes.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"

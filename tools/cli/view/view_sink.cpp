@@ -6,7 +6,6 @@
 
 #include <utility>
 
-#include "firmware_io/net/ipv4_endpoint.hpp"
 #include "frame_stream.hpp"
 #include "pipeline/stream/stream_address.hpp"
 

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "firing_assignment.hpp"
 
-#include <algorithm>
-
 namespace terracut::encode {
 namespace {
 

@@ -4,7 +4,6 @@
 // allows, but never over the edge of a strip, where a kerb may stand.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "terrain.hpp"
 

@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/lab/encode/scan_encoder.hpp"
 #include "tools/lab/packets/hdl64e_packet_encoder.hpp"

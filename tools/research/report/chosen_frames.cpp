@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "chosen_frames.hpp"
 
-#include <algorithm>
 #include <map>
 #include <optional>
 

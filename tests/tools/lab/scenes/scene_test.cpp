@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 
 #include "tools/lab/simulator/simulated_motion.hpp"

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 // The whole way: packets of a simulated sensor, a fault script, the loopback interface, the
 // decoder. What the receiver counts must be what the script says it did, to the packet.
-#include <gmock/gmock.h>
 
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 #include "tests/firmware_io/net/wire.hpp"

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "tools/lab/send/packet_pacer.hpp"
 
-#include <gmock/gmock.h>
-
 #include <thread>
 
 #include "tests/firmware_io/net/wire.hpp"

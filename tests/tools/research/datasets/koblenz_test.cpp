@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 
 #include "tests/tools/research/eval/made_up_koblenz.hpp"

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "tools/research/eval/changed_frames.hpp"
 
-#include <gmock/gmock.h>
-
 #include <fstream>
 #include <nlohmann/json.hpp>
 

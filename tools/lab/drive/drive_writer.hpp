@@ -90,6 +90,5 @@ class DriveWriter {
 };
 
 using Hdl64eDriveWriter = DriveWriter<packets::Hdl64eEncoderTraits>;
-using Ruby128DriveWriter = DriveWriter<packets::Ruby128EncoderTraits>;
 
 }  // namespace terracut::drive

@@ -100,8 +100,6 @@ template <class EncoderTraits>
     const SimulationConfig<EncoderTraits>& config);
 
 using Hdl64eSimulation = SimulationConfig<packets::Hdl64eEncoderTraits>;
-using Ruby128Simulation = SimulationConfig<packets::Ruby128EncoderTraits>;
 using Hdl64eSimulatedColumn = SimulatedColumn<packets::Hdl64eEncoderTraits>;
-using Ruby128SimulatedColumn = SimulatedColumn<packets::Ruby128EncoderTraits>;
 
 }  // namespace terracut::simulator

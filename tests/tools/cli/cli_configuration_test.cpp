@@ -43,21 +43,6 @@ TEST_F(Configuration, CommandsStartFromItAndTheCommandLineWins) {
   EXPECT_EQ(content_of(folder_ / "file.pcap"), content_of(folder_ / "options.pcap"));
 }
 
-TEST_F(Configuration, SettingsOfTheCommandLineComeAfterTheFiles) {
-  write("a.yaml",
-        "output: {json: a.json}\n"
-        "method:\n  min_cut: {max_unknown: 0}\n  elevation_map: {obstacle_height_m: 1.5}\n");
-  const std::string replay = "replay " + quoted(kDrive) + " --duration 0.3";
-  expect_done("--config a.yaml " + replay);
-  const auto of_file = json("a.json");
-  EXPECT_GT(of_file["frames"][0]["min_cut"]["coarse"], 0);
-  expect_done("--config a.yaml " + replay + " --set min_cut.max_unknown=16384 --json b.json");
-  EXPECT_EQ(json("b.json")["frames"][0]["min_cut"]["coarse"], 0);
-  EXPECT_EQ(json("b.json")["frames"][0]["min_cut"]["unknown"],
-            of_file["frames"][0]["min_cut"]["unknown"])
-      << "the other setting still holds";
-}
-
 TEST_F(Configuration, ASetupOfTheCommandLineIsNotMovedByTheFile) {
   write("a.yaml", "mount: {height_m: 3}\n");
   expect_done("calibrate " + quoted(kDrive) + " --keep-mount --mount-height 1.73 -o setup.yaml");

@@ -192,24 +192,6 @@ TEST_F(CliEval, MeasuresTheProfileItIsToldOrTheConfigurationNames) {
   EXPECT_TRUE(json("file.json").at("methods").contains("paper"));
 }
 
-TEST_F(CliEval, StartsFromTheConfigurationAndTheCommandLineWins) {
-  const eval::MadeUpDataset made_up;
-  write("a.yaml", "mount: {height_m: 1.8}\nmethod: {elevation_map: {obstacle_height_m: 0.5}}\n");
-  const std::string eval = "eval semantickitti " + quoted(made_up.root()) + " ";
-  const auto settings_of = [&](const std::string& arguments) {
-    expect_done(arguments + " --json eval.json");
-    const std::string journal = content_of(folder_ / "eval.json.journal");
-    fs::remove(folder_ / "eval.json.journal");
-    return journal.substr(0, journal.find('\n'));
-  };
-  const std::string set = "--set elevation_map.obstacle_height_m=";
-  EXPECT_EQ(settings_of("--config a.yaml " + eval),
-            settings_of(eval + "--mount-height 1.8 " + set + "0.5"));
-  EXPECT_EQ(settings_of("--config a.yaml " + eval + set + "0.4"),
-            settings_of(eval + "--mount-height 1.8 " + set + "0.4"));
-  EXPECT_NE(settings_of("--config a.yaml " + eval), settings_of(eval));
-}
-
 TEST_F(CliEval, SaysWhichFilesItCouldNotEvaluateAndEvaluatesTheRest) {
   const eval::MadeUpDataset made_up;
   fs::remove(made_up.labels("03", 1));

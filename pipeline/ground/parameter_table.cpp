@@ -2,16 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/ground/parameter_table.hpp"
 
-#include <algorithm>
 #include <array>
 #include <type_traits>
-#include <vector>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "rt/nearest_word.hpp"
-#include "rt/number_of.hpp"
 
 namespace terracut::ground {
 namespace {
@@ -23,15 +15,14 @@ constexpr std::array<std::string_view, 3> kCutRows{"auto", "all", "ground"};
 constexpr std::array<std::string_view, 2> kRegionRules{"histogram", "height_ramp"};
 constexpr std::array<std::string_view, 2> kBoundaryRules{"height_gradient", "nearness"};
 
-// Makes the two functions that read and write one field of the configuration.
-#define TERRACUT_FIELD_OF(path)                                                 \
-  [](const MethodConfig& c) noexcept { return static_cast<double>(c.path); },   \
-      [](MethodConfig& c, double value) noexcept {                              \
-        c.path = static_cast<std::remove_reference_t<decltype(c.path)>>(value); \
+// The pair of functions that read and write one field of the configuration.
+#define TERRACUT_FIELD(path)                                                     \
+  [](const SegmenterConfig& c) noexcept { return static_cast<double>(c.path); }, \
+      [](SegmenterConfig& c, double value) noexcept {                            \
+        c.path = static_cast<std::remove_reference_t<decltype(c.path)>>(value);  \
       }
-#define TERRACUT_FIELD(path) TERRACUT_FIELD_OF(segmenter.path)
 
-constexpr double kFar = 1e9;  // Means "no limit".
+constexpr double kFar = kNoLimit;
 
 // clang-format off: a table reads better with an entry on two lines than one word a line.
 constexpr std::array kParameters{
@@ -233,156 +224,26 @@ constexpr std::array kParameters{
               TERRACUT_FIELD(sparse.regain_gap_m)},
     Parameter{"sparse.min_lower_height_m", "m", "In place of adjacent.min_lower_height_m", -1, kFar, {},
               TERRACUT_FIELD(sparse.min_lower_height_m)},
-
-    Parameter{"pfaff.cell_m", "m", "Side of a square of the fixed grid", 0.05, 10, {},
-              TERRACUT_FIELD_OF(pfaff.cell_m)},
-    Parameter{"pfaff.extent_m", "m", "Half the side of the map; farther returns belong to its edge", 10, 250, {},
-              TERRACUT_FIELD_OF(pfaff.extent_m)},
-    Parameter{"pfaff.sigma_m", "m", "Standard deviation of a height at range 0", 0.001, 1, {},
-              TERRACUT_FIELD_OF(pfaff.sigma_m)},
-    Parameter{"pfaff.sigma_per_metre", "m/m", "Its growth with range", 0, 0.1, {},
-              TERRACUT_FIELD_OF(pfaff.sigma_per_metre)},
-    Parameter{"pfaff.vertical_sigma_m", "m", "Heights of a square that vary more are not one level", 0.001, 5, {},
-              TERRACUT_FIELD_OF(pfaff.vertical_sigma_m)},
-    Parameter{"pfaff.vehicle_height_m", "m", "A gap larger than this can be driven through", 0.1, kFar, {},
-              TERRACUT_FIELD_OF(pfaff.vehicle_height_m)},
-    Parameter{"pfaff.obstacle_height_m", "m", "Obstacle from this height above the square's elevation on", 0.01, 5, {},
-              TERRACUT_FIELD_OF(pfaff.obstacle_height_m)},
-
-    Parameter{"bogoslavskyi.start_deg", "deg", "Ground starts at no steeper angle", 0.1, 90, {},
-              TERRACUT_FIELD_OF(bogoslavskyi.start_deg)},
-    Parameter{"bogoslavskyi.same_ground_deg", "deg", "Neighbours of the ground whose angle differs by less are ground", 0.1, 90, {},
-              TERRACUT_FIELD_OF(bogoslavskyi.same_ground_deg)},
-    Parameter{"bogoslavskyi.smoothing_window", "rows", "Window of the Savitzky-Golay filter, an odd number; an even one counts as the next odd one", 1, 15, {},
-              TERRACUT_FIELD_OF(bogoslavskyi.smoothing_window)},
-    Parameter{"bogoslavskyi.repair_rows", "rows", "A hole is bridged from no farther away", 0, 32, {},
-              TERRACUT_FIELD_OF(bogoslavskyi.repair_rows)},
-    Parameter{"bogoslavskyi.repair_range_m", "m", "... between ranges that differ by less", 0, 100, {},
-              TERRACUT_FIELD_OF(bogoslavskyi.repair_range_m)},
-    Parameter{"bogoslavskyi.margin_rows", "rows", "Ground grows by so many rows up and down at the end; not in the paper", 0, 16, {},
-              TERRACUT_FIELD_OF(bogoslavskyi.margin_rows)},
-
-    Parameter{"zhang.sectors", "", "Sectors of the polar map", 3, 2000, {},
-              TERRACUT_FIELD_OF(zhang.sectors)},
-    Parameter{"zhang.band_m", "m", "Width of its rings", 0.2, 20, {},
-              TERRACUT_FIELD_OF(zhang.band_m)},
-    Parameter{"zhang.range_limit_m", "m", "Farther returns belong to the last ring", 10, 250, {},
-              TERRACUT_FIELD_OF(zhang.range_limit_m)},
-    Parameter{"zhang.height_labels", "", "Heights of the ground to choose from", 2, 128, {},
-              TERRACUT_FIELD_OF(zhang.height_labels)},
-    Parameter{"zhang.height_step_m", "m", "How far apart they are", 0.01, 1, {},
-              TERRACUT_FIELD_OF(zhang.height_step_m)},
-    Parameter{"zhang.above_cost", "", "Cost of a cell all of whose returns are above the ground", 0, 1000, {},
-              TERRACUT_FIELD_OF(zhang.above_cost)},
-    Parameter{"zhang.below_cost", "", "... all of whose returns are below it", 0, 1000, {},
-              TERRACUT_FIELD_OF(zhang.below_cost)},
-    Parameter{"zhang.beside_cost", "", "... all of whose returns are one step off it", 0, 1000, {},
-              TERRACUT_FIELD_OF(zhang.beside_cost)},
-    Parameter{"zhang.full_returns", "returns", "Cells with fewer have less say", 1, 1000, {},
-              TERRACUT_FIELD_OF(zhang.full_returns)},
-    Parameter{"zhang.hidden_cost", "", "Cost of ground above a beam that passed the cell", 0, 1000, {},
-              TERRACUT_FIELD_OF(zhang.hidden_cost)},
-    Parameter{"zhang.step_cost_per_m", "1/m", "Cost of neighbours whose heights differ more than a slope", 0, 1000, {},
-              TERRACUT_FIELD_OF(zhang.step_cost_per_m)},
-    Parameter{"zhang.step_cost_limit", "", "... at most", 0, 1000, {},
-              TERRACUT_FIELD_OF(zhang.step_cost_limit)},
-    Parameter{"zhang.max_slope", "m/m", "What a slope may be", 0, 2, {},
-              TERRACUT_FIELD_OF(zhang.max_slope)},
-    Parameter{"zhang.iterations", "", "Of the belief propagation", 0, 1000, {},
-              TERRACUT_FIELD_OF(zhang.iterations)},
-    Parameter{"zhang.obstacle_height_m", "m", "Obstacle from this height above the ground on", 0.01, 5, {},
-              TERRACUT_FIELD_OF(zhang.obstacle_height_m)},
 };
 // clang-format on
 #undef TERRACUT_FIELD
-#undef TERRACUT_FIELD_OF
-
-constexpr std::size_t kBaselinesBegin = [] {
-  std::size_t first = 0;
-  while (!kParameters[first].key.starts_with("pfaff.")) ++first;
-  return first;
-}();
-
-std::string number_text(double value) {
-  // Fields are float: prints the shortest text that reads back as the same float.
-  return fmt::format("{}", static_cast<float>(value));
-}
-
-Expected<double> parse_value(const Parameter& parameter, std::string_view value) {
-  if (!parameter.choices.empty()) {
-    const auto choice = std::find(parameter.choices.begin(), parameter.choices.end(), value);
-    if (choice != parameter.choices.end())
-      return static_cast<double>(choice - parameter.choices.begin());
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("{}: expected one of {}, found '{}'", parameter.key,
-                            fmt::join(parameter.choices, ", "), value));
-  }
-  const auto number = rt::number_of<double>(value);
-  if (number && *number >= parameter.least && *number <= parameter.most) return *number;
-  return fail(ErrorCode::kInvalidArgument,
-              fmt::format("{}: expected a number from {} to {}{}{}, found '{}'", parameter.key,
-                          number_text(parameter.least), number_text(parameter.most),
-                          parameter.unit.empty() ? "" : " ", parameter.unit, value));
-}
-
-/// Suggests a key for an unknown one: the nearest, and those of the same stage.
-std::string unknown(std::string_view key) {
-  const std::string_view stage = key.substr(0, key.find('.') + 1);
-  std::vector<std::string_view> all, alike;
-  for (const Parameter& p : kParameters) {
-    all.push_back(p.key);
-    if (!stage.empty() && p.key.starts_with(stage)) alike.push_back(p.key);
-  }
-  const std::string_view meant = rt::nearest_word(key, all);
-  return fmt::format("no parameter is called '{}'{}; {}", key,
-                     meant.empty() ? "" : fmt::format(" (did you mean {}?)", meant),
-                     alike.empty() ? "docs/reference/parameters.md lists them all"
-                                   : fmt::format("there are {}", fmt::join(alike, ", ")));
-}
 
 }  // namespace
 
 std::span<const Parameter> parameters() noexcept {
-  return std::span(kParameters).first(kBaselinesBegin);
+  return kParameters;
 }
 
-std::span<const Parameter> baseline_parameters() noexcept {
-  return std::span(kParameters).subspan(kBaselinesBegin);
+Status set_parameter(SegmenterConfig& config, std::string_view key, std::string_view value) {
+  const Parameter* parameter = find_parameter(parameters(), key);
+  if (parameter == nullptr) return unknown_parameter(key, keys_of(parameters()));
+  return parameter->read(config, value);
 }
 
-MethodKind kind_that_uses(std::string_view key) noexcept {
-  if (key.starts_with("pfaff.")) return MethodKind::kPfaff;
-  if (key.starts_with("bogoslavskyi.")) return MethodKind::kBogoslavskyi;
-  if (key.starts_with("zhang.")) return MethodKind::kZhang;
-  return MethodKind::kSegmenter;
-}
-
-Status set_parameter(MethodConfig& config, std::string_view key, std::string_view value) {
-  const auto parameter = std::find_if(kParameters.begin(), kParameters.end(),
-                                      [&](const Parameter& p) { return p.key == key; });
-  if (parameter == kParameters.end()) {
-    return fail(ErrorCode::kInvalidArgument, unknown(key));
-  }
-  const Expected<double> number = parse_value(*parameter, value);
-  if (!number) return tl::unexpected<Error>(number.error());
-  parameter->set(config, *number);
-  return {};
-}
-
-Status apply_setting(MethodConfig& config, std::string_view setting) {
-  const std::size_t equals = setting.find('=');
-  if (equals == std::string_view::npos) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("expected KEY=VALUE, found '{}'", setting));
-  }
-  return set_parameter(config, setting.substr(0, equals), setting.substr(equals + 1));
-}
-
-std::string value_text(const Parameter& parameter, const MethodConfig& config) {
-  const double value = parameter.get(config);
-  return parameter.choices.empty()
-             ? number_text(value)
-             : std::string(parameter.choices[static_cast<std::size_t>(value)]);
+Status apply_setting(SegmenterConfig& config, std::string_view setting) {
+  const auto parts = parts_of_setting(setting);
+  return parts ? set_parameter(config, parts->key, parts->value)
+               : tl::unexpected<Error>(parts.error());
 }
 
 }  // namespace terracut::ground

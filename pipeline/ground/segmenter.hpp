@@ -8,6 +8,7 @@
 
 #include "pipeline/ground/coarse_stages.hpp"
 #include "pipeline/ground/fine_stages.hpp"
+#include "pipeline/ground/frame_method.hpp"
 
 namespace terracut::ground {
 
@@ -16,7 +17,7 @@ namespace terracut::ground {
 /// Memory is taken once, in the constructor; nothing else allocates, locks, throws or looks at a
 /// clock. The same image gives the same labels on every machine (unless a budget with a clock cuts
 /// the min-cut short). One thread at a time; for two threads use CoarseStages and FineStages.
-class Segmenter {
+class Segmenter final : public FrameMethod {
  public:
   /// `profile` must have shape.rows rings. `return_capacity` is that of the images to come.
   /// `reader` is their sensor's if they keep their returns as measured, else null.
@@ -33,7 +34,7 @@ class Segmenter {
   /// Works ahead on a frame that is still arriving: CoarseStages::advance(). Never necessary:
   /// labels are the same without it. Overwrites planes(), not labels().
   void advance(const frame::RangeImage& image, int complete_columns,
-               stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING {
+               stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING override {
     coarse_.advance(image, complete_columns, planes_, observer);
   }
 
@@ -41,28 +42,30 @@ class Segmenter {
   /// result. `budget`: see FineStages::refine(). Real-time safe if the observer is.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, const min_cut::CutBudget& budget = {},
-      stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING {
+      stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING override {
     coarse_.finish(image, planes_, observer);
     return fine_.refine(image, planes_, budget, observer);
   }
 
   /// Sets the place of the frame to be labelled next: FineStages::set_place().
-  void set_place(const frame::Place& place) noexcept TERRACUT_NONBLOCKING {
+  void set_place(const frame::Place& place) noexcept TERRACUT_NONBLOCKING override {
     fine_.set_place(place);
   }
 
   /// Takes near ground from the frame labelled last.
   void take_near_ground(const frame::RangeImage& image,
-                        NearGround& ground) noexcept TERRACUT_NONBLOCKING {
+                        NearGround& ground) noexcept TERRACUT_NONBLOCKING override {
     fine_.take_near_ground(image, planes_, ground);
   }
 
   /// Returns one label a return, in order of arrival (RangeImage::return_index()). kGround is all
   /// ground; with road.enabled kGround is road and kOtherGround the rest.
-  [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return fine_.labels(); }
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept override {
+    return fine_.labels();
+  }
   /// Returns the labels by cell with the heights they were judged by; for pictures and
   /// measurements.
-  [[nodiscard]] const stage::CellPlanes& planes() const noexcept { return planes_; }
+  [[nodiscard]] const stage::CellPlanes& planes() const noexcept override { return planes_; }
 
  private:
   stage::CellPlanes planes_;
@@ -70,5 +73,14 @@ class Segmenter {
   CoarseStages coarse_;
   FineStages fine_;
 };
+
+/// Makes Segmenters, which remember nothing where motion is not known.
+[[nodiscard]] inline MethodMaker maker_of(const SegmenterConfig& config) {
+  return [config](FramesToCome frames, memory::FixedMemory& memory) {
+    return std::make_unique<Segmenter>(remembering(config, frames.motion_is_known), frames.profile,
+                                       frames.shape, frames.return_capacity, memory,
+                                       std::move(frames.reader));
+  };
+}
 
 }  // namespace terracut::ground

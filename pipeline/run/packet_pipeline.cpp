@@ -37,7 +37,7 @@ Frame* PacketPipeline::next() noexcept {
   if (frame == nullptr) {
     const frame::ArrivingFrame arriving = decoder_.arriving();
     if (arriving.image != nullptr) {
-      method_.advance(*arriving.image, arriving.complete_columns, &clock_);
+      method_->advance(*arriving.image, arriving.complete_columns, &clock_);
     }
     return nullptr;
   }
@@ -52,8 +52,8 @@ Frame* PacketPipeline::next() noexcept {
 }
 
 void PacketPipeline::label(Frame& frame) noexcept {
-  method_.set_place(frame.record.info.deskew.place);
-  frame.record.segmentation = method_.segment(*frame.image, &clock_);
+  method_->set_place(frame.record.info.deskew.place);
+  frame.record.segmentation = method_->segment(*frame.image, {}, &clock_);
   frame.record.stages += clock_.take();
 }
 

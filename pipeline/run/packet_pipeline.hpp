@@ -3,13 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include "calib/mount/ring_profile.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/decode/decoder.hpp"
-#include "pipeline/ground/ground_method.hpp"
+#include "pipeline/ground/frame_method.hpp"
 #include "pipeline/run/frame.hpp"
 #include "pipeline/run/stage_clock.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -36,11 +37,15 @@ class PacketPipeline {
   };
 
   PacketPipeline(const calib::SensorCalibration& calibration, const mount::RingProfile& profile,
-                 const decode::Decoder::Config& decoder, const ground::MethodConfig& method,
+                 const decode::Decoder::Config& decoder, const ground::MethodMaker& method,
                  memory::FixedMemory& memory, Timing timing = Timing::kPackets)
       : decoder_(calibration, profile.mount, decoder, memory),
-        method_(ground::remembering(method, decoder.motion != nullptr), profile, decoder_.shape(),
-                decoder_.return_capacity(), memory, decoder_.make_reader(memory)),
+        method_(method({.profile = profile,
+                        .shape = decoder_.shape(),
+                        .return_capacity = decoder_.return_capacity(),
+                        .motion_is_known = decoder.motion != nullptr,
+                        .reader = decoder_.make_reader(memory)},
+                       memory)),
         timing_(timing) {}
 
   void push(const packet::Datagram& datagram) noexcept;
@@ -58,11 +63,11 @@ class PacketPipeline {
   /// return index, until the next call. Frames that are not labelled cost no more than what was
   /// done ahead.
   void label(Frame& frame) noexcept;
-  [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_.labels(); }
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_->labels(); }
 
   /// Of the frame labelled last.
   void take_near_ground(const Frame& frame, ground::NearGround& ground) noexcept {
-    method_.take_near_ground(*frame.image, ground);
+    method_->take_near_ground(*frame.image, ground);
   }
 
   [[nodiscard]] const decode::Decoder& decoder() const noexcept { return decoder_; }
@@ -72,7 +77,7 @@ class PacketPipeline {
   void pause() noexcept;
 
   decode::Decoder decoder_;
-  ground::GroundMethod method_;
+  std::unique_ptr<ground::FrameMethod> method_;  ///< Never null.
   Timing timing_;
   StageClock clock_;
   std::int64_t decode_ns_ = 0;  ///< Since the frame before.

@@ -7,6 +7,7 @@
 
 #include "calib/terracut/calibration_table.hpp"
 #include "firmware_io/terracut/points.hpp"
+#include "pipeline/ground/segmenter.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
 #include "pipeline/terracut/profile.hpp"
 
@@ -17,7 +18,7 @@ struct PacketPipeline::Engine {
          const decode::Decoder::Config& decoder)
       : pipeline(calibration.table().unit,
                  calib::ring_profile(calibration.table().unit, mount_of(config.mount)), decoder,
-                 config_of(config.profile), memory),
+                 ground::maker_of(config_of(config.profile)), memory),
         room(pipeline.decoder().return_capacity()) {}
 
   memory::FixedMemory memory;

@@ -38,19 +38,13 @@ Status check(const Mount& mount) {
 }
 
 Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {
-  ground::MethodConfig method = config_of(config.profile);
+  ground::SegmenterConfig method = config_of(config.profile);
   for (const std::string& setting : config.parameters) {
     if (const Status set = ground::apply_setting(method, setting); !set) {
       return tl::unexpected(set.error());
     }
-    if (ground::kind_that_uses(std::string_view(setting).substr(0, setting.find('='))) ==
-        ground::MethodKind::kSegmenter) {
-      continue;
-    }
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("'{}' would change nothing: it is a parameter of a baseline", setting));
   }
-  return method.segmenter;
+  return method;
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ enum class Profile : std::uint8_t { kPaper, kTerracut };
 
 /// Which method runs.
 struct MethodOptions {
-  std::string method;  ///< As in pipeline/ground/ground_method.hpp; empty: by the others.
+  std::string method;  ///< As in tools/research/baselines/method_config.hpp; empty: by the others.
   Profile profile = Profile::kTerracut;
   stage::Stage last_stage = stage::Stage::kMinCut;
   std::vector<std::string> settings;  ///< KEY=VALUE, checked; docs/reference/parameters.md

@@ -19,14 +19,14 @@ namespace {
 
 /// As `terracut parameters` prints them, with the default of the terracut profile.
 py::list parameters() {
-  const ground::MethodConfig defaults = ground::terracut_profile();
+  const ground::SegmenterConfig defaults = ground::terracut_profile();
   py::list all;
   for (const ground::Parameter& parameter : ground::parameters()) {
     py::dict entry;
     entry["key"] = std::string(parameter.key);
     entry["unit"] = std::string(parameter.unit);
     entry["help"] = std::string(parameter.help);
-    entry["default"] = ground::value_text(parameter, defaults);
+    entry["default"] = parameter.text(defaults);
     if (parameter.choices.empty()) {
       entry["range"] = py::make_tuple(parameter.least, parameter.most);
     } else {

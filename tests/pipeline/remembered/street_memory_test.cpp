@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "pipeline/ground/segmenter.hpp"
-#include "tests/pipeline/baselines/baseline_scenes.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/box_scene.hpp"
 
 namespace terracut::remembered {
 namespace {
@@ -26,7 +26,7 @@ const Box kCar{9, 13, -1, 1, 0.15, 1.5};
 const Box kPedestrian{7, 7.4, 1, 1.5, 0, 1.8};
 const Box kKerb{7, 9, -2, 2, 0, 0.25};
 
-struct StreetMemoryTest : testing::Test, test::BaselineScene {
+struct StreetMemoryTest : testing::Test, test::BoxScene {
   Segmenter remembering{SegmenterConfig{}, profile, kShape, image.return_capacity(), memory};
   Segmenter alone{SegmenterConfig{}, profile, kShape, image.return_capacity(), memory};
 

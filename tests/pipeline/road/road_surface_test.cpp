@@ -13,14 +13,14 @@
 #include <vector>
 
 #include "pipeline/ground/segmenter.hpp"
-#include "tests/pipeline/baselines/baseline_scenes.hpp"
+#include "tests/support/box_scene.hpp"
 
 namespace terracut::road {
 namespace {
 
 constexpr double kKerb_m = 0.12;
 
-struct RoadSurfaceOfAFrame : testing::Test, test::BaselineScene {
+struct RoadSurfaceOfAFrame : testing::Test, test::BoxScene {
   RoadSurfaceOfAFrame() { config.road.enabled = true; }
 
   std::span<const frame::Label> segment(const test::BeamCast& beams) {

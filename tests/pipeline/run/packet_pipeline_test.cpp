@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calib/hdl64e/nominal_hdl64e.hpp"
+#include "pipeline/ground/segmenter.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 
@@ -23,7 +24,7 @@ class PacketPipelineTest : public testing::Test {
 
   std::unique_ptr<PacketPipeline> pipeline(Timing timing = Timing::kPackets) {
     return std::make_unique<PacketPipeline>(unit_, profile_, decode::Decoder::Config{},
-                                            ground::MethodConfig{}, memory_, timing);
+                                            ground::maker_of({}), memory_, timing);
   }
 
   memory::FixedMemory memory_;
@@ -58,8 +59,8 @@ TEST_F(PacketPipelineTest, HandsOutEveryFrameOnceInOrderWithAllItsReturns) {
 TEST_F(PacketPipelineTest, LabelsAreThoseOfASegmenterThatSawTheWholeFrameAtOnce) {
   const auto way = pipeline();
   memory::FixedMemory memory;
-  ground::GroundMethod at_once({}, profile_, way->decoder().shape(),
-                               way->decoder().return_capacity(), memory);
+  ground::Segmenter at_once({}, profile_, way->decoder().shape(), way->decoder().return_capacity(),
+                            memory);
   int compared = 0;
   const auto compare = [&](Frame& frame) {
     (void)at_once.segment(*frame.image);

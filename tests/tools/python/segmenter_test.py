@@ -163,7 +163,7 @@ class Refusals(unittest.TestCase):
     def test_wrong_settings(self):
         with self.assertRaisesRegex(terracut.InvalidArgument, "unknown|no parameter|nonsense"):
             terracut.Segmenter(parameters={"nonsense": 1})
-        with self.assertRaisesRegex(terracut.InvalidArgument, "baseline"):
+        with self.assertRaisesRegex(terracut.InvalidArgument, "pfaff.cell_m"):
             terracut.Segmenter(parameters={"pfaff.cell_m": 0.5})
         with self.assertRaisesRegex(ValueError, "'terracut' or 'paper'"):
             terracut.Segmenter(profile="best")

@@ -88,10 +88,10 @@ class Assembly {
   }
 
   /// The kinds of method that these options let run; a name that is none is refused elsewhere.
-  [[nodiscard]] std::vector<ground::MethodKind> kinds() const {
-    std::vector<ground::MethodKind> kinds;
+  [[nodiscard]] std::vector<baselines::MethodKind> kinds() const {
+    std::vector<baselines::MethodKind> kinds;
     for (const std::string& name : options_.eval.methods) {
-      if (const auto method = ground::method_named(name)) kinds.push_back(method->kind);
+      if (const auto method = baselines::method_named(name)) kinds.push_back(method->kind);
     }
     if (options_.eval.methods.empty()) kinds.push_back(method_config_of(options_.method).kind);
     return kinds;

@@ -11,8 +11,8 @@
 #include <cctype>
 #include <sstream>
 
-#include "pipeline/ground/ground_method.hpp"
 #include "tools/cli/settings/setting_text.hpp"
+#include "tools/research/baselines/method_config.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -78,7 +78,7 @@ std::string help_of(const Setting& setting, Command command, const Options& in_f
 
 std::string method_list() {
   std::string text = ":";
-  for (const ground::MethodName& known : ground::method_names()) {
+  for (const baselines::MethodName& known : baselines::method_names()) {
     text += fmt::format("\n  {}: {}", known.name, known.about);
   }
   return text;

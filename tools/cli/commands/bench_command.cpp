@@ -195,7 +195,7 @@ ExitCode run_bench(const Options& options) {
   const auto decoder_config =
       decoder_config_of(options, capture->sensor.columns, FramesAreFor::kLabels);
   run::PacketPipeline pipeline(capture->calibration, *profile, decoder_config,
-                               method_config_of(options.method), memory,
+                               method_of(options.method), memory,
                                run::PacketPipeline::Timing::kFrames);
   decode::Decoder decoder(capture->calibration, profile->mount, decoder_config, memory);
   const int core = stay_on_core(options.bench_core);

@@ -22,6 +22,7 @@
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/settings/words.hpp"
 #include "tools/cli/stop_signal.hpp"
+#include "tools/research/baselines/parameter_table.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
 #include "tools/research/eval/evaluation.hpp"
 #include "tools/research/eval/evaluation_json.hpp"
@@ -149,7 +150,7 @@ Expected<EvaluationConfig> config_of(const Options& options, const datasets::Cla
     auto method = eval::method_named(name);
     if (!method) return tl::unexpected(method.error());
     for (const std::string& setting : options.method.settings) {
-      if (const Status set = ground::apply_setting(method->config, setting); !set) {
+      if (const Status set = baselines::apply_setting(method->config, setting); !set) {
         return tl::unexpected(set.error());
       }
     }
@@ -232,11 +233,13 @@ std::string settings_line(const Options& options, const EvaluationConfig& config
   }
   for (const eval::MethodChoice& method : config.methods) {
     line += fmt::format(" {}={}{{", method.name, method.base);
-    for (const auto part : {ground::parameters(), ground::baseline_parameters()}) {
-      for (const ground::Parameter& parameter : part) {
-        line += fmt::format("{}={} ", parameter.key, ground::value_text(parameter, method.config));
+    const auto add = [&](const auto& parameters, const auto& values) {
+      for (const auto& parameter : parameters) {
+        line += fmt::format("{}={} ", parameter.key, parameter.text(values));
       }
-    }
+    };
+    add(ground::parameters(), method.config.segmenter);
+    add(baselines::parameters(), method.config);
     line.back() = '}';
   }
   return line;

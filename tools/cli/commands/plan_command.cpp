@@ -59,7 +59,7 @@ std::size_t take_memory(const Options& options, const calib::SensorCalibration& 
       options.fleet.format == FleetFormat::kLabels ? FramesAreFor::kLabels : FramesAreFor::kPoints;
   const run::PacketPipeline pipeline(
       calibration, profile, decoder_config_of(options, 0, purpose, motion ? &*motion : nullptr),
-      method_config_of(options.method), memory);
+      method_of(options.method), memory);
   return pipeline.decoder().return_capacity();
 }
 

@@ -69,7 +69,7 @@ ExitCode run_segment(const Options& options) {
       "{} rows by {}", rows->rings.table.size(),
       options.capture.calibration.empty() ? description_of(rows->source) : "the calibration given");
 
-  CloudLabeller labeller(method_config_of(options.method), *rows, *profile);
+  CloudLabeller labeller(method_of(options.method), *rows, *profile);
   MountWatch watch(profile->mount, *mount);
   Report::ScanPoints points;  // of all scans
   std::vector<std::uint32_t> truth;
@@ -117,7 +117,7 @@ ExitCode run_segment(const Options& options) {
     if (!truth.empty()) report.score(labeller.point_labels, truth);
     Status written = outputs.write_labels(file.name, labeller.point_labels);
     if (written) {
-      written = outputs.write_frame(file.name, labeller.image, labeller.method.labels(),
+      written = outputs.write_frame(file.name, labeller.image, labeller.method->labels(),
                                     labeller.truth_of_returns(truth));
     }
     if (written) {
@@ -125,7 +125,7 @@ ExitCode run_segment(const Options& options) {
       constexpr std::int64_t kFramePeriod_ns = 100'000'000;
       record.info.first_packet_ns = record.info.number * kFramePeriod_ns;
       record.info.last_packet_ns = record.info.first_packet_ns;
-      written = outputs.publish(record, labeller.image, labeller.method.labels());
+      written = outputs.publish(record, labeller.image, labeller.method->labels());
     }
     if (!written) return refuse(written.error());
     progress.update(static_cast<double>(i + 1));

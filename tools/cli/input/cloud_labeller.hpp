@@ -4,13 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
-#include "pipeline/ground/ground_method.hpp"
+#include "pipeline/ground/frame_method.hpp"
 #include "pipeline/run/stage_clock.hpp"
 #include "pipeline/status/frame_record.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -22,7 +23,7 @@ struct CloudLabeller {
   memory::FixedMemory memory;
   cloud::RowFinder finder;
   frame::RangeImage image;
-  ground::GroundMethod method;
+  std::unique_ptr<ground::FrameMethod> method;
   scan::ScanToImage scan_to_image;
   scan::RingRecovery rings;
   run::StageClock clock;
@@ -30,11 +31,13 @@ struct CloudLabeller {
   std::vector<frame::Label> point_labels;   ///< One a point, in the cloud's order.
   std::vector<std::uint32_t> return_truth;  ///< truth_of_returns()
 
-  CloudLabeller(const ground::MethodConfig& config, const cloud::SensorRows& rows,
+  CloudLabeller(const ground::MethodMaker& maker, const cloud::SensorRows& rows,
                 const mount::RingProfile& profile)
       : finder(rows),
         image(rows.shape(), rows.shape().cells(), memory),
-        method(config, profile, rows.shape(), image.return_capacity(), memory),
+        method(maker(
+            {.profile = profile, .shape = rows.shape(), .return_capacity = image.return_capacity()},
+            memory)),
         scan_to_image(profile.mount) {}
 
   /// Fills in what of `record` is known of a cloud. The errors of cloud::RowFinder::find().
@@ -42,9 +45,9 @@ struct CloudLabeller {
                const min_cut::CutBudget& budget = {}) {
     if (Status found = finder.find(cloud, rings); !found) return found;
     placed = scan_to_image.place(cloud.points, rings.ring_of_point, image);
-    record.segmentation = method.segment(image, &clock, budget);
+    record.segmentation = method->segment(image, budget, &clock);
     record.stages = clock.take();
-    scan_to_image.labels_of_points(method.labels(), point_labels);
+    scan_to_image.labels_of_points(method->labels(), point_labels);
     record.segmentation.count(point_labels);
     // Points that are no return have kNone, which is counted as neither.
     const auto no_place = static_cast<std::uint32_t>(placed.no_place);

@@ -40,7 +40,7 @@ Status LabelledCapture::prepare(FramesAreFor purpose) {
   pipeline_.emplace(capture_->calibration, *profile,
                     decoder_config_of(options_, capture_->sensor.columns, purpose,
                                       motion_ ? &motion_->motion() : nullptr),
-                    method_config_of(options_.method), memory_);
+                    method_of(options_.method), memory_);
   clock_of_device_.emplace(options_.capture.clock_offset_s);
   sensor_mount_ = profile->mount;
   mount_.emplace(sensor_mount_, *mount);

@@ -93,7 +93,7 @@ Status CaptureFrames::look_for_standing_mount(std::size_t most, mount::MountFind
   run::PacketPipeline pipeline(
       capture_.calibration, ring_profile(mount::kAtTheSensor),
       decoder_config_of(options_, capture_.sensor.columns, FramesAreFor::kLabels),
-      method_config_of(options_.method), memory);
+      method_of(options_.method), memory);
   const auto ground = std::make_unique<ground::NearGround>();
   return pass(pipeline, most, [&](run::Frame& frame) {
     pipeline.label(frame);

@@ -51,7 +51,7 @@ Status NodeLabeller::set_up() {
   const auto profile = ring_profile_of(table, choice.options);
   if (!profile) return tl::unexpected(profile.error());
   mount_ = profile->mount;
-  labeller_.emplace(method_config_of(options_.method), *rows, *profile);
+  labeller_.emplace(method_of(options_.method), *rows, *profile);
   watch_.emplace(profile->mount, choice);
   return {};
 }

@@ -92,7 +92,7 @@ class Reader {
       return applied ? applied : refuse(value, fmt::format("{}: {}", key, applied.error().message));
     }
     std::string text = fmt::format("{}={}", key.substr(kMethod.size()), value.Scalar());
-    ground::MethodConfig scratch;
+    ground::SegmenterConfig scratch;
     if (const Status valid = ground::apply_setting(scratch, text); !valid) {
       return refuse(value, fmt::format("{}{}", kMethod, valid.error().message));
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "parameter_text.hpp"
+#include "pipeline/ground/parameter_table.hpp"
 #include "setting_text.hpp"
 #include "setup_choice.hpp"
 #include "words.hpp"
@@ -56,8 +57,8 @@ std::string_view section_of(std::string_view key) {
 void add_parameters(std::string& text, const Options& options) {
   MethodOptions without = options.method;
   without.settings.clear();
-  const ground::MethodConfig defaults = method_config_of(without);
-  const ground::MethodConfig current = method_config_of(options.method);
+  const ground::SegmenterConfig defaults = method_config_of(without).segmenter;
+  const ground::SegmenterConfig current = method_config_of(options.method).segmenter;
   text += fmt::format(
       "  # The parameters of the method hold in either profile; defaults are those of '{}'.\n",
       word_of(kProfileWords, without.profile));
@@ -67,10 +68,10 @@ void add_parameters(std::string& text, const Options& options) {
       stage = section_of(parameter.key);
       text += fmt::format("  {}:\n", stage);
     }
-    const std::string value = ground::value_text(parameter, current);
+    const std::string value = parameter.text(current);
     text += comment("    ", parameter.help, parameter.unit, range_text(parameter));
     text += entry("    ", parameter.key.substr(stage.size() + 1), value,
-                  value == ground::value_text(parameter, defaults));
+                  value == parameter.text(defaults));
   }
 }
 

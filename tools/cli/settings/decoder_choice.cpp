@@ -2,8 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "decoder_choice.hpp"
 
-#include "pipeline/ground/ground_method.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
+#include "tools/research/baselines/method_config.hpp"
 
 namespace terracut::cli {
 
@@ -18,7 +18,7 @@ decode::Decoder::Config decoder_config_of(const Options& options, int columns, F
   config.ruby128.timestamp = capture.timestamp;
   config.velodyne.is_named = capture.sensor.has_value();
   config.keeps_measured = purpose == FramesAreFor::kLabels &&
-                          !ground::needs_all_points(method_config_of(options.method));
+                          !baselines::needs_all_points(method_config_of(options.method));
   config.motion = motion;
   config.deskew_at = options.motion.deskew_to;
   return config;

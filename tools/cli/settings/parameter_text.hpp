@@ -4,15 +4,14 @@
 
 #include <string>
 
-#include "pipeline/ground/parameter_table.hpp"
+#include "pipeline/ground/parameter.hpp"
 
 namespace terracut::cli {
 
 /// "0.01 .. 2", "0 .. no limit", "auto, all, ground".
-[[nodiscard]] std::string range_text(const ground::Parameter& parameter);
+[[nodiscard]] std::string range_text(const ground::ParameterText& parameter);
 
-/// A parameter's value for people: "0.15", "no limit".
-[[nodiscard]] std::string shown_value(const ground::Parameter& parameter,
-                                      const ground::MethodConfig& config);
+/// A value of a parameter for people: "0.15", "no limit".
+[[nodiscard]] std::string shown_value(const ground::ParameterText& parameter, double value);
 
 }  // namespace terracut::cli

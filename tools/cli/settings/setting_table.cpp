@@ -4,9 +4,9 @@
 #include <array>
 #include <limits>
 
-#include "pipeline/ground/ground_method.hpp"
 #include "setting.hpp"
 #include "tools/lab/scenes/scene_names.hpp"
+#include "tools/research/baselines/method_config.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
 #include "words.hpp"
 
@@ -55,7 +55,7 @@ ChoiceField name_choice(std::string& value, const std::vector<std::string_view>&
 
 ChoiceField method_choice(std::string& method) {
   std::vector<std::string_view> names;
-  for (const auto& known : ground::method_names()) names.push_back(known.name);
+  for (const auto& known : baselines::method_names()) names.push_back(known.name);
   return name_choice(method, names);
 }
 

@@ -13,9 +13,9 @@
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/streams/stream_text.hpp"
 #include "pipeline/dds/ros_topic.hpp"
-#include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/stream/stream_address.hpp"
 #include "rt/number_of.hpp"
+#include "tools/research/baselines/parameter_table.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -104,8 +104,8 @@ const Form& form_of(const Setting& setting) {
 
 Status check_text(const Setting& setting, std::string_view text) {
   if (setting.form == TextForm::kParameter) {
-    ground::MethodConfig scratch;
-    return ground::apply_setting(scratch, text);
+    baselines::MethodConfig scratch;
+    return baselines::apply_setting(scratch, text);
   }
   const Form& form = form_of(setting);
   return form.fits(text) ? Status{} : wrong(form.description, text);

@@ -8,7 +8,7 @@
 
 #include "calib/beams/angle.hpp"
 #include "calib/mount/sensor_setup_file.hpp"
-#include "pipeline/ground/parameter_table.hpp"
+#include "tools/research/baselines/parameter_table.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -62,12 +62,12 @@ Expected<mount::RingProfile> ring_profile_of(const scan::RingTable& rings,
 }
 
 Status check_used(std::span<const std::string> settings,
-                  std::span<const ground::MethodKind> kinds) {
+                  std::span<const baselines::MethodKind> kinds) {
   for (const std::string& setting : settings) {
     const std::string key = setting.substr(0, setting.find('='));
-    const ground::MethodKind kind = ground::kind_that_uses(key);
+    const baselines::MethodKind kind = baselines::kind_that_uses(key);
     if (std::ranges::find(kinds, kind) != kinds.end()) continue;
-    const std::string whose = kind == ground::MethodKind::kSegmenter
+    const std::string whose = kind == baselines::MethodKind::kSegmenter
                                   ? "our own method"
                                   : "the method " + key.substr(0, key.find('.'));
     return fail(ErrorCode::kInvalidArgument,
@@ -78,12 +78,14 @@ Status check_used(std::span<const std::string> settings,
   return {};
 }
 
-ground::MethodConfig method_config_of(const MethodOptions& options) {
-  ground::MethodConfig config =
-      options.profile == Profile::kPaper ? ground::paper_profile() : ground::terracut_profile();
+baselines::MethodConfig method_config_of(const MethodOptions& options) {
+  baselines::MethodConfig config;
+  if (options.profile == Profile::kPaper) config.segmenter = ground::paper_profile();
   config.segmenter.last_stage = options.last_stage;
-  if (!options.method.empty()) config = ground::method_named(options.method).value();
-  for (const std::string& setting : options.settings) (void)ground::apply_setting(config, setting);
+  if (!options.method.empty()) config = baselines::method_named(options.method).value();
+  for (const std::string& setting : options.settings) {
+    (void)baselines::apply_setting(config, setting);
+  }
   return config;
 }
 

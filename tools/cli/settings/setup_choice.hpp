@@ -9,10 +9,10 @@
 #include "calib/mount/ring_profile.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/scan/ring_table.hpp"
-#include "pipeline/ground/ground_method.hpp"
 #include "pipeline/ground/profile.hpp"
 #include "rt/error.hpp"
 #include "tools/cli/options.hpp"
+#include "tools/research/baselines/method_config.hpp"
 
 namespace terracut::cli {
 
@@ -30,10 +30,13 @@ namespace terracut::cli {
 /// That each setting, checked, is of a method among `kinds`: one that nothing looks at would be
 /// silently without effect. kInvalidArgument, naming it and whose it is.
 [[nodiscard]] Status check_used(std::span<const std::string> settings,
-                                std::span<const ground::MethodKind> kinds);
+                                std::span<const baselines::MethodKind> kinds);
 
 /// The method for --method, or --profile and --stages, and --set; names and settings must have been
 /// checked.
-[[nodiscard]] ground::MethodConfig method_config_of(const MethodOptions& options);
+[[nodiscard]] baselines::MethodConfig method_config_of(const MethodOptions& options);
+[[nodiscard]] inline ground::MethodMaker method_of(const MethodOptions& options) {
+  return baselines::maker_of(method_config_of(options));
+}
 
 }  // namespace terracut::cli

@@ -36,8 +36,7 @@ Expected<std::unique_ptr<PlayedClouds>> PlayedClouds::open(const std::filesystem
   if (!profile) return tl::unexpected(profile.error());
   opened->sensor_line_ = fmt::format("{} rows of clouds", rows->rings.table.size());
   opened->mount_ = profile->mount;
-  opened->labeller_ =
-      std::make_unique<CloudLabeller>(method_config_of(options.method), *rows, *profile);
+  opened->labeller_ = std::make_unique<CloudLabeller>(method_of(options.method), *rows, *profile);
   return opened;
 }
 
@@ -78,7 +77,7 @@ Status PlayedClouds::label(std::size_t index) {
 void PlayedClouds::take(publish::LabelledFrame& frame) {
   frame.record = record_;
   frame.points.resize(labeller_->image.returns());
-  (void)points::pack_labelled_points(labeller_->image, labeller_->method.labels(), frame.points);
+  (void)points::pack_labelled_points(labeller_->image, labeller_->method->labels(), frame.points);
 }
 
 Status PlayedClouds::go_to(double seek_s) {

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "pipeline/ground/parameter_table.hpp"
+#include "tools/research/baselines/parameter_table.hpp"
 #include "tools/research/statistics/measures.hpp"
 
 namespace terracut::eval {
@@ -151,12 +152,15 @@ class MethodJson {
 
   [[nodiscard]] Json json() const {
     Json json{{"about", method_.about}};
-    const bool ours = method_.config.kind == ground::MethodKind::kSegmenter;
-    const auto own = ours ? ground::parameters() : ground::baseline_parameters();
-    for (const ground::Parameter& parameter : own) {
-      if (!ours && !parameter.key.starts_with(method_.base + ".")) continue;
-      json["parameters"][std::string(parameter.key)] =
-          ground::value_text(parameter, method_.config);
+    const auto add = [&](const auto& parameter, const auto& config) {
+      json["parameters"][std::string(parameter.key)] = parameter.text(config);
+    };
+    if (method_.config.kind == baselines::MethodKind::kSegmenter) {
+      for (const auto& parameter : ground::parameters()) add(parameter, method_.config.segmenter);
+    } else {
+      for (const auto& parameter : baselines::parameters()) {
+        if (parameter.key.starts_with(method_.base + ".")) add(parameter, method_.config);
+      }
     }
     json["mean_over_sequences"] = means(statistics::quality_of);
     for (const NamedScope& named : kScopes) {

@@ -11,8 +11,11 @@ MethodBench::MethodBench(std::span<const MethodChoice> methods, const mount::Rin
                          const frame::ImageShape& shape, std::size_t return_capacity,
                          memory::FixedMemory& memory) {
   for (const MethodChoice& method : methods) {
-    methods_.push_back(std::make_unique<ground::GroundMethod>(method.config, profile, shape,
-                                                              return_capacity, memory));
+    methods_.push_back(baselines::maker_of(method.config)({.profile = profile,
+                                                           .shape = shape,
+                                                           .return_capacity = return_capacity,
+                                                           .motion_is_known = true},
+                                                          memory));
   }
 }
 
@@ -22,7 +25,7 @@ FrameTimes MethodBench::segment(std::size_t index, const frame::RangeImage& imag
   run::StageClock clock;
   const std::int64_t begun_ns = measure::thread_cpu_ns();
   methods_[index]->set_place(place);
-  (void)methods_[index]->segment(image, &clock);
+  (void)methods_[index]->segment(image, {}, &clock);
   times.segment_ns = measure::thread_cpu_ns() - begun_ns;
   times.stage_ns = clock.take().stage_ns;
   return times;

@@ -31,7 +31,7 @@ class MethodBench {
   [[nodiscard]] std::span<const frame::Label> labels(std::size_t index) const;
 
  private:
-  std::vector<std::unique_ptr<ground::GroundMethod>> methods_;
+  std::vector<std::unique_ptr<ground::FrameMethod>> methods_;
 };
 
 }  // namespace terracut::eval

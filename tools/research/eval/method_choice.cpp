@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "pipeline/ground/parameter_table.hpp"
+#include "tools/research/baselines/parameter_table.hpp"
 
 namespace terracut::eval {
 namespace {
@@ -30,10 +30,10 @@ std::string_view take_part(std::string_view& text) {
 }  // namespace
 
 Expected<MethodChoice> method_named(std::string_view name) {
-  const auto config = ground::method_named(name);
+  const auto config = baselines::method_named(name);
   if (!config) return tl::unexpected(config.error());
   MethodChoice choice{std::string(name), {}, std::string(name), *config};
-  for (const ground::MethodName& known : ground::method_names()) {
+  for (const baselines::MethodName& known : baselines::method_names()) {
     if (known.name == name) choice.about = known.about;
   }
   return choice;
@@ -50,24 +50,24 @@ Expected<MethodChoice> method_variant(std::string_view text,
   }
   const std::string_view name = text.substr(0, equals);
   if (!is_name(name)) return refuse("its name takes letters, digits, _ and - alone");
-  if (ground::method_named(name)) return refuse("its name is that of a method");
+  if (baselines::method_named(name)) return refuse("its name is that of a method");
   std::string_view rest = text.substr(equals + 1);
   auto choice = method_named(take_part(rest));
   if (!choice) return refuse(choice.error().message);
   choice->name = name;
   if (!rest.empty()) choice->about += fmt::format("; {}", rest);
   for (const std::string& setting : settings) {
-    if (const Status made = ground::apply_setting(choice->config, setting); !made) {
+    if (const Status made = baselines::apply_setting(choice->config, setting); !made) {
       return refuse(made.error().message);
     }
   }
   while (!rest.empty()) {
     const std::string_view setting = take_part(rest);
-    if (const Status made = ground::apply_setting(choice->config, setting); !made) {
+    if (const Status made = baselines::apply_setting(choice->config, setting); !made) {
       return refuse(made.error().message);
     }
     const std::string_view key = setting.substr(0, setting.find('='));
-    if (ground::kind_that_uses(key) != choice->config.kind) {
+    if (baselines::kind_that_uses(key) != choice->config.kind) {
       return refuse(fmt::format("'{}' is a parameter of another method", key));
     }
   }

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "pipeline/ground/ground_method.hpp"
 #include "rt/error.hpp"
+#include "tools/research/baselines/method_config.hpp"
 
 namespace terracut::eval {
 
@@ -15,11 +15,11 @@ namespace terracut::eval {
 struct MethodChoice {
   std::string name;   ///< "terracut"; of a variant its own.
   std::string about;  ///< For reports: "Ring-based elevation map"
-  std::string base;   ///< The name among ground::method_names(); without a variant the same.
-  ground::MethodConfig config;
+  std::string base;   ///< The name among baselines::method_names(); without a variant the same.
+  baselines::MethodConfig config;
 };
 
-/// One of ground::method_names(); kInvalidArgument, naming them, for any other name.
+/// One of baselines::method_names(); kInvalidArgument, naming them, for any other name.
 [[nodiscard]] Expected<MethodChoice> method_named(std::string_view name);
 
 /// A method under a name of its own with other parameters: "no_bands=terracut,grid.max_band_m=1e9".

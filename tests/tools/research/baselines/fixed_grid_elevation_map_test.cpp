@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/baselines/fixed_grid_elevation_map.hpp"
+#include "tools/research/baselines/fixed_grid_elevation_map.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
-#include "baseline_scenes.hpp"
+#include "tests/support/box_scene.hpp"
 
 namespace terracut::baselines {
 namespace {
 
 using SquareKind = FixedGridElevationMap::SquareKind;
 
-struct FixedGridOnScenes : testing::Test, test::BaselineScene {
+struct FixedGridOnScenes : testing::Test, test::BoxScene {
   FixedGridElevationMap& segment(const test::BeamCast& beams,
                                  const FixedGridElevationMap::Config& config = {}) {
     cast(beams);

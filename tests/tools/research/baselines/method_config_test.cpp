@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/ground/ground_method.hpp"
+#include "tools/research/baselines/method_config.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,21 +9,22 @@
 #include <set>
 #include <vector>
 
-#include "tests/pipeline/baselines/baseline_scenes.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/box_scene.hpp"
 
-namespace terracut::ground {
+namespace terracut::baselines {
 namespace {
 
 /// What holds for every method, whatever it thinks of the ground.
-struct EveryMethod : testing::TestWithParam<MethodName>, test::BaselineScene {
+struct EveryMethod : testing::TestWithParam<MethodName>, test::BoxScene {
   static MethodConfig config() {
     MethodConfig named = method_named(GetParam().name).value();
     named.zhang.height_labels = 32;  // what is tested here does not need the whole cost
     named.zhang.iterations = 8;
     return named;
   }
-  GroundMethod method{config(), profile, kShape, image.return_capacity(), memory};
+  std::unique_ptr<ground::FrameMethod> method = maker_of(config())(
+      {.profile = profile, .shape = kShape, .return_capacity = image.return_capacity()}, memory);
 
   static test::BeamCast street() {
     return test::ground_with_boxes({{9, 13, -1, 1, 0, 1.5}, {15, 16, -30, -8, 0, 4}});
@@ -36,8 +37,8 @@ TEST_P(EveryMethod, LabelsEveryReturnThoseOfTakenCellsIncluded) {
     const float x = 20 + 0.01F * static_cast<float>(column);
     ASSERT_TRUE(image.place(20, column, {x, 0, column % 2 == 0 ? 0.0F : 2.5F, x, 0}));
   }
-  const stage::SegmentationReport report = method.segment(image);
-  const auto labels = method.labels();
+  const stage::SegmentationReport report = method->segment(image);
+  const auto labels = method->labels();
   EXPECT_EQ(labels.size(), image.returns());
   EXPECT_EQ(report.returns, image.returns());
   EXPECT_EQ(std::count(labels.begin(), labels.end(), frame::Label::kNone), 0);
@@ -49,45 +50,45 @@ TEST_P(EveryMethod, LabelsEveryReturnThoseOfTakenCellsIncluded) {
 
 TEST_P(EveryMethod, SeesTheGroundAndTheHouse) {
   cast(street());
-  (void)method.segment(image);
+  (void)method->segment(image);
   const auto house = [](float x, float y, float z) {
     return x > 14.9F && y < -8.5F && y > -20 && z > 0.6F;
   };
-  EXPECT_GT(share(method.labels(), frame::Label::kObstacle, house), 0.99);
+  EXPECT_GT(share(method->labels(), frame::Label::kObstacle, house), 0.99);
   const auto road = [](float x, float, float z) { return x < 7 && z < 0.01F; };
-  const double ground = std::max(share(method.labels(), frame::Label::kGround, road), 0.0) +
-                        std::max(share(method.labels(), frame::Label::kOtherGround, road), 0.0);
+  const double ground = std::max(share(method->labels(), frame::Label::kGround, road), 0.0) +
+                        std::max(share(method->labels(), frame::Label::kOtherGround, road), 0.0);
   EXPECT_GT(ground, 0.99);
 }
 
 TEST_P(EveryMethod, AllocatesNothingPerFrame) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer brings its own allocator";
   cast(street());
-  (void)method.segment(image);
+  (void)method->segment(image);
   const std::uint64_t before = test::allocations_of_this_thread();
-  for (int frame = 0; frame < 2; ++frame) (void)method.segment(image);
+  for (int frame = 0; frame < 2; ++frame) (void)method->segment(image);
   EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
 }
 
 TEST_P(EveryMethod, GivesTheSameLabelsWhateverCameBefore) {
   cast(street());
-  (void)method.segment(image);
-  const std::vector<frame::Label> first(method.labels().begin(), method.labels().end());
+  (void)method->segment(image);
+  const std::vector<frame::Label> first(method->labels().begin(), method->labels().end());
   std::mt19937 random(5);
   std::uniform_real_distribution<double> range_m(0.5, 119);
   cast([&](double, double) { return range_m(random); });
-  (void)method.segment(image);
-  EXPECT_EQ(method.labels().size(), image.returns());
+  (void)method->segment(image);
+  EXPECT_EQ(method->labels().size(), image.returns());
   cast(street());
-  (void)method.segment(image);
+  (void)method->segment(image);
   EXPECT_TRUE(
-      std::equal(first.begin(), first.end(), method.labels().begin(), method.labels().end()));
+      std::equal(first.begin(), first.end(), method->labels().begin(), method->labels().end()));
 }
 
 TEST_P(EveryMethod, HasNoLabelsForAnEmptyFrame) {
   cast([](double, double) { return -1.0; });
-  EXPECT_EQ(method.segment(image).returns, 0U);
-  EXPECT_TRUE(method.labels().empty());
+  EXPECT_EQ(method->segment(image).returns, 0U);
+  EXPECT_TRUE(method->labels().empty());
 }
 
 TEST_P(EveryMethod, ReportsItsLastStageToTheObserver) {
@@ -99,7 +100,7 @@ TEST_P(EveryMethod, ReportsItsLastStageToTheObserver) {
   } recorder;
   recorder.seen.reserve(8);
   cast(street());
-  (void)method.segment(image, &recorder);
+  (void)method->segment(image, {}, &recorder);
   ASSERT_FALSE(recorder.seen.empty());
   EXPECT_EQ(recorder.seen.back(), stage::Stage::kLabels);
   EXPECT_TRUE(std::is_sorted(recorder.seen.begin(), recorder.seen.end()));
@@ -107,8 +108,8 @@ TEST_P(EveryMethod, ReportsItsLastStageToTheObserver) {
 
 TEST_P(EveryMethod, KeepsWhereItsCellsAreLabelled) {
   cast(street());
-  (void)method.segment(image);
-  const stage::CellPlanes& planes = method.planes();
+  (void)method->segment(image);
+  const stage::CellPlanes& planes = method->planes();
   for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
     ASSERT_EQ(planes.label[cell] != frame::Label::kNone, image.has_return(cell)) << cell;
     ASSERT_EQ(std::isnan(planes.height_m[cell]), !image.has_return(cell)) << cell;
@@ -137,4 +138,4 @@ TEST(MethodNames, AnUnknownOneIsRefusedWithThoseThereAre) {
 }
 
 }  // namespace
-}  // namespace terracut::ground
+}  // namespace terracut::baselines

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/baselines/column_angles.hpp"
+#include "column_angles.hpp"
 
 #include <algorithm>
 #include <array>

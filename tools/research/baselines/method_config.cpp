@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/ground/ground_method.hpp"
+#include "method_config.hpp"
 
 #include <algorithm>
-#include <string>
+#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace terracut::ground {
+#include "pipeline/ground/segmenter.hpp"
+
+namespace terracut::baselines {
 namespace {
 
 constexpr std::array kMethods{
@@ -24,16 +26,22 @@ constexpr std::array kMethods{
     MethodName{"terracut_road", "The default profile, road surface told from other ground"},
 };
 
-MethodConfig up_to(stage::Stage last, const SegmenterConfig& profile) {
-  MethodConfig config(profile);
+MethodConfig up_to(stage::Stage last, const ground::SegmenterConfig& profile) {
+  MethodConfig config{.segmenter = profile};
   config.segmenter.last_stage = last;
   return config;
 }
 
 MethodConfig baseline(MethodKind kind) {
-  MethodConfig config;
-  config.kind = kind;
-  return config;
+  return {.kind = kind};
+}
+
+template <class Method>
+ground::MethodMaker maker(const typename Method::Config& config) {
+  return [config](ground::FramesToCome frames, memory::FixedMemory& memory) {
+    return std::make_unique<Method>(config, frames.profile, frames.shape, frames.return_capacity,
+                                    memory);
+  };
 }
 
 }  // namespace
@@ -46,16 +54,20 @@ Expected<MethodConfig> method_named(std::string_view name) {
   if (name == "pfaff") return baseline(MethodKind::kPfaff);
   if (name == "bogoslavskyi") return baseline(MethodKind::kBogoslavskyi);
   if (name == "zhang") return baseline(MethodKind::kZhang);
-  if (name == "ring_map") return up_to(stage::Stage::kElevationMap, paper_profile());
-  if (name == "ring_map_adjacent") return up_to(stage::Stage::kAdjacentPoints, paper_profile());
-  if (name == "paper") return up_to(stage::Stage::kMinCut, paper_profile());
-  if (name == "terracut_ring_map") return up_to(stage::Stage::kElevationMap, terracut_profile());
-  if (name == "terracut_ring_map_adjacent") {
-    return up_to(stage::Stage::kAdjacentPoints, terracut_profile());
+  if (name == "ring_map") return up_to(stage::Stage::kElevationMap, ground::paper_profile());
+  if (name == "ring_map_adjacent") {
+    return up_to(stage::Stage::kAdjacentPoints, ground::paper_profile());
   }
-  if (name == "terracut") return MethodConfig(terracut_profile());
+  if (name == "paper") return up_to(stage::Stage::kMinCut, ground::paper_profile());
+  if (name == "terracut_ring_map") {
+    return up_to(stage::Stage::kElevationMap, ground::terracut_profile());
+  }
+  if (name == "terracut_ring_map_adjacent") {
+    return up_to(stage::Stage::kAdjacentPoints, ground::terracut_profile());
+  }
+  if (name == "terracut") return MethodConfig{.segmenter = ground::terracut_profile()};
   if (name == "terracut_road") {
-    MethodConfig config(terracut_profile());
+    MethodConfig config{.segmenter = ground::terracut_profile()};
     config.segmenter.road.enabled = true;
     return config;
   }
@@ -72,4 +84,18 @@ bool needs_all_points(const MethodConfig& config) noexcept {
          config.segmenter.region.rule == random_field::RegionRule::kHistogram;
 }
 
-}  // namespace terracut::ground
+ground::MethodMaker maker_of(const MethodConfig& config) {
+  switch (config.kind) {
+    case MethodKind::kPfaff:
+      return maker<FixedGridElevationMap>(config.pfaff);
+    case MethodKind::kBogoslavskyi:
+      return maker<ColumnAngles>(config.bogoslavskyi);
+    case MethodKind::kZhang:
+      return maker<HeightFieldMrf>(config.zhang);
+    case MethodKind::kSegmenter:
+      break;
+  }
+  return ground::maker_of(config.segmenter);
+}
+
+}  // namespace terracut::baselines

@@ -6,9 +6,9 @@
 #include <limits>
 #include <span>
 
+#include "baseline.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "pipeline/baselines/baseline.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::baselines {

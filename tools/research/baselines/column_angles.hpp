@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <span>
 
+#include "baseline.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "pipeline/baselines/baseline.hpp"
-#include "pipeline/baselines/savitzky_golay.hpp"
 #include "rt/memory/fixed_memory.hpp"
+#include "savitzky_golay.hpp"
 
 namespace terracut::baselines {
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/baselines/height_field_mrf.hpp"
+#include "tools/research/baselines/height_field_mrf.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
-#include "baseline_scenes.hpp"
+#include "tests/support/box_scene.hpp"
 
 namespace terracut::baselines {
 namespace {
 
-struct HeightFieldOnScenes : testing::Test, test::BaselineScene {
+struct HeightFieldOnScenes : testing::Test, test::BoxScene {
   HeightFieldMrf& segment(const test::BeamCast& beams, const HeightFieldMrf::Config& config = {}) {
     cast(beams);
     field.emplace(config, profile, kShape, image.return_capacity(), memory);

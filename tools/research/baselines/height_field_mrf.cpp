@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/baselines/height_field_mrf.hpp"
+#include "height_field_mrf.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/baselines/belief_propagation.hpp"
+#include "tools/research/baselines/belief_propagation.hpp"
 
 #include <gtest/gtest.h>
 

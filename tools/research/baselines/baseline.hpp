@@ -5,6 +5,7 @@
 #include <span>
 
 #include "firmware_io/frame/range_image.hpp"
+#include "pipeline/ground/frame_method.hpp"
 #include "pipeline/stage/cell_planes.hpp"
 #include "pipeline/stage/return_labels.hpp"
 #include "pipeline/stage/segmentation_report.hpp"
@@ -13,15 +14,14 @@
 
 namespace terracut::baselines {
 
-/// A method to compare ours with. Has ground::Segmenter's contracts; takes all memory in the
-/// constructor.
-class Baseline {
+/// A method that ours is compared with. Does nothing ahead and remembers nothing.
+class Baseline : public ground::FrameMethod {
  public:
-  virtual ~Baseline() = default;
-
-  /// Labels one frame of the given shape. Real-time safe.
+  /// Knows no budget; reports the stage that is most like its own.
   [[nodiscard]] stage::SegmentationReport segment(
-      const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept {
+      const frame::RangeImage& image, const min_cut::CutBudget& /*budget*/ = {},
+      stage::StageObserver* observer = nullptr) noexcept override {
+    if (observer != nullptr) observer->resumed();
     label_cells(image, observer);
     return_labels_.assign(image, planes_);
     if (observer != nullptr) observer->stage_done(stage::Stage::kLabels);
@@ -31,11 +31,10 @@ class Baseline {
     return report;
   }
 
-  /// See Segmenter::labels() and planes().
-  [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept override {
     return return_labels_.labels();
   }
-  [[nodiscard]] const stage::CellPlanes& planes() const noexcept { return planes_; }
+  [[nodiscard]] const stage::CellPlanes& planes() const noexcept override { return planes_; }
 
  protected:
   /// `last_stage` is the stage of ours most like it. `obstacle_height_m` applies to a cell's second

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <span>
 
+#include "baseline.hpp"
+#include "belief_propagation.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "pipeline/baselines/baseline.hpp"
-#include "pipeline/baselines/belief_propagation.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::baselines {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/baselines/savitzky_golay.hpp"
+#include "tools/research/baselines/savitzky_golay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/baselines/fixed_grid_elevation_map.hpp"
+#include "fixed_grid_elevation_map.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/baselines/column_angles.hpp"
+#include "tools/research/baselines/column_angles.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
-#include "baseline_scenes.hpp"
+#include "tests/support/box_scene.hpp"
 
 namespace terracut::baselines {
 namespace {
 
-struct ColumnAnglesOnScenes : testing::Test, test::BaselineScene {
+struct ColumnAnglesOnScenes : testing::Test, test::BoxScene {
   ColumnAngles& segment(const test::BeamCast& beams, const ColumnAngles::Config& config = {}) {
     cast(beams);
     return again(config);

@@ -62,7 +62,7 @@ inline BeamCast sloping_ground(double slope, double height_m = 1.73) {
 }
 
 /// One synthetic frame, and what a method made of it.
-struct BaselineScene {
+struct BoxScene {
   static constexpr frame::ImageShape kShape{64, 1000};
 
   memory::FixedMemory memory;

@@ -7,33 +7,34 @@
 namespace terracut::live {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 GatheringPolicy policy(std::size_t room_packets = 1'000'000) {
-  GatheringPolicy policy(
-      {.frame_period_ns = 100 * kMs, .longest_ns = 20 * kMs, .room_packets = room_packets});
+  GatheringPolicy policy({.frame_period_ns = 100 * kMillisecond_ns,
+                          .longest_ns = 20 * kMillisecond_ns,
+                          .room_packets = room_packets});
   policy.begin(0);
   return policy;
 }
 
 TEST(GatheringPolicy, FetchesTheLastPacketsOfAFrameAsTheyCome) {
-  EXPECT_EQ(policy().time_ns(1), 20 * kMs);
-  EXPECT_EQ(policy().time_ns(0.05F) / kMs, 3) << "up to the last fiftieth of the frame";
+  EXPECT_EQ(policy().time_ns(1), 20 * kMillisecond_ns);
+  EXPECT_EQ(policy().time_ns(0.05F) / kMillisecond_ns, 3) << "up to the last fiftieth of the frame";
   EXPECT_EQ(policy().time_ns(0.02F), 0);
 }
 
 TEST(GatheringPolicy, LeavesHalfOfTheKernelsBufferFreeInAFlood) {
   GatheringPolicy flooded = policy(1000);
-  flooded.note_frame(100 * kMs, 1000);
-  flooded.note_frame(200 * kMs, 11'000);
-  EXPECT_EQ(flooded.time_ns(1), 5 * kMs) << "500 of 10,000 packets a frame";
+  flooded.note_frame(100 * kMillisecond_ns, 1000);
+  flooded.note_frame(200 * kMillisecond_ns, 11'000);
+  EXPECT_EQ(flooded.time_ns(1), 5 * kMillisecond_ns) << "500 of 10,000 packets a frame";
 }
 
 TEST(GatheringPolicy, FollowsAHeadThatRotatesFaster) {
   GatheringPolicy faster = policy();
-  faster.note_frame(100 * kMs, 100);
-  faster.note_frame(150 * kMs, 200);
-  EXPECT_EQ(faster.time_ns(0.1F), 4 * kMs);
+  faster.note_frame(100 * kMillisecond_ns, 100);
+  faster.note_frame(150 * kMillisecond_ns, 200);
+  EXPECT_EQ(faster.time_ns(0.1F), 4 * kMillisecond_ns);
 }
 
 }  // namespace

@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "calib/hdl64e/hdl64e_file.hpp"
-#include "calib/hdl64e/nominal_hdl64e.hpp"
-#include "calib/ruby128/nominal_ruby128.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "calib/terracut/calibration_table.hpp"
 
@@ -24,38 +22,11 @@ Expected<Calibration> Calibration::load(const std::filesystem::path& file) {
 }
 
 Calibration Calibration::nominal(Sensor sensor) {
-  switch (sensor) {
-    case Sensor::kHdl64e:
-      break;
-    case Sensor::kRuby128:
-      return calibration_of(ruby128::nominal_ruby128());
-    case Sensor::kVlp16:
-      return calibration_of(velodyne::factory_table(velodyne::VelodyneModel::kVlp16));
-    case Sensor::kHdl32e:
-      return calibration_of(velodyne::factory_table(velodyne::VelodyneModel::kHdl32e));
-    case Sensor::kVlp32c:
-      return calibration_of(velodyne::factory_table(velodyne::VelodyneModel::kVlp32c));
-    case Sensor::kVls128:
-      return calibration_of(velodyne::factory_table(velodyne::VelodyneModel::kVls128));
-  }
-  return calibration_of(hdl64e::nominal_hdl64e());
+  return calibration_of(calib::nominal(sensor::model_of(sensor)));
 }
 
 Sensor Calibration::sensor() const noexcept {
-  if (const auto* velodyne = std::get_if<velodyne::VelodyneCalibration>(&table_->unit)) {
-    switch (velodyne->model) {
-      case velodyne::VelodyneModel::kVlp16:
-        return Sensor::kVlp16;
-      case velodyne::VelodyneModel::kHdl32e:
-        return Sensor::kHdl32e;
-      case velodyne::VelodyneModel::kVlp32c:
-        return Sensor::kVlp32c;
-      case velodyne::VelodyneModel::kVls128:
-        return Sensor::kVls128;
-    }
-  }
-  return std::holds_alternative<ruby128::Ruby128Calibration>(table_->unit) ? Sensor::kRuby128
-                                                                           : Sensor::kHdl64e;
+  return sensor::sensor_of(calib::model_of(table_->unit));
 }
 
 std::uint64_t Calibration::fingerprint() const {

@@ -9,20 +9,12 @@
 #include <string>
 
 #include "terracut/error.hpp"
+#include "terracut/sensor.hpp"
 
 namespace terracut {
 
-enum class Sensor : std::uint8_t {
-  kHdl64e,  ///< Any generation of the HDL-64E.
-  kRuby128,
-  kVlp16,
-  kHdl32e,
-  kVlp32c,
-  kVls128
-};
-
-/// The sensor's pose above the ground. The vehicle frame has x ahead, y to the left, z up, and its
-/// origin on the ground below the sensor.
+/// How the sensor stands above the ground. The vehicle frame has x ahead, y to the left, z up, and
+/// its origin on the ground below the sensor.
 struct Mount {
   double height_m = 1.73;  ///< Sensor above the ground; (0.2, 6).
   double roll_rad = 0;     ///< Positive lifts the left side; [-pi, pi], the ends are upside down.

@@ -15,8 +15,19 @@
 
 namespace terracut::velodyne {
 
+VelodyneCalibration factory_table(sensor::SensorModel model) {
+  VelodyneCalibration calibration{
+      model, {}, fmt::format("factory table of the {}", to_string(model))};
+  for (const sensor::FactoryLaser& laser : sensor::row_of(model).lasers) {
+    calibration.lasers.push_back({beams::deg_to_rad(laser.elevation_deg),
+                                  beams::deg_to_rad(laser.azimuth_offset_deg),
+                                  laser.vert_offset_mm * 1e-3});
+  }
+  return calibration;
+}
+
 Status validate(const VelodyneCalibration& calibration) {
-  const std::size_t lasers = factory_table(calibration.model).lasers.size();
+  const std::size_t lasers = sensor::row_of(calibration.model).lasers.size();
   const bool is_whole = calibration.lasers.size() == lasers;
   const bool are_finite = std::ranges::all_of(calibration.lasers, [](const VelodyneLaser& laser) {
     return std::isfinite(laser.elevation_rad) && std::isfinite(laser.azimuth_offset_rad) &&
@@ -31,7 +42,8 @@ Status validate(const VelodyneCalibration& calibration) {
 std::uint64_t fingerprint(const VelodyneCalibration& calibration) {
   const auto mdeg = [](double rad) { return std::llround(beams::rad_to_deg(rad) * 1e3); };
   text::Fnv1a hash;
-  hash.add(static_cast<std::int64_t>(calibration.model));
+  constexpr std::int64_t kOfVlp16 = sensor::row_of(sensor::SensorModel::kVlp16).stream_number;
+  hash.add(std::int64_t{sensor::row_of(calibration.model).stream_number} - kOfVlp16);
   for (const VelodyneLaser& laser : calibration.lasers) {
     hash.add(mdeg(laser.elevation_rad));
     hash.add(mdeg(laser.azimuth_offset_rad));

@@ -4,21 +4,14 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "calib/sensor/sensor_model.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::velodyne {
 
-/// Velodyne's models whose units all share the model's directions, to a few hundredths of a degree.
-/// The HDL-64E is not among them: each of its units has its own table.
-enum class VelodyneModel : std::uint8_t { kVlp16, kHdl32e, kVlp32c, kVls128 };
-inline constexpr int kVelodyneModels = 4;
-/// Returns "VLP-16" and the like.
-[[nodiscard]] std::string_view to_string(VelodyneModel model) noexcept;
-
-/// One laser's direction and starting point (docs/reference/sensors.md).
+/// Where one laser points and begins (docs/reference/sensors.md).
 struct VelodyneLaser {
   double elevation_rad = 0;       ///< Positive is up.
   double azimuth_offset_rad = 0;  ///< Added to the head's azimuth; clockwise.
@@ -27,16 +20,17 @@ struct VelodyneLaser {
   bool operator==(const VelodyneLaser&) const = default;
 };
 
-/// The directions of one sensor: its lasers by their number on the wire, which is NOT in order of
-/// elevation.
+/// The directions of a Velodyne with a factory table: its lasers by their number on the wire, which
+/// is NOT in order of elevation.
 struct VelodyneCalibration {
-  VelodyneModel model{};
-  std::vector<VelodyneLaser> lasers;  ///< As many as the model has lasers.
-  std::string origin;                 ///< For logs: "factory table of the VLP-16".
+  sensor::SensorModel model{};
+  std::vector<VelodyneLaser> lasers;  ///< As many as the model has.
+  std::string origin;                 ///< For logs: "factory table of the Velodyne VLP-16".
 };
 
-/// Returns the table in the maker's manual of the model.
-[[nodiscard]] VelodyneCalibration factory_table(VelodyneModel model);
+/// The table in the maker's manual of a model that sensor::has_factory_table(); else without
+/// lasers.
+[[nodiscard]] VelodyneCalibration factory_table(sensor::SensorModel model);
 
 /// kInvalidArgument if the number of lasers is not the model's or an angle is not finite.
 [[nodiscard]] Status validate(const VelodyneCalibration& calibration);

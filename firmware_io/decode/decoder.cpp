@@ -23,23 +23,12 @@ auto with_trait(const calib::SensorCalibration& calibration, const Decoder::Conf
     return use(std::type_identity<ruby128::Ruby128Sensor>{}, *unit, config.ruby128);
   }
   const auto& unit = std::get<velodyne::VelodyneCalibration>(calibration);
-  const auto of = [&]<class Sensor>(std::type_identity<Sensor> trait) {
-    if (unit.lasers.size() != std::size_t{Sensor::kRows}) {
+  return velodyne::Models::with(unit.model, [&]<class Model>(std::type_identity<Model>) {
+    if (unit.model != Model::kModel || unit.lasers.size() != std::size_t{Model::kLasers}) {
       throw std::invalid_argument("Decoder: the table has other lasers than the sensor");
     }
-    return use(trait, unit, config.velodyne);
-  };
-  switch (unit.model) {
-    case velodyne::VelodyneModel::kVlp16:
-      break;
-    case velodyne::VelodyneModel::kHdl32e:
-      return of(std::type_identity<velodyne::Hdl32eSensor>{});
-    case velodyne::VelodyneModel::kVlp32c:
-      return of(std::type_identity<velodyne::Vlp32cSensor>{});
-    case velodyne::VelodyneModel::kVls128:
-      return of(std::type_identity<velodyne::Vls128Sensor>{});
-  }
-  return of(std::type_identity<velodyne::Vlp16Sensor>{});
+    return use(std::type_identity<velodyne::VelodyneSensor<Model>>{}, unit, config.velodyne);
+  });
 }
 
 }  // namespace

@@ -24,10 +24,8 @@
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/ruby128/ruby128_sensor.hpp"
-#include "firmware_io/velodyne/hdl32e.hpp"
-#include "firmware_io/velodyne/vlp16.hpp"
-#include "firmware_io/velodyne/vlp32c.hpp"
-#include "firmware_io/velodyne/vls128.hpp"
+#include "firmware_io/velodyne/models.hpp"
+#include "firmware_io/velodyne/velodyne_sensor.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -145,10 +143,11 @@ class Decoder {
   [[nodiscard]] std::span<frame::RangeImage> images() noexcept { return frames_.images(); }
 
  private:
-  using SensorReturns =
+  template <class... VelodyneModel>
+  using ReturnsOf =
       std::variant<PacketReturns<hdl64e::Hdl64eSensor>, PacketReturns<ruby128::Ruby128Sensor>,
-                   PacketReturns<velodyne::Vlp16Sensor>, PacketReturns<velodyne::Hdl32eSensor>,
-                   PacketReturns<velodyne::Vlp32cSensor>, PacketReturns<velodyne::Vls128Sensor>>;
+                   PacketReturns<velodyne::VelodyneSensor<VelodyneModel>>...>;
+  using SensorReturns = velodyne::Models::In<ReturnsOf>;
 
   /// Sizes that differ between sensors.
   struct Model {

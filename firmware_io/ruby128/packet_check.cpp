@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "firmware_io/packet/ruby128_wire.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
+#include "firmware_io/packet/sensor_recognition.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 
 namespace terracut::ruby128 {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <tuple>
 
+#include "firmware_io/packet/sensor_recognition.hpp"
 #include "firmware_io/sensor/head_reader.hpp"
 #include "firmware_io/sensor/unknown_packets.hpp"
 

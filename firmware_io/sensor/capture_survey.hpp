@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "calib/sensor/sensor_model.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
 #include "firmware_io/sensor/hdl64e_survey.hpp"
 #include "firmware_io/sensor/ruby128_survey.hpp"

@@ -18,8 +18,8 @@ std::optional<frame::Reject> HeadReader::read(SensorModel model, const packet::D
     azimuths.device_stamp_us = ruby128::read_ruby_timestamp(packet->stamp, encoding) / 1000;
     return std::nullopt;
   }
-  if (const auto family = velodyne_model_of(model)) {
-    return velodyne_[static_cast<std::size_t>(*family)].read(datagram.payload, azimuths);
+  for (velodyne::PacketReader& reader : velodyne_.of_models) {
+    if (reader.model() == model) return reader.read(datagram.payload, azimuths);
   }
   const auto* packet = hdl64e::packet_in(datagram.payload);
   if (model == SensorModel::kHdl64eS1 && packet != nullptr) {

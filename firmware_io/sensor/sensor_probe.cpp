@@ -8,6 +8,7 @@
 
 #include "firmware_io/hdl64e/hdl64e_sensor.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
+#include "firmware_io/packet/sensor_recognition.hpp"
 #include "firmware_io/ruby128/packet_check.hpp"
 #include "firmware_io/ruby128/ruby128_sensor.hpp"
 
@@ -24,9 +25,7 @@ constexpr double kNominalTolerance = 0.03;
 /// S3, every 57.6 us.
 double firing_s(SensorModel model, bool fires_slowly) {
   if (model == SensorModel::kRuby128) return ruby128::kRubyBlock_ns * 1e-9;
-  if (const auto family = velodyne_model_of(model)) {
-    return kVelodyneLayouts[static_cast<std::size_t>(*family)].firing_ns * 1e-9;
-  }
+  if (const auto* layout = velodyne::layout_of(model)) return layout->firing_ns * 1e-9;
   if (model == SensorModel::kHdl64eS1) return hdl64e::kS1UpperFiring_ns * 1e-9;
   return (fires_slowly ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48).column_ns * 1e-9;
 }

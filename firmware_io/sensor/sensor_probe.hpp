@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "calib/sensor/sensor_model.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
 #include "firmware_io/sensor/head_reader.hpp"
 
 namespace terracut::sensor {

@@ -124,8 +124,8 @@ Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& cho
                                                     const FromPackets& from_packets) {
   const bool ruby128 = model == SensorModel::kRuby128;
   if (choice.unit) return *choice.unit;
-  if (const auto family = velodyne_model_of(model)) {
-    if (choice.file.empty()) return velodyne::factory_table(*family);
+  if (has_factory_table(model)) {
+    if (choice.file.empty()) return velodyne::factory_table(model);
     return fail(ErrorCode::kUnsupported,
                 fmt::format("{}: the table of a {} is built in; leave --calibration away",
                             choice.file.string(), to_string(model)));

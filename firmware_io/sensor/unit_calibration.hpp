@@ -6,9 +6,9 @@
 #include <functional>
 #include <optional>
 
+#include "calib/sensor/sensor_model.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::sensor {

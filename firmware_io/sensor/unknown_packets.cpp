@@ -12,7 +12,7 @@
 
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
+#include "firmware_io/packet/sensor_recognition.hpp"
 
 namespace terracut::sensor {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "calib/sensor/sensor_model.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/packet/datagram.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "firmware_io/streams/heard_senders.hpp"
 #include "rt/error.hpp"

@@ -10,6 +10,7 @@
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/packet/sensor_recognition.hpp"
 
 namespace terracut::streams {
 
@@ -112,7 +113,7 @@ std::vector<HeardSenders::Sensor> HeardSenders::steady() const {
 }
 
 bool HeardSenders::has_told(const Sensor& sensor) const {
-  if (sensor::velodyne_model_of(sensor.model)) return true;  // its table is built in
+  if (sensor::has_factory_table(sensor.model)) return true;  // it is known without
   const Sender& sender = senders_.at(sensor.address);
   return sensor.model == sensor::SensorModel::kRuby128 ? sender.ruby128_device.has_calibration()
                                                        : sender.hdl64e_status.has_table();

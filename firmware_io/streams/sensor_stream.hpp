@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "firmware_io/packet/datagram.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
+#include "firmware_io/packet/sensor_recognition.hpp"
 
 namespace terracut::streams {
 

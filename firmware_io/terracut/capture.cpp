@@ -5,7 +5,6 @@
 #include "calib/terracut/calibration_table.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/streams/first_seconds.hpp"
-#include "firmware_io/terracut/public_sensor.hpp"
 #include "terracut/decoder.hpp"
 
 namespace terracut {
@@ -56,7 +55,7 @@ Expected<Capture> Capture::open(const std::filesystem::path& file) {
   if (!source) return tl::unexpected(source.error());
   auto unit = sensor::unit_calibration({}, sender->model, *source);
   if (Status status = source->rewind(); !status) return tl::unexpected(status.error());
-  const Sensor model = public_sensor(sender->model);
+  const Sensor model = sensor::sensor_of(sender->model);
   return Capture(std::make_unique<Engine>(
       Engine{*std::move(source), model, std::move(unit).map([](calib::SensorCalibration&& found) {
                return calibration_of(std::move(found));

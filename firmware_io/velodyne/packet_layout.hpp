@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "calib/sensor/sensor_model.hpp"
 #include "firmware_io/packet/beam_azimuth.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
 
 /// The data packet of Velodyne's models after the HDL-64E: the same twelve blocks, the stamp of the
 /// first firing, then return mode and product number instead of a status stream

@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/velodyne/packet_reader.hpp"
 
+#include "firmware_io/packet/sensor_recognition.hpp"
+
 namespace terracut::velodyne {
 namespace {
 

@@ -36,6 +36,8 @@ class PacketReader {
   explicit PacketReader(const PacketLayout& layout, bool is_named = false) noexcept
       : layout_(layout), is_named_(is_named) {}
 
+  [[nodiscard]] sensor::SensorModel model() const noexcept { return layout_.model; }
+
   [[nodiscard]] std::optional<frame::Reject> read(std::span<const std::uint8_t> payload,
                                                   packet::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;

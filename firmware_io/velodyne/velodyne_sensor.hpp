@@ -35,10 +35,13 @@ struct VelodyneConfig {
 ///   after the column's first firing, [0, kLayout.column_ns).
 template <class Model>
 class VelodyneSensor {
+  static_assert(sensor::row_of(Model::kModel).lasers.size() == std::size_t{Model::kLasers},
+                "the table of sensors and the model have as many lasers");
+
  public:
   using Calibration = VelodyneCalibration;
   using Config = VelodyneConfig;
-  static constexpr VelodyneModel kModel = Model::kModel;
+  static constexpr sensor::SensorModel kModel = Model::kModel;
   static constexpr int kRows = Model::kLasers;
   static constexpr int kChannels = Model::kChannels;
   static constexpr std::size_t kPacketBytes = velodyne::kPacketBytes;

@@ -26,7 +26,7 @@ class FrameOutlet {
   using Slots = FramePool<points::LabelledPoint>;
   struct Stream {
     publish::Reopened<stream::FrameStreamServer> server;
-    stream::StreamedSensor sensor;
+    sensor::SensorModel sensor;
     std::int64_t deadline_ns;
   };
 

@@ -8,12 +8,6 @@
 namespace terracut::live {
 namespace {
 
-/// What a sensor sends a second at most: a VLS-128 in dual return, a packet a firing, or of the
-/// others an RS-Ruby128.
-constexpr double most_packets_per_second(sensor::SensorModel model) noexcept {
-  return model == sensor::SensorModel::kVls128 ? 18'750 : 12'001;
-}
-
 std::optional<VehicleMotion> motion_of(const LiveConfig& config, memory::FixedMemory& memory) {
   if (!config.vehicle) return std::nullopt;
   const VehicleConfig& vehicle = *config.vehicle;
@@ -35,7 +29,7 @@ std::optional<recorder::FlightRecorder> recorder_of(const LiveConfig& config,
   constexpr std::size_t kLongestPacketBytes = 1248;
   if (config.recorder_seconds <= 0) return std::nullopt;
   return std::make_optional<recorder::FlightRecorder>(
-      net::packet_ring_size(config.recorder_seconds, most_packets_per_second(model),
+      net::packet_ring_size(config.recorder_seconds, sensor::row_of(model).most_packets_per_second,
                             kLongestPacketBytes),
       memory);
 }

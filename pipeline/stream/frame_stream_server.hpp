@@ -32,7 +32,7 @@ struct FrameStreamConfig {
 /// A frame as it is given to the stream.
 struct LabelledFrame {
   status::FrameRecord record;
-  StreamedSensor sensor = StreamedSensor::kUnknown;
+  sensor::SensorModel sensor = sensor::SensorModel::kUnknown;
   bool late = false;  ///< Labelled after its deadline.
   std::span<const points::LabelledPoint> points{};
 };

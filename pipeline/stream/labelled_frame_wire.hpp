@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "firmware_io/packet/sensor_model.hpp"
+#include "calib/sensor/sensor_model.hpp"
 #include "pipeline/output/label_sink.hpp"
 #include "pipeline/points/labelled_point.hpp"
 #include "pipeline/status/frame_record.hpp"
@@ -44,37 +44,6 @@ static_assert(offsetof(WirePoint, intensity) == 12 && offsetof(WirePoint, label)
           point.time_s};
 }
 
-/// Numbers of FrameWireHeader::sensor; they never change their meaning.
-enum class StreamedSensor : std::uint8_t {
-  kUnknown = 0,
-  kHdl64e = 1,
-  kRuby128 = 2,
-  kVlp16 = 3,
-  kHdl32e = 4,
-  kVlp32c = 5,
-  kVls128 = 6
-};
-
-[[nodiscard]] constexpr StreamedSensor streamed_sensor(sensor::SensorModel model) noexcept {
-  switch (model) {
-    case sensor::SensorModel::kHdl64e:
-    case sensor::SensorModel::kHdl64eS1:
-      return StreamedSensor::kHdl64e;
-    case sensor::SensorModel::kRuby128:
-      return StreamedSensor::kRuby128;
-    case sensor::SensorModel::kVlp16:
-      return StreamedSensor::kVlp16;
-    case sensor::SensorModel::kHdl32e:
-      return StreamedSensor::kHdl32e;
-    case sensor::SensorModel::kVlp32c:
-      return StreamedSensor::kVlp32c;
-    case sensor::SensorModel::kVls128:
-      return StreamedSensor::kVls128;
-    default:
-      return StreamedSensor::kUnknown;
-  }
-}
-
 /// Bits of FrameWireHeader::flags. Readers ignore bits they do not know.
 inline constexpr std::uint32_t kFrameComplete = 1U << 0;  ///< Every firing was seen, seam to seam.
 inline constexpr std::uint32_t kFrameLate = 1U << 1;      ///< Labelled after its deadline.
@@ -101,7 +70,7 @@ struct FrameWireHeader {
   std::int64_t last_packet_ns = 0;
   std::int64_t labels_ns = 0;  ///< CLOCK_REALTIME; when the labels were there. 0: not known.
   std::uint16_t point_bytes = sizeof(WirePoint);
-  std::uint8_t sensor = 0;   ///< StreamedSensor.
+  std::uint8_t sensor = 0;   ///< SensorRow::stream_number; 0: not known.
   std::uint8_t level = 0;    ///< status::Level: 0 full, 1 cut stopped, 2 coarse, 3 skipped.
   std::uint32_t flags = 0;   ///< kFrameComplete, ...
   std::uint32_t missed = 0;  ///< Turns this reader was too slow for, since it connected.
@@ -120,7 +89,7 @@ static_assert(offsetof(FrameWireHeader, header_bytes) == 6 &&
               offsetof(FrameWireHeader, flags) == 44 && offsetof(FrameWireHeader, missed) == 48);
 /// Of a frame for a reader that has missed none.
 [[nodiscard]] constexpr FrameWireHeader header_of(const status::FrameRecord& record,
-                                                  StreamedSensor sensor, bool late,
+                                                  sensor::SensorModel sensor, bool late,
                                                   std::size_t points) noexcept {
   const frame::DeskewState deskew = record.info.deskew.state;
   return {.number = record.info.number,
@@ -128,7 +97,7 @@ static_assert(offsetof(FrameWireHeader, header_bytes) == 6 &&
           .first_packet_ns = record.info.first_packet_ns,
           .last_packet_ns = record.info.last_packet_ns,
           .labels_ns = record.labels_ns,
-          .sensor = static_cast<std::uint8_t>(sensor),
+          .sensor = sensor::row_of(sensor).stream_number,
           .level = static_cast<std::uint8_t>(record.level),
           .flags = (record.info.complete ? kFrameComplete : 0U) | (late ? kFrameLate : 0U) |
                    (deskew == frame::DeskewState::kDone ? kFrameDeskewed : 0U) |

@@ -11,7 +11,6 @@
 #include "firmware_io/net/live_source.hpp"
 #include "firmware_io/streams/hear_sensor.hpp"
 #include "firmware_io/terracut/points.hpp"
-#include "firmware_io/terracut/public_sensor.hpp"
 #include "pipeline/live/live_parts.hpp"
 #include "pipeline/run/mount_on_air.hpp"
 #include "rt/memory/locked_memory.hpp"
@@ -24,7 +23,7 @@ Expected<streams::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Co
   streams::FirstSeconds::Config of_first;
   of_first.place = source.name();
   if (config.calibration) {
-    of_first.model = model_of(config.calibration->sensor());
+    of_first.model = calib::model_of(config.calibration->table().unit);
     of_first.calibration.unit = config.calibration->table().unit;
   }
   streams::FirstSeconds first(std::move(of_first));
@@ -158,7 +157,7 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
 }
 
 Sensor LiveRun::sensor() const noexcept {
-  return public_sensor(engine_->sensor.model);
+  return sensor::sensor_of(engine_->sensor.model);
 }
 
 const std::optional<FoundMount>& LiveRun::found_mount() const noexcept {

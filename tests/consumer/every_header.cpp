@@ -9,3 +9,4 @@
 #include <terracut/outputs.hpp>
 #include <terracut/packet_pipeline.hpp>
 #include <terracut/segmenter.hpp>
+#include <terracut/sensor.hpp>

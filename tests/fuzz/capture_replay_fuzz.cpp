@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_io/velodyne/vlp16.hpp"
+#include "firmware_io/velodyne/models.hpp"
 #include "input.hpp"
 #include "rt/files/owned_descriptor.hpp"
 #include "tools/cli/console.hpp"

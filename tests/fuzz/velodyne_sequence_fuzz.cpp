@@ -15,7 +15,7 @@ namespace {
 
 using namespace terracut;
 
-template <class Model, std::uint8_t kProduct>
+template <class Model>
 struct Velodyne {
   using Decoder = decode::Decoder;
   using Calibration = velodyne::VelodyneCalibration;
@@ -40,7 +40,7 @@ struct Velodyne {
     packet.stamp_us =
         static_cast<std::uint32_t>(columns[0].stamp_ns / 1'000 % velodyne::kClockWrap_us);
     packet.status_type = dual ? velodyne::kDual : velodyne::kStrongest;
-    packet.status_value = kProduct;
+    packet.status_value = sensor::row_of(Model::kModel).product_number;
     for (int column = 0; column < Model::kLayout.columns(dual); ++column) {
       const Column& from = columns[static_cast<std::size_t>(column)];
       for (int part = 0; part < Model::kLayout.blocks_per_column; ++part) {
@@ -78,19 +78,8 @@ struct Velodyne {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input({data, size});
-  switch (input.below(4)) {
-    case 0:
-      fuzz::PacketSequence<Velodyne<velodyne::Vlp16, 0x22>>(input).run();
-      break;
-    case 1:
-      fuzz::PacketSequence<Velodyne<velodyne::Hdl32e, 0x21>>(input).run();
-      break;
-    case 2:
-      fuzz::PacketSequence<Velodyne<velodyne::Vlp32c, 0x28>>(input).run();
-      break;
-    default:
-      fuzz::PacketSequence<Velodyne<velodyne::Vls128, 0xA1>>(input).run();
-      break;
-  }
+  fuzz::with_any_velodyne(input, [&]<class Model>(std::type_identity<Model>) {
+    fuzz::PacketSequence<Velodyne<Model>>(input).run();
+  });
   return 0;
 }

@@ -159,17 +159,25 @@ TEST_F(SimulatedDriveDecoded, BothReturnsOfAnHdl64eArriveWhereTheyWere) {
 }
 
 TEST_F(SimulatedDriveDecoded, EveryReturnOfAVelodyneWithABuiltInTableArrivesWhereItWas) {
-  expect_whole<packets::Vlp16EncoderTraits>(packets::ReturnMode::kSingle, 10, kHdlRounding_m);
-  expect_whole<packets::Hdl32eEncoderTraits>(packets::ReturnMode::kSingle, 20, kHdlRounding_m);
-  expect_whole<packets::Vlp32cEncoderTraits>(packets::ReturnMode::kSingle, 10, kFourMmRounding_m);
-  expect_whole<packets::Vls128EncoderTraits>(packets::ReturnMode::kSingle, 20, kFourMmRounding_m);
+  expect_whole<packets::VelodyneEncoderTraits<velodyne::Vlp16>>(packets::ReturnMode::kSingle, 10,
+                                                                kHdlRounding_m);
+  expect_whole<packets::VelodyneEncoderTraits<velodyne::Hdl32e>>(packets::ReturnMode::kSingle, 20,
+                                                                 kHdlRounding_m);
+  expect_whole<packets::VelodyneEncoderTraits<velodyne::Vlp32c>>(packets::ReturnMode::kSingle, 10,
+                                                                 kFourMmRounding_m);
+  expect_whole<packets::VelodyneEncoderTraits<velodyne::Vls128>>(packets::ReturnMode::kSingle, 20,
+                                                                 kFourMmRounding_m);
 }
 
 TEST_F(SimulatedDriveDecoded, BothReturnsOfAVelodyneWithABuiltInTableArriveWhereTheyWere) {
-  expect_whole<packets::Vlp16EncoderTraits>(packets::ReturnMode::kDual, 20, kHdlRounding_m);
-  expect_whole<packets::Hdl32eEncoderTraits>(packets::ReturnMode::kDual, 10, kHdlRounding_m);
-  expect_whole<packets::Vlp32cEncoderTraits>(packets::ReturnMode::kDual, 20, kFourMmRounding_m);
-  expect_whole<packets::Vls128EncoderTraits>(packets::ReturnMode::kDual, 10, kFourMmRounding_m);
+  expect_whole<packets::VelodyneEncoderTraits<velodyne::Vlp16>>(packets::ReturnMode::kDual, 20,
+                                                                kHdlRounding_m);
+  expect_whole<packets::VelodyneEncoderTraits<velodyne::Hdl32e>>(packets::ReturnMode::kDual, 10,
+                                                                 kHdlRounding_m);
+  expect_whole<packets::VelodyneEncoderTraits<velodyne::Vlp32c>>(packets::ReturnMode::kDual, 20,
+                                                                 kFourMmRounding_m);
+  expect_whole<packets::VelodyneEncoderTraits<velodyne::Vls128>>(packets::ReturnMode::kDual, 10,
+                                                                 kFourMmRounding_m);
 }
 
 }  // namespace

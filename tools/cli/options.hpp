@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "calib/hdl64e/hdl64e_geometry.hpp"
+#include "calib/sensor/sensor_model.hpp"
 #include "firmware_io/frame/deskew_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/vehicle/motion_signals.hpp"
 #include "pipeline/stage/stage.hpp"
@@ -33,7 +33,7 @@ struct CaptureOptions {
   std::string from;                           ///< Dotted IPv4, or that and a port.
   std::string to;                             ///< Dotted IPv4.
   std::string vlan, mac;                      ///< As in firmware_io/streams/stream_text.hpp.
-  std::optional<sensor::SensorModel> sensor;  ///< kHdl64e or kRuby128; none: the one found.
+  std::optional<sensor::SensorModel> sensor;  ///< A decoded one; none: the one found.
   std::filesystem::path calibration;
   bool nominal_calibration = false;
   std::optional<int> columns;  ///< None: by the spin rate.

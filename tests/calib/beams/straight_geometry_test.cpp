@@ -46,7 +46,7 @@ TEST(StraightGeometry, FollowsExamplesComputedByHand) {
   EXPECT_LT(distance_m(of_ruby(ruby).point(9, deg_to_rad(30), 2000), {4.361434, -7.518075, -5}),
             1e-6);
   const velodyne::VelodyneCalibration velodyne{
-      velodyne::VelodyneModel::kVlp16, {{deg_to_rad(-30), deg_to_rad(30), 0.1}}, "by hand"};
+      sensor::SensorModel::kVlp16, {{deg_to_rad(-30), deg_to_rad(30), 0.1}}, "by hand"};
   EXPECT_LT(distance_m(StraightGeometry(velodyne.lasers, 0.004).point(0, deg_to_rad(30), 2500),
                        {4.330127, -7.5, -4.9}),
             1e-6);
@@ -66,7 +66,7 @@ TEST(StraightGeometry, AgreesWithTheMakersFormulaEverywhere) {
 }
 
 TEST(StraightGeometry, LasersBeyondTheTableAreThemAgain) {
-  const StraightGeometry geometry(velodyne::factory_table(velodyne::VelodyneModel::kVlp16).lasers,
+  const StraightGeometry geometry(velodyne::factory_table(sensor::SensorModel::kVlp16).lasers,
                                   0.002);
   for (int laser = 0; laser < 16; ++laser) {
     EXPECT_EQ(geometry.point(laser, 1.0, 4000).z_m, geometry.point(laser + 16, 1.0, 4000).z_m);
@@ -87,7 +87,7 @@ TEST(StraightGeometry, RayHoldsEveryPoint) {
 }
 
 TEST(StraightGeometry, RawOnPlaneHitsThePlane) {
-  const auto vls128 = velodyne::factory_table(velodyne::VelodyneModel::kVls128);
+  const auto vls128 = velodyne::factory_table(sensor::SensorModel::kVls128);
   for (const StraightGeometry& geometry :
        {of_ruby(ruby128::nominal_ruby128()), StraightGeometry(vls128.lasers, 0.004)}) {
     std::mt19937 random(4);

@@ -13,16 +13,12 @@
 namespace terracut::velodyne {
 namespace {
 
-constexpr std::array kModels{VelodyneModel::kVlp16, VelodyneModel::kHdl32e, VelodyneModel::kVlp32c,
-                             VelodyneModel::kVls128};
-constexpr std::array<std::size_t, 4> kLasers{16, 32, 32, 128};
-
 double elevation_deg(const VelodyneCalibration& table, std::size_t laser) {
   return beams::rad_to_deg(table.lasers[laser].elevation_rad);
 }
 
 TEST(FactoryTables, TheVlp16sLasersAreTwoDegreesApartInTwoCombs) {
-  const auto table = factory_table(VelodyneModel::kVlp16);
+  const auto table = factory_table(sensor::SensorModel::kVlp16);
   for (std::size_t laser = 0; laser < 16; ++laser) {
     const auto number = static_cast<double>(laser);
     EXPECT_NEAR(elevation_deg(table, laser), laser % 2 == 0 ? number - 15 : number, 1e-9);
@@ -33,7 +29,7 @@ TEST(FactoryTables, TheVlp16sLasersAreTwoDegreesApartInTwoCombs) {
 }
 
 TEST(FactoryTables, TheHdl32esLasersAreFourThirdsOfADegreeApart) {
-  const auto table = factory_table(VelodyneModel::kHdl32e);
+  const auto table = factory_table(sensor::SensorModel::kHdl32e);
   for (std::size_t laser = 0; laser < 32; ++laser) {
     const double first_deg = laser % 2 == 0 ? -92.0 / 3 : -28.0 / 3;
     EXPECT_NEAR(elevation_deg(table, laser), first_deg + 4.0 / 3 * static_cast<double>(laser / 2),
@@ -43,7 +39,7 @@ TEST(FactoryTables, TheHdl32esLasersAreFourThirdsOfADegreeApart) {
 }
 
 TEST(FactoryTables, TheVls128sBeamsFanOutEightBySide) {
-  const auto table = factory_table(VelodyneModel::kVls128);
+  const auto table = factory_table(sensor::SensorModel::kVls128);
   for (std::size_t laser = 0; laser < 128; ++laser) {
     EXPECT_NEAR(beams::rad_to_deg(table.lasers[laser].azimuth_offset_rad),
                 beams::rad_to_deg(table.lasers[laser % 8].azimuth_offset_rad), 1e-9);
@@ -54,11 +50,14 @@ TEST(FactoryTables, TheVls128sBeamsFanOutEightBySide) {
 
 TEST(FactoryTables, HaveARowAndAFingerprintOfTheirOwn) {
   std::set<std::uint64_t> fingerprints;
-  for (std::size_t i = 0; i < kModels.size(); ++i) {
-    SCOPED_TRACE(to_string(kModels[i]));
-    const auto table = factory_table(kModels[i]);
-    ASSERT_EQ(table.lasers.size(), kLasers[i]);
-    EXPECT_THAT(table.origin, testing::HasSubstr(std::string(to_string(kModels[i]))));
+  std::size_t models = 0;
+  for (const sensor::SensorRow& model : sensor::kSensorTable) {
+    if (model.lasers.empty()) continue;
+    ++models;
+    SCOPED_TRACE(model.name);
+    const auto table = factory_table(model.model);
+    ASSERT_EQ(table.lasers.size(), model.lasers.size());
+    EXPECT_THAT(table.origin, testing::HasSubstr(std::string(model.name)));
     fingerprints.insert(fingerprint(table));
     const std::vector<int> rows = rows_by_elevation(table);
     std::vector<double> by_row(rows.size(), 100);
@@ -70,20 +69,21 @@ TEST(FactoryTables, HaveARowAndAFingerprintOfTheirOwn) {
     }
     EXPECT_EQ(mount::ring_profile(table, {}).rings.size(), rows.size());
   }
-  EXPECT_EQ(fingerprints.size(), kModels.size());
+  EXPECT_EQ(fingerprints.size(), models);
 }
 
 TEST(FactoryTables, ARingLiesWhereItsBeamMeetsTheGround) {
-  const auto profile = mount::ring_profile(factory_table(VelodyneModel::kVlp16), {.height_m = 1.5});
+  const auto profile =
+      mount::ring_profile(factory_table(sensor::SensorModel::kVlp16), {.height_m = 1.5});
   EXPECT_NEAR(profile.rings[0].ground_distance_m,
               (1.5 + 0.0112) / std::tan(beams::deg_to_rad(15.0)), 1e-9);
   EXPECT_TRUE(std::isinf(profile.rings[8].ground_distance_m));  // one degree up
 }
 
 TEST(VelodyneTable, WithOtherThanItsModelsLasersIsRefused) {
-  EXPECT_TRUE(validate(factory_table(VelodyneModel::kVls128)));
-  EXPECT_FALSE(validate({VelodyneModel::kVlp16, {{}}, "by hand"}));
-  VelodyneCalibration broken = factory_table(VelodyneModel::kVlp16);
+  EXPECT_TRUE(validate(factory_table(sensor::SensorModel::kVls128)));
+  EXPECT_FALSE(validate({sensor::SensorModel::kVlp16, {{}}, "by hand"}));
+  VelodyneCalibration broken = factory_table(sensor::SensorModel::kVlp16);
   broken.lasers[3].elevation_rad = std::nan("");
   EXPECT_FALSE(validate(broken));
 }

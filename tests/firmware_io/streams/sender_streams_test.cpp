@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_io/velodyne/vlp16.hpp"
+#include "firmware_io/velodyne/models.hpp"
 
 namespace terracut::streams {
 namespace {

@@ -88,8 +88,10 @@ Both decode_both(const std::vector<Payload>& payloads, const velodyne::VelodyneC
 
 template <class Sensor>
 class VelodyneStream : public testing::Test {};
-using Models = testing::Types<Vlp16, Hdl32e, Vlp32c, Vls128>;
-TYPED_TEST_SUITE(VelodyneStream, Models);
+template <class... Model>
+using SensorsOf = testing::Types<Velodyne<Model>...>;
+using Sensors = velodyne::Models::In<SensorsOf>;
+TYPED_TEST_SUITE(VelodyneStream, Sensors);
 
 TYPED_TEST(VelodyneStream, AgreesWithAPlainSlowDecoderAtEverySpinAndInEitherReturnMode) {
   for (const bool dual_return : {false, true}) {
@@ -242,7 +244,7 @@ TYPED_TEST(VelodyneStream, IsFoundByItselfWithItsTable) {
 
 struct RealCapture {
   const char* file;
-  velodyne::VelodyneModel model;
+  sensor::SensorModel model;
   std::uint64_t packets, returns;
   bool dual_return;
   std::size_t frames;  ///< By hand: seams that the head passes, and one.
@@ -279,14 +281,13 @@ TEST_P(RealVelodyne, EqualsAPlainSlowDecoderAndLosesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(
     Shared, RealVelodyne,
-    testing::Values(RealCapture{"sample_velodyne_vlp16_gps.pcap", velodyne::VelodyneModel::kVlp16,
-                                293, 73'486, false, 5},
-                    RealCapture{"vlp16_nebula.pcap", velodyne::VelodyneModel::kVlp16, 603, 116'827,
-                                true, 5},
-                    RealCapture{"sample_velodyne_hdl32.pcap", velodyne::VelodyneModel::kHdl32e, 500,
-                                146'705, false, 4},
-                    RealCapture{"vls128_nebula.pcap", velodyne::VelodyneModel::kVls128, 2193,
-                                765'932, false, 5}),
+    testing::Values(
+        RealCapture{"sample_velodyne_vlp16_gps.pcap", sensor::SensorModel::kVlp16, 293, 73'486,
+                    false, 5},
+        RealCapture{"vlp16_nebula.pcap", sensor::SensorModel::kVlp16, 603, 116'827, true, 5},
+        RealCapture{"sample_velodyne_hdl32.pcap", sensor::SensorModel::kHdl32e, 500, 146'705, false,
+                    4},
+        RealCapture{"vls128_nebula.pcap", sensor::SensorModel::kVls128, 2193, 765'932, false, 5}),
     [](const auto& capture) {
       std::string name = capture.param.file;
       return name.substr(0, name.find('.'));
@@ -298,7 +299,7 @@ TEST(RealVlp32c, IsDecodedOnBothSidesOfItsBlindSector) {
   const auto payloads = read_payloads(path);
   ASSERT_EQ(payloads.size(), 379U);
   const Both both =
-      decode_both(payloads, velodyne::factory_table(velodyne::VelodyneModel::kVlp32c), 1808, 10.0);
+      decode_both(payloads, velodyne::factory_table(sensor::SensorModel::kVlp32c), 1808, 10.0);
   EXPECT_EQ(both.difference, "");
   EXPECT_EQ(both.returns, 130'312U);
   // Its head goes out of view at 90 degrees five times, each time in the middle of a packet; three

@@ -46,11 +46,13 @@ TEST(LabelledFrameWire, PointHasTheDocumentedBytes) {
 }
 
 TEST(LabelledFrameWire, OnlyTheSensorsThatAreDecodedHaveANumber) {
-  EXPECT_EQ(streamed_sensor(sensor::SensorModel::kHdl64e), StreamedSensor::kHdl64e);
-  EXPECT_EQ(streamed_sensor(sensor::SensorModel::kRuby128), StreamedSensor::kRuby128);
-  EXPECT_EQ(streamed_sensor(sensor::SensorModel::kVls128), StreamedSensor::kVls128);
-  EXPECT_EQ(static_cast<int>(StreamedSensor::kVls128), 6);
-  EXPECT_EQ(streamed_sensor(sensor::SensorModel::kVlp16HiRes), StreamedSensor::kUnknown);
+  const auto number_of = [](sensor::SensorModel model) {
+    return int{header_of({}, model, false, 0).sensor};
+  };
+  EXPECT_EQ(number_of(sensor::SensorModel::kHdl64e), 1);
+  EXPECT_EQ(number_of(sensor::SensorModel::kHdl64eS1), 1);
+  EXPECT_EQ(number_of(sensor::SensorModel::kVls128), 6);
+  EXPECT_EQ(number_of(sensor::SensorModel::kVlp16HiRes), 0);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ inline std::vector<WirePoint> on_wire(const std::vector<points::LabelledPoint>& 
 
 inline LabelledFrame frame_of(std::uint32_t number,
                               const std::vector<points::LabelledPoint>& points) {
-  LabelledFrame frame{.record = {}, .sensor = StreamedSensor::kHdl64e, .points = points};
+  LabelledFrame frame{.record = {}, .sensor = sensor::SensorModel::kHdl64e, .points = points};
   frame.record.info.number = number;
   frame.record.info.first_packet_ns = 1'000'000'000LL * number;
   frame.record.info.last_packet_ns = 1'000'000'000LL * number + 99'000'000;

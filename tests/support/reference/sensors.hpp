@@ -89,20 +89,23 @@ struct Ruby128 {
 };
 
 /// Of Velodyne's smaller models.
-template <velodyne::VelodyneModel kModel, int kFiringsAPacket, int kLasersOfModel, class Layout>
+template <class Model>
 struct Velodyne {
   using Decoder = decode::Decoder;
   using Calibration = velodyne::VelodyneCalibration;
   using Reference = VelodyneReference;
-  static constexpr int kColumns = kFiringsAPacket, kLasers = kLasersOfModel;
+  static constexpr int kLasers = Model::kLasers;
+  static constexpr int kColumns = Model::kLayout.columns(false) * Model::kChannels / kLasers;
   static constexpr int kFirstBlock = 0, kBlockBytes = 100, kBlocks = 12;
 
-  static const VelodyneSheet& sheet() { return sheet_of(kModel); }
+  static const VelodyneSheet& sheet() { return sheet_of(Model::kModel); }
   static double firing_us(bool) { return sheet().firing_us; }
   static double firings_per_packet(bool dual_return) {
     return dual_return ? layout().firings(true) * sheet().firings_a_block : kColumns;
   }
-  static Calibration random_unit(std::mt19937& random) { return random_velodyne(kModel, random); }
+  static Calibration random_unit(std::mt19937& random) {
+    return random_velodyne(Model::kModel, random);
+  }
   static std::vector<double> elevations(const Calibration& calibration) {
     std::vector<double> elevations;
     for (const auto& laser : calibration.lasers) elevations.push_back(laser.elevation_rad);
@@ -126,12 +129,11 @@ struct Velodyne {
                                             packet::PacketAzimuths& azimuths) {
     return velodyne::PacketReader(layout()).read(payload, azimuths);
   }
-  static const velodyne::PacketLayout& layout() { return Layout::kLayout; }
+  static const velodyne::PacketLayout& layout() { return Model::kLayout; }
 };
-using Vlp16 = Velodyne<velodyne::VelodyneModel::kVlp16, 24, 16, velodyne::Vlp16>;
-using Hdl32e = Velodyne<velodyne::VelodyneModel::kHdl32e, 12, 32, velodyne::Hdl32e>;
-using Vlp32c = Velodyne<velodyne::VelodyneModel::kVlp32c, 12, 32, velodyne::Vlp32c>;
-using Vls128 = Velodyne<velodyne::VelodyneModel::kVls128, 3, 128, velodyne::Vls128>;
+using Hdl32e = Velodyne<velodyne::Hdl32e>;
+using Vlp32c = Velodyne<velodyne::Vlp32c>;
+using Vls128 = Velodyne<velodyne::Vls128>;
 
 /// Takes the returns off whose beam is so near a seam that it may be of either frame.
 template <class Sensor>

@@ -57,27 +57,27 @@ int columns_of(const VelodyneSheet& sheet, bool dual_return) {
 
 constexpr std::array<int, 4> kIds{0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF};
 
-constexpr std::array kSheets{VelodyneSheet{.model = velodyne::VelodyneModel::kVlp16,
+constexpr std::array kSheets{VelodyneSheet{.model = sensor::SensorModel::kVlp16,
                                            .product = 0x22,
                                            .lasers = 16,
                                            .metres_per_count = 0.002,
                                            .firing_us = 55.296,
                                            .step_us = 2.304,
                                            .firings_a_block = 2},
-                             VelodyneSheet{.model = velodyne::VelodyneModel::kHdl32e,
+                             VelodyneSheet{.model = sensor::SensorModel::kHdl32e,
                                            .product = 0x21,
                                            .lasers = 32,
                                            .metres_per_count = 0.002,
                                            .firing_us = 46.08,
                                            .step_us = 1.152},
-                             VelodyneSheet{.model = velodyne::VelodyneModel::kVlp32c,
+                             VelodyneSheet{.model = sensor::SensorModel::kVlp32c,
                                            .product = 0x28,
                                            .lasers = 32,
                                            .metres_per_count = 0.004,
                                            .firing_us = 55.296,
                                            .step_us = 2.304,
                                            .together = 2},
-                             VelodyneSheet{.model = velodyne::VelodyneModel::kVls128,
+                             VelodyneSheet{.model = sensor::SensorModel::kVls128,
                                            .product = 0xA1,
                                            .lasers = 128,
                                            .metres_per_count = 0.004,
@@ -117,7 +117,7 @@ Refusal read_azimuths(const VelodyneSheet& sheet, std::span<const std::uint8_t> 
 
 }  // namespace
 
-const VelodyneSheet& sheet_of(velodyne::VelodyneModel model) {
+const VelodyneSheet& sheet_of(sensor::SensorModel model) {
   for (const VelodyneSheet& sheet : kSheets) {
     if (sheet.model == model) return sheet;
   }
@@ -243,7 +243,7 @@ void set_velodyne_clock(Bytes& payload, std::int64_t time_ns) {
   put(payload, 1200, static_cast<std::uint64_t>(time_ns / 1'000 % 3'600'000'000), 4);
 }
 
-velodyne::VelodyneCalibration random_velodyne(velodyne::VelodyneModel model, std::mt19937& random) {
+velodyne::VelodyneCalibration random_velodyne(sensor::SensorModel model, std::mt19937& random) {
   const auto off = [&](double most) {
     return std::uniform_real_distribution<double>(-most, most)(random);
   };

@@ -15,7 +15,7 @@ namespace terracut::reference {
 
 /// What the maker's manuals say of a model's packets and times.
 struct VelodyneSheet {
-  velodyne::VelodyneModel model{};
+  sensor::SensorModel model{};
   int product = 0;
   int lasers = 0;
   double metres_per_count = 0;
@@ -31,7 +31,7 @@ struct VelodyneSheet {
     return (step + step / pause_after * 2) * step_us;
   }
 };
-[[nodiscard]] const VelodyneSheet& sheet_of(velodyne::VelodyneModel model);
+[[nodiscard]] const VelodyneSheet& sheet_of(sensor::SensorModel model);
 
 /// A plain, slow decoder of the data packets of Velodyne's smaller models, single and dual return,
 /// written from the manuals, byte by byte and in double. It shares nothing with the product's
@@ -67,7 +67,7 @@ void set_velodyne_return(const VelodyneSheet& sheet, std::vector<std::uint8_t>& 
 void set_velodyne_clock(std::vector<std::uint8_t>& payload, std::int64_t time_ns);
 
 /// Any unit about the model's table.
-[[nodiscard]] velodyne::VelodyneCalibration random_velodyne(velodyne::VelodyneModel model,
+[[nodiscard]] velodyne::VelodyneCalibration random_velodyne(sensor::SensorModel model,
                                                             std::mt19937& random);
 
 }  // namespace terracut::reference

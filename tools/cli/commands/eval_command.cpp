@@ -228,8 +228,8 @@ std::string settings_line(const Options& options, const EvaluationConfig& config
   if (is_simulated(options)) {
     const auto drives = drives_of(options);
     line += fmt::format(" sensor={} dual_return={} duration_s={} seed={}",
-                        word_of(kSensorWords, std::optional(drives.sensor)), drives.dual_return,
-                        drives.duration_s, drives.seed);
+                        sensor::row_of(drives.sensor).word, drives.dual_return, drives.duration_s,
+                        drives.seed);
   }
   for (const eval::MethodChoice& method : config.methods) {
     line += fmt::format(" {}={}{{", method.name, method.base);
@@ -315,7 +315,7 @@ void add_facts_of_dataset(const Options& options, const datasets::ClassTable& cl
   }
   if (!is_simulated(options)) return;
   const auto drives = drives_of(options);
-  json["simulated"] = {{"sensor", word_of(kSensorWords, std::optional(drives.sensor))},
+  json["simulated"] = {{"sensor", sensor::row_of(drives.sensor).word},
                        {"returns", drives.dual_return ? "dual" : "single"},
                        {"duration_s", drives.duration_s},
                        {"seed", drives.seed}};

@@ -6,8 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "calib/hdl64e/nominal_hdl64e.hpp"
-#include "calib/ruby128/nominal_ruby128.hpp"
 #include "firmware_io/vehicle/ego_motion.hpp"
 #include "pipeline/mcap/mcap_sink.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
@@ -20,14 +18,6 @@
 
 namespace terracut::cli {
 namespace {
-
-calib::SensorCalibration nominal_of(sensor::SensorModel model) {
-  if (const auto velodyne = sensor::velodyne_model_of(model)) {
-    return velodyne::factory_table(*velodyne);
-  }
-  if (model == sensor::SensorModel::kRuby128) return ruby128::nominal_ruby128();
-  return hdl64e::nominal_hdl64e();
-}
 
 /// Of this process, 0 where the system does not say.
 std::size_t resident_bytes() {
@@ -73,7 +63,7 @@ double to_mib(std::size_t bytes) {
 ExitCode run_plan(const Options& options) {
   const std::size_t program_bytes = resident_bytes();
   const calib::SensorCalibration calibration =
-      nominal_of(options.capture.sensor.value_or(sensor::SensorModel::kHdl64e));
+      calib::nominal(options.capture.sensor.value_or(sensor::SensorModel::kHdl64e));
   const auto profile = ring_profile_of(calibration, {});
   if (!profile) return refuse(profile.error());
   memory::FixedMemory memory, memory_with_motion;

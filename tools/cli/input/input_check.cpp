@@ -19,7 +19,7 @@ Status status_of(const Expected<Calibration>& read) {
 Status check_calibration(const CaptureOptions& capture) {
   const std::filesystem::path& file = capture.calibration;
   if (file.empty()) return {};
-  if (capture.sensor && sensor::velodyne_model_of(*capture.sensor)) {
+  if (capture.sensor && sensor::has_factory_table(*capture.sensor)) {
     return status_of(sensor::unit_calibration({{}, file, false}, *capture.sensor, {}));
   }
   const auto hdl64e = [&] { return status_of(hdl64e::load_hdl64e_calibration(file)); };

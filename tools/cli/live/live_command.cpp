@@ -202,7 +202,7 @@ class Writers {
       std::optional<live::FrameOutlet::Stream> stream;
       if (!options.stream.empty()) {
         stream = {publish::Reopened<stream::FrameStreamServer>(stream_at(options, parts)),
-                  stream::streamed_sensor(sensor.model), deadline_ns};
+                  sensor.model, deadline_ns};
       }
       outlet_.emplace(std::move(stream), *publisher_, *parts.threads.points(),
                       parts.threads.points_ready());

@@ -22,7 +22,7 @@ Expected<ruby128::Ruby128Calibration> made_calibration(const CaptureOptions& opt
 }
 
 Expected<velodyne::VelodyneCalibration> made_calibration(const CaptureOptions& options,
-                                                         velodyne::VelodyneModel model) {
+                                                         sensor::SensorModel model) {
   if (options.calibration.empty()) return velodyne::factory_table(model);
   return fail(ErrorCode::kInvalidArgument,
               fmt::format("{}: the table of a {} is built in; leave --calibration away",

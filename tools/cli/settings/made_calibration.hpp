@@ -15,7 +15,7 @@ namespace terracut::cli {
 [[nodiscard]] Expected<ruby128::Ruby128Calibration> made_calibration(const CaptureOptions& options,
                                                                      packets::Ruby128EncoderTraits);
 [[nodiscard]] Expected<velodyne::VelodyneCalibration> made_calibration(
-    const CaptureOptions& options, velodyne::VelodyneModel model);
+    const CaptureOptions& options, sensor::SensorModel model);
 template <class Model>
 [[nodiscard]] Expected<velodyne::VelodyneCalibration> made_calibration(
     const CaptureOptions& options, packets::VelodyneEncoderTraits<Model>) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware_io/packet/sensor_recognition.hpp"
 #include "firmware_io/sensor/unknown_packets.hpp"
 #include "firmware_io/streams/sender_streams.hpp"
 #include "pipeline/status/figure_lines.hpp"

@@ -61,11 +61,6 @@ Marks telling_marks(std::span<const SensorStream> sensors) {
   return best;
 }
 
-/// What --sensor has to be for it.
-sensor::SensorModel asked_for(sensor::SensorModel model) {
-  return model == sensor::SensorModel::kHdl64eS1 ? sensor::SensorModel::kHdl64e : model;
-}
-
 StreamName name_of(const SensorStream& sensor, Marks marks) {
   const streams::Destination& to = sensor.destinations.front();
   const std::string from = net::ipv4_text(sensor.source_address);
@@ -90,7 +85,8 @@ StreamName name_of(const SensorStream& sensor, Marks marks) {
       to.vlan == 0 ? " in no VLAN" : " in VLAN " + streams::vlan_text(to.vlan),
       "--vlan " + streams::vlan_text(to.vlan));
   add(has(marks, Mark::kModel), "",
-      fmt::format("--sensor {}", word_of(kSensorWords, std::optional(asked_for(sensor.model)))));
+      fmt::format("--sensor {}",
+                  sensor::row_of(sensor::model_of(sensor::sensor_of(sensor.model))).word));
   return text;
 }
 

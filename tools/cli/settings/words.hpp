@@ -18,14 +18,19 @@ struct Word {
   Value value;
 };
 
-inline constexpr std::array kSensorWords{
-    Word<std::optional<sensor::SensorModel>>{"auto", std::nullopt},
-    Word<std::optional<sensor::SensorModel>>{"hdl64e", sensor::SensorModel::kHdl64e},
-    Word<std::optional<sensor::SensorModel>>{"ruby128", sensor::SensorModel::kRuby128},
-    Word<std::optional<sensor::SensorModel>>{"vlp16", sensor::SensorModel::kVlp16},
-    Word<std::optional<sensor::SensorModel>>{"hdl32e", sensor::SensorModel::kHdl32e},
-    Word<std::optional<sensor::SensorModel>>{"vlp32c", sensor::SensorModel::kVlp32c},
-    Word<std::optional<sensor::SensorModel>>{"vls128", sensor::SensorModel::kVls128}};
+/// "auto", and the words of the sensors that have one.
+inline constexpr auto kSensorWords = [] {
+  constexpr auto kHasWord = [](const sensor::SensorRow& row) { return !row.word.empty(); };
+  std::array<Word<std::optional<sensor::SensorModel>>,
+             1 + std::ranges::count_if(sensor::kSensorTable, kHasWord)>
+      words{};
+  words[0] = {"auto", std::nullopt};
+  std::size_t count = 1;
+  for (const sensor::SensorRow& row : sensor::kSensorTable) {
+    if (kHasWord(row)) words[count++] = {row.word, row.model};
+  }
+  return words;
+}();
 inline constexpr std::array kCellOwnerWords{
     Word{"strongest", frame::CellOwner::kStrongest}, Word{"last", frame::CellOwner::kFarthest},
     Word{"first", frame::CellOwner::kNearest}, Word{"both", frame::CellOwner::kFirstArrived}};

@@ -23,7 +23,7 @@ void ViewFrames::put(const publish::LabelledFrame& frame) {
   const Shown of_frame = shown(frame.record);
   room->points.resize(frame.points.size());
   std::ranges::transform(frame.points, room->points.begin(), stream::wire_point);
-  room->header = stream::header_of(frame.record, stream::StreamedSensor::kUnknown, of_frame.missed,
+  room->header = stream::header_of(frame.record, sensor::SensorModel::kUnknown, of_frame.missed,
                                    frame.points.size());
   const std::lock_guard lock(mutex_);
   newest_ = room;

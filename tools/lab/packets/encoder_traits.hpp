@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
-#include "firmware_io/packet/sensor_model.hpp"
+#include "calib/sensor/sensor_model.hpp"
+#include "firmware_io/velodyne/models.hpp"
 #include "tools/lab/packets/hdl64e_encoder_traits.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 #include "tools/lab/packets/ruby128_encoder_traits.hpp"
@@ -35,10 +37,7 @@
 #define TERRACUT_FOR_ENCODER_TRAITS(INSTANTIATE)       \
   INSTANTIATE(terracut::packets::Hdl64eEncoderTraits)  \
   INSTANTIATE(terracut::packets::Ruby128EncoderTraits) \
-  INSTANTIATE(terracut::packets::Vlp16EncoderTraits)   \
-  INSTANTIATE(terracut::packets::Hdl32eEncoderTraits)  \
-  INSTANTIATE(terracut::packets::Vlp32cEncoderTraits)  \
-  INSTANTIATE(terracut::packets::Vls128EncoderTraits)
+  TERRACUT_FOR_VELODYNE_MODELS(INSTANTIATE, terracut::packets::VelodyneEncoderTraits)
 
 namespace terracut::packets {
 
@@ -53,20 +52,13 @@ template <class EncoderTraits>
 /// other model.
 template <class Work>
 decltype(auto) with_encoder_traits(sensor::SensorModel model, const Work& work) {
-  switch (model) {
-    case sensor::SensorModel::kRuby128:
-      return work(packets::Ruby128EncoderTraits{});
-    case sensor::SensorModel::kVlp16:
-      return work(packets::Vlp16EncoderTraits{});
-    case sensor::SensorModel::kHdl32e:
-      return work(packets::Hdl32eEncoderTraits{});
-    case sensor::SensorModel::kVlp32c:
-      return work(packets::Vlp32cEncoderTraits{});
-    case sensor::SensorModel::kVls128:
-      return work(packets::Vls128EncoderTraits{});
-    default:
-      return work(packets::Hdl64eEncoderTraits{});
+  if (velodyne::layout_of(model) != nullptr) {
+    return velodyne::Models::with(model, [&]<class Model>(std::type_identity<Model>) {
+      return work(VelodyneEncoderTraits<Model>{});
+    });
   }
+  if (model == sensor::SensorModel::kRuby128) return work(Ruby128EncoderTraits{});
+  return work(Hdl64eEncoderTraits{});
 }
 
 }  // namespace terracut::packets

@@ -11,10 +11,6 @@
 #include "calib/beams/straight_geometry.hpp"
 #include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/velodyne/beam_offsets.hpp"
-#include "firmware_io/velodyne/hdl32e.hpp"
-#include "firmware_io/velodyne/vlp16.hpp"
-#include "firmware_io/velodyne/vlp32c.hpp"
-#include "firmware_io/velodyne/vls128.hpp"
 #include "tools/lab/packets/group_azimuths.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 #include "tools/lab/packets/velodyne_packet_sender.hpp"
@@ -98,10 +94,5 @@ struct VelodyneEncoderTraits {
     return widest_rad;
   }
 };
-
-using Vlp16EncoderTraits = VelodyneEncoderTraits<velodyne::Vlp16>;
-using Hdl32eEncoderTraits = VelodyneEncoderTraits<velodyne::Hdl32e>;
-using Vlp32cEncoderTraits = VelodyneEncoderTraits<velodyne::Vlp32c>;
-using Vls128EncoderTraits = VelodyneEncoderTraits<velodyne::Vls128>;
 
 }  // namespace terracut::packets

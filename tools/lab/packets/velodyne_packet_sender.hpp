@@ -7,9 +7,9 @@
 #include <span>
 
 #include "calib/beams/angle.hpp"
+#include "calib/sensor/sensor_model.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
 #include "firmware_io/frame/labelled_return.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
 #include "firmware_io/velodyne/packet_layout.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 
@@ -33,7 +33,7 @@ class VelodynePacketSender {
     hdl64e::wire::Packet packet{};
     packet.stamp_us = static_cast<std::uint32_t>(stamp_ns / 1000 % velodyne::kClockWrap_us);
     packet.status_type = is_dual_ ? velodyne::kDual : velodyne::kStrongest;
-    packet.status_value = sensor::product_number(Model::kLayout.model);
+    packet.status_value = sensor::row_of(Model::kModel).product_number;
     for (std::size_t c = 0; c < columns.size(); ++c) {
       for (int part = 0; part < Model::kLayout.blocks_per_column; ++part) {
         fill(columns[c], part,

@@ -7,7 +7,7 @@
 
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
+#include "firmware_io/packet/sensor_recognition.hpp"
 
 namespace terracut::send {
 namespace {
@@ -45,7 +45,7 @@ void shift_ruby128(std::span<std::uint8_t> payload, const ruby128::ruby128_wire:
 
 bool DeviceStampShift::operator()(std::span<std::uint8_t> payload, std::int64_t shift_ns) noexcept {
   const sensor::SensorModel model = sensor::recognise_sensor(payload);
-  if (model == sensor::SensorModel::kHdl64e || sensor::velodyne_model_of(model)) {
+  if (model == sensor::SensorModel::kHdl64e || sensor::has_factory_table(model)) {
     const auto* packet = hdl64e::packet_in(payload);
     if (packet == nullptr) return false;
     shift_velodyne(payload, *packet, shift_ns);

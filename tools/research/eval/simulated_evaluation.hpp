@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "calib/mount/mount.hpp"
+#include "calib/sensor/sensor_model.hpp"
 #include "evaluation.hpp"
-#include "firmware_io/packet/sensor_model.hpp"
 #include "journal.hpp"
 #include "method_choice.hpp"
 #include "rt/error.hpp"

@@ -25,7 +25,7 @@ namespace terracut::cli {
 namespace {
 
 using testing::ElementsAre;
-using Traits = packets::Vlp16EncoderTraits;
+using Traits = packets::VelodyneEncoderTraits<velodyne::Vlp16>;
 
 constexpr double kFrame_s = 0.1;
 

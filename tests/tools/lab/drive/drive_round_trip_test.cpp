@@ -125,9 +125,10 @@ class DriveRoundTrip : public terracut::test::InScratchFolder {
   }
 };
 
-using Sensors = testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits,
-                               packets::Vlp16EncoderTraits, packets::Hdl32eEncoderTraits,
-                               packets::Vlp32cEncoderTraits, packets::Vls128EncoderTraits>;
+template <class... VelodyneModel>
+using SensorsWith = testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits,
+                                   packets::VelodyneEncoderTraits<VelodyneModel>...>;
+using Sensors = velodyne::Models::In<SensorsWith>;
 TYPED_TEST_SUITE(DriveRoundTrip, Sensors);
 
 TYPED_TEST(DriveRoundTrip, TheNthTruthEntryIsTheNthReturnDecodedInEveryModeAtEverySpin) {

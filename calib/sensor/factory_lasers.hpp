@@ -1,44 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// Tables of the maker's manuals, by laser (docs/reference/sensors.md names the manuals).
+#pragma once
+
 #include <array>
-#include <span>
 
-#include "calib/beams/angle.hpp"
-#include "calib/velodyne/velodyne_calibration.hpp"
+namespace terracut::sensor {
 
-namespace terracut::velodyne {
-namespace {
-
-struct Entry {
-  double elevation_deg, azimuth_offset_deg = 0, vert_offset_mm = 0;
+/// A laser in the maker's manual (docs/reference/sensors.md says which).
+struct FactoryLaser {
+  double elevation_deg;           ///< Positive is up.
+  double azimuth_offset_deg = 0;  ///< Added to the head's azimuth; clockwise.
+  double vert_offset_mm = 0;      ///< Height of the beam's start above the sensor's origin.
 };
 
-constexpr std::array<Entry, 16> kVlp16{{{-15, 0, 11.2},
-                                        {1, 0, -0.7},
-                                        {-13, 0, 9.7},
-                                        {3, 0, -2.2},
-                                        {-11, 0, 8.1},
-                                        {5, 0, -3.7},
-                                        {-9, 0, 6.6},
-                                        {7, 0, -5.1},
-                                        {-7, 0, 5.1},
-                                        {9, 0, -6.6},
-                                        {-5, 0, 3.7},
-                                        {11, 0, -8.1},
-                                        {-3, 0, 2.2},
-                                        {13, 0, -9.7},
-                                        {-1, 0, 0.7},
-                                        {15, 0, -11.2}}};
+// Tables of the models whose units all have the model's directions, to a few hundredths of a
+// degree; by the laser's number on the wire, which is NOT in order of elevation.
 
-constexpr std::array<Entry, 32> kHdl32e{{
+inline constexpr std::array<FactoryLaser, 16> kVlp16Lasers{{{-15, 0, 11.2},
+                                                            {1, 0, -0.7},
+                                                            {-13, 0, 9.7},
+                                                            {3, 0, -2.2},
+                                                            {-11, 0, 8.1},
+                                                            {5, 0, -3.7},
+                                                            {-9, 0, 6.6},
+                                                            {7, 0, -5.1},
+                                                            {-7, 0, 5.1},
+                                                            {9, 0, -6.6},
+                                                            {-5, 0, 3.7},
+                                                            {11, 0, -8.1},
+                                                            {-3, 0, 2.2},
+                                                            {13, 0, -9.7},
+                                                            {-1, 0, 0.7},
+                                                            {15, 0, -11.2}}};
+
+inline constexpr std::array<FactoryLaser, 32> kHdl32eLasers{{
     {-30.67}, {-9.33}, {-29.33}, {-8},    {-28},    {-6.67}, {-26.67}, {-5.33},
     {-25.33}, {-4},    {-24},    {-2.67}, {-22.67}, {-1.33}, {-21.33}, {0},
     {-20},    {1.33},  {-18.67}, {2.67},  {-17.33}, {4},     {-16},    {5.33},
     {-14.67}, {6.67},  {-13.33}, {8},     {-12},    {9.33},  {-10.67}, {10.67},
 }};
 
-constexpr std::array<Entry, 32> kVlp32c{{
+inline constexpr std::array<FactoryLaser, 32> kVlp32cLasers{{
     {-25, 1.4},    {-1, -4.2},     {-1.667, 1.4}, {-15.639, -1.4}, {-11.31, 1.4}, {0, -1.4},
     {-0.667, 4.2}, {-8.843, -1.4}, {-7.254, 1.4}, {0.333, -4.2},   {-0.333, 1.4}, {-6.148, -1.4},
     {-5.333, 4.2}, {1.333, -1.4},  {0.667, 4.2},  {-4, -1.4},      {-4.667, 1.4}, {1.667, -4.2},
@@ -47,7 +49,7 @@ constexpr std::array<Entry, 32> kVlp32c{{
     {10.333, 1.4}, {-1.333, -1.4},
 }};
 
-constexpr std::array<Entry, 128> kVls128{{
+inline constexpr std::array<FactoryLaser, 128> kVls128Lasers{{
     {-11.742, 6.354}, {-1.99, 4.548},  {3.4, 2.732},      {-5.29, 0.911},  {-0.78, -0.911},
     {4.61, -2.732},   {-4.08, -4.548}, {1.31, -6.354},    {-6.5, 6.354},   {-1.11, 4.548},
     {4.28, 2.732},    {-4.41, 0.911},  {0.1, -0.911},     {6.48, -2.732},  {-3.2, -4.548},
@@ -76,45 +78,4 @@ constexpr std::array<Entry, 128> kVls128{{
     {3.73, -2.732},   {-4.96, -4.548}, {0.43, -6.354},
 }};
 
-std::span<const Entry> entries_of(VelodyneModel model) {
-  switch (model) {
-    case VelodyneModel::kVlp16:
-      return kVlp16;
-    case VelodyneModel::kHdl32e:
-      return kHdl32e;
-    case VelodyneModel::kVlp32c:
-      return kVlp32c;
-    case VelodyneModel::kVls128:
-      return kVls128;
-  }
-  return {};
-}
-
-}  // namespace
-
-std::string_view to_string(VelodyneModel model) noexcept {
-  switch (model) {
-    case VelodyneModel::kVlp16:
-      return "VLP-16";
-    case VelodyneModel::kHdl32e:
-      return "HDL-32E";
-    case VelodyneModel::kVlp32c:
-      return "VLP-32C";
-    case VelodyneModel::kVls128:
-      return "VLS-128";
-  }
-  return "unknown";
-}
-
-VelodyneCalibration factory_table(VelodyneModel model) {
-  VelodyneCalibration calibration{
-      model, {}, "factory table of the " + std::string(to_string(model))};
-  for (const Entry& entry : entries_of(model)) {
-    calibration.lasers.push_back({beams::deg_to_rad(entry.elevation_deg),
-                                  beams::deg_to_rad(entry.azimuth_offset_deg),
-                                  entry.vert_offset_mm * 1e-3});
-  }
-  return calibration;
-}
-
-}  // namespace terracut::velodyne
+}  // namespace terracut::sensor

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/packet/sensor_model.hpp"
+#include "firmware_io/packet/sensor_recognition.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
@@ -31,19 +30,10 @@ bool starts_with(Bytes payload, const std::array<std::uint8_t, kSize>& start) no
   return payload.size() >= kSize && std::equal(start.begin(), start.end(), payload.begin());
 }
 
-struct Product {
-  std::uint8_t number;
-  SensorModel model;
-};
-constexpr Product kProducts[] = {{0x21, SensorModel::kHdl32e},
-                                 {0x22, SensorModel::kVlp16},
-                                 {0x24, SensorModel::kVlp16HiRes},
-                                 {0x28, SensorModel::kVlp32c},
-                                 {0xA1, SensorModel::kVls128}};
-
+/// Of the model that sends this number.
 SensorModel product(std::uint8_t number) noexcept {
-  const auto* const found = std::ranges::find(kProducts, number, &Product::number);
-  return found == std::end(kProducts) ? SensorModel::kOtherVelodyne : found->model;
+  const auto* const found = std::ranges::find(kSensorTable, number, &SensorRow::product_number);
+  return number == 0 || found == kSensorTable.end() ? SensorModel::kOtherVelodyne : found->model;
 }
 
 SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
@@ -118,47 +108,6 @@ std::string_view ruby_model(Bytes payload) noexcept {
 
 }  // namespace
 
-std::uint8_t product_number(SensorModel model) noexcept {
-  const auto* const found = std::ranges::find(kProducts, model, &Product::model);
-  return found == std::end(kProducts) ? 0 : found->number;
-}
-
-std::string_view to_string(SensorModel model) noexcept {
-  switch (model) {
-    case SensorModel::kUnknown:
-      return "unknown";
-    case SensorModel::kHdl64e:
-      return "Velodyne HDL-64E (S2/S3)";
-    case SensorModel::kHdl64eS1:
-      return "Velodyne HDL-64E S1";
-    case SensorModel::kHdl32e:
-      return "Velodyne HDL-32E";
-    case SensorModel::kVlp16:
-      return "Velodyne VLP-16";
-    case SensorModel::kVlp16HiRes:
-      return "Velodyne VLP-16 Hi-Res";
-    case SensorModel::kVlp32c:
-      return "Velodyne VLP-32C";
-    case SensorModel::kVls128:
-      return "Velodyne VLS-128";
-    case SensorModel::kOtherVelodyne:
-      return "other Velodyne";
-    case SensorModel::kVelodynePosition:
-      return "Velodyne position packets";
-    case SensorModel::kRuby128:
-      return "RoboSense RS-Ruby128";
-    case SensorModel::kRubyPlus:
-      return "RoboSense Ruby Plus";
-    case SensorModel::kRubyLite:
-      return "RoboSense Ruby Lite (80)";
-    case SensorModel::kOtherRoboSense:
-      return "other RoboSense";
-    case SensorModel::kRoboSenseDeviceInfo:
-      return "RoboSense device info (DIFOP)";
-  }
-  return "unknown";
-}
-
 SensorModel recognise_sensor(Bytes payload) noexcept {
   if (const auto* packet = hdl64e::packet_in(payload)) return velodyne_model(*packet);
   if (payload.size() == ruby128::kRubyPacketBytes) return robosense_model(payload);
@@ -175,20 +124,17 @@ SensorModel recognise_sensor_as(std::optional<SensorModel> named, Bytes payload)
   const SensorModel model = recognise_sensor(payload);
   // The VLS-128 is excluded: its blocks' ids identify it anyway.
   const bool may_be_named = model == SensorModel::kOtherVelodyne && named &&
-                            velodyne_model_of(*named) && *named != SensorModel::kVls128;
+                            has_factory_table(*named) && *named != SensorModel::kVls128;
   return may_be_named ? *named : model;
 }
 
 std::string describe_sensor_hints(Bytes payload) {
-  switch (recognise_sensor(payload)) {
-    case SensorModel::kHdl32e:
-    case SensorModel::kVlp16:
-    case SensorModel::kVlp16HiRes:
-    case SensorModel::kVlp32c:
-    case SensorModel::kVls128:
-    case SensorModel::kOtherVelodyne:
-      return fmt::format("product number 0x{:02X}, {}", payload[1205],
-                         velodyne_return_mode(payload[1204]));
+  const SensorModel model = recognise_sensor(payload);
+  if (row_of(model).product_number != 0 || model == SensorModel::kOtherVelodyne) {
+    return fmt::format("product number 0x{:02X}, {}", payload[1205],
+                       velodyne_return_mode(payload[1204]));
+  }
+  switch (model) {
     case SensorModel::kRuby128:
     case SensorModel::kRubyPlus:
     case SensorModel::kRubyLite:

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+
+namespace terracut {
+
+/// A model whose packets are decoded.
+enum class Sensor : std::uint8_t {
+  kHdl64e,  ///< Any generation.
+  kRuby128,
+  kVlp16,
+  kHdl32e,
+  kVlp32c,
+  kVls128
+};
+
+}  // namespace terracut

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "calib/sensor/sensor_model.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/velodyne/packet_layout.hpp"
+
+/// The models of Velodyne's family, and when each fires which laser (velodyne_sensor.hpp says what
+/// a model has to say).
+namespace terracut::velodyne {
+
+/// Velodyne's VLP-16, also sold as Puck and Puck LITE (VLP-16 user manual, packet structure and
+/// timing; docs/reference/sensors.md).
+struct Vlp16 {
+  static constexpr auto kModel = sensor::SensorModel::kVlp16;
+  static constexpr double kMetresPerCount = 0.002;
+
+  /// From a firing of all lasers to the next, and from a laser to the next. They fire one by one.
+  static constexpr std::int32_t kFiring_ns = 55'296, kLaser_ns = 2'304;
+  /// Each block holds two firings of all lasers, and the azimuth of the first.
+  static constexpr int kLasers = 16, kChannels = 2 * kLasers;
+  static constexpr PacketLayout kLayout{.model = kModel,
+                                        .block_ids = {hdl64e::kUpperBlockId},
+                                        .column_ns = 2 * kFiring_ns,
+                                        .firing_ns = kFiring_ns};
+  static constexpr int kDefaultColumns = 1808;  ///< 1808.4 firings a frame at 10 Hz.
+
+  static constexpr std::size_t kGroups = kChannels;
+  [[nodiscard]] static constexpr std::size_t group(std::size_t channel) noexcept { return channel; }
+  [[nodiscard]] static constexpr std::int32_t group_ns(std::size_t group) noexcept {
+    const auto channel = static_cast<std::int32_t>(group);
+    return channel / kLasers * kFiring_ns + channel % kLasers * kLaser_ns;
+  }
+};
+
+/// Velodyne's HDL-32E (HDL-32E application note, packet structure and timing;
+/// docs/reference/sensors.md).
+struct Hdl32e {
+  static constexpr auto kModel = sensor::SensorModel::kHdl32e;
+  static constexpr double kMetresPerCount = 0.002;
+
+  /// From a laser to the next; they fire one by one.
+  static constexpr std::int32_t kLaser_ns = 1'152;
+  static constexpr int kLasers = 32, kChannels = kLasers;
+  static constexpr PacketLayout kLayout{.model = kModel,
+                                        .block_ids = {hdl64e::kUpperBlockId},
+                                        .column_ns = 46'080,
+                                        .firing_ns = 46'080};
+  static constexpr int kDefaultColumns = 2170;  ///< 2170.1 firings a frame at 10 Hz.
+
+  static constexpr std::size_t kGroups = kChannels;
+  [[nodiscard]] static constexpr std::size_t group(std::size_t channel) noexcept { return channel; }
+  [[nodiscard]] static constexpr std::int32_t group_ns(std::size_t group) noexcept {
+    return static_cast<std::int32_t>(group) * kLaser_ns;
+  }
+};
+
+/// Velodyne's VLP-32C, also sold as Ultra Puck (VLP-32C user manual, packet structure and timing;
+/// docs/reference/sensors.md).
+struct Vlp32c {
+  static constexpr auto kModel = sensor::SensorModel::kVlp32c;
+  static constexpr double kMetresPerCount = 0.004;
+
+  /// From a pair of lasers to the next. Both of a pair fire together.
+  static constexpr std::int32_t kPair_ns = 2'304;
+  static constexpr int kLasers = 32, kChannels = kLasers;
+  static constexpr PacketLayout kLayout{.model = kModel,
+                                        .block_ids = {hdl64e::kUpperBlockId},
+                                        .column_ns = 55'296,
+                                        .firing_ns = 55'296};
+  static constexpr int kDefaultColumns = 1808;  ///< 1808.4 firings a frame at 10 Hz.
+
+  static constexpr std::size_t kGroups = kChannels / 2;
+  [[nodiscard]] static constexpr std::size_t group(std::size_t channel) noexcept {
+    return channel / 2;
+  }
+  [[nodiscard]] static constexpr std::int32_t group_ns(std::size_t group) noexcept {
+    return static_cast<std::int32_t>(group) * kPair_ns;
+  }
+};
+
+/// Velodyne's VLS-128, also sold as Alpha Prime (VeloView and velodyne_decoder, from the user
+/// manual; docs/reference/sensors.md).
+struct Vls128 {
+  static constexpr auto kModel = sensor::SensorModel::kVls128;
+  static constexpr double kMetresPerCount = 0.004;
+
+  /// A firing takes twenty steps: eight lasers fire in each of eight, two steps later in each of
+  /// eight more, and two are left. Steps are 2.67 us with firmware 5.1, 2.89 with 5.2, 2.76 in the
+  /// capture at hand: where beams point depends on their shares alone.
+  static constexpr std::int32_t kStep_ns = 2'763;
+  static constexpr int kSteps = 20;
+  static constexpr int kLasers = 128, kChannels = kLasers;
+  static constexpr PacketLayout kLayout{
+      .model = kModel,
+      .block_ids = {hdl64e::kUpperBlockId, hdl64e::kLowerBlockId, hdl64e::kVls128ThirdId,
+                    hdl64e::kVls128FourthId},
+      .blocks_per_column = 4,
+      .columns_dual = 2,  // the last four blocks are empty
+      .column_ns = kSteps * kStep_ns,
+      .firing_ns = kSteps * kStep_ns};
+  static constexpr int kDefaultColumns = 1809;  ///< 1809.6 firings a frame at 10 Hz.
+
+  static constexpr std::size_t kGroups = 16;
+  [[nodiscard]] static constexpr std::size_t group(std::size_t channel) noexcept {
+    return channel / 8;
+  }
+  [[nodiscard]] static constexpr std::int32_t group_ns(std::size_t group) noexcept {
+    const auto step = static_cast<std::int32_t>(group + group / 8 * 2);
+    return step * kStep_ns;
+  }
+};
+
+/// Some of the models above.
+template <class First, class... Rest>
+struct ModelList {
+  static constexpr std::array<PacketLayout, 1 + sizeof...(Rest)> kLayouts{First::kLayout,
+                                                                          Rest::kLayout...};
+  /// `Template` of them.
+  template <template <class...> class Template>
+  using In = Template<First, Rest...>;
+
+  /// Returns what `use` returns, which it calls with the std::type_identity of that model; of the
+  /// last one where none is that model.
+  template <class Use>
+  static decltype(auto) with(sensor::SensorModel model, const Use& use) {
+    if constexpr (sizeof...(Rest) == 0) {
+      return use(std::type_identity<First>{});
+    } else {
+      if (model == First::kModel) return use(std::type_identity<First>{});
+      return ModelList<Rest...>::with(model, use);
+    }
+  }
+};
+
+/// All of them, for what folds over models ...
+using Models = ModelList<Vlp16, Hdl32e, Vlp32c, Vls128>;
+/// ... and for what takes the preprocessor: DO(Template<model>) for each.
+#define TERRACUT_FOR_VELODYNE_MODELS(DO, Template) \
+  DO(Template<terracut::velodyne::Vlp16>)          \
+  DO(Template<terracut::velodyne::Hdl32e>)         \
+  DO(Template<terracut::velodyne::Vlp32c>)         \
+  DO(Template<terracut::velodyne::Vls128>)
+
+/// Null for a model that is none of them.
+[[nodiscard]] constexpr const PacketLayout* layout_of(sensor::SensorModel model) noexcept {
+  const auto* const found = std::ranges::find(Models::kLayouts, model, &PacketLayout::model);
+  return found == Models::kLayouts.end() ? nullptr : found;
+}
+
+}  // namespace terracut::velodyne

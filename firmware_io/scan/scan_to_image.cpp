@@ -57,11 +57,13 @@ void turn_over(std::span<const ScanPoint> points, std::span<ScanPoint> turned) n
 
 }  // namespace
 
-ScanToImage::ScanToImage(const mount::Mount& mount, std::size_t points_expected)
+ScanToImage::ScanToImage(const mount::Mount& mount)
     : T_vehicle_lidar_(mount::T_vehicle_lidar(mount)),
-      is_upside_down_(mount::is_upside_down(mount)) {
-  point_of_return_.reserve(points_expected);
-  label_without_return_.reserve(points_expected);
+      is_upside_down_(mount::is_upside_down(mount)) {}
+
+void ScanToImage::reserve(std::size_t points) {
+  point_of_return_.reserve(points);
+  label_without_return_.reserve(points);
 }
 
 ScanToImage::Summary ScanToImage::place(std::span<const ScanPoint> points,

@@ -25,7 +25,7 @@ namespace terracut::scan {
 /// cloud's order. Points without a ring and points beyond the overflow list's end are counted and
 /// not placed.
 ///
-/// Allocates nothing for clouds no larger than the largest before, or than `points_expected`.
+/// Allocates nothing for clouds no larger than the largest before, or than reserve()d.
 class ScanToImage {
  public:
   struct Summary {
@@ -35,7 +35,10 @@ class ScanToImage {
     std::size_t overflow_full = 0;  ///< Cell and overflow list were full; labelled kObstacle.
   };
 
-  explicit ScanToImage(const mount::Mount& mount, std::size_t points_expected = 0);
+  explicit ScanToImage(const mount::Mount& mount);
+
+  /// Takes room for clouds of so many points.
+  void reserve(std::size_t points);
 
   /// Clears `image`, which must have a row for every ring, and fills it with a cloud.
   /// `ring_of_point` has for each point its ring, 0 the highest, or kNoRing (always for points

@@ -7,18 +7,17 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "calib/mount/mount_finder.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "calib/terracut/calibration_table.hpp"
+#include "firmware_io/cloud/cloud_to_image.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
-#include "firmware_io/frame/range_image.hpp"
-#include "firmware_io/scan/scan_to_image.hpp"
 #include "firmware_io/terracut/points.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/ground/segmenter.hpp"
+#include "pipeline/run/cloud_pipeline.hpp"
 #include "pipeline/terracut/point_buffer.hpp"
 #include "pipeline/terracut/profile.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -49,62 +48,20 @@ Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {
 
 }  // namespace
 
-/// All that labels clouds of one sensor, taken when its first cloud is known.
-struct Segmenter::Labeller {
-  Labeller(const Config& config, const mount::Mount& mount, cloud::SensorRows rows,
-           std::size_t points_of_first)
-      : shape(rows.shape()),
-        finder(std::move(rows)),
-        image(shape, shape.cells(), memory),
-        first_points(points_of_first),
-        most_points(std::max(2 * first_points, image.return_capacity())),
-        to_image(mount, most_points),
-        segmenter(ground::remembering(*method_of(config), false),
-                  scan::ring_profile(finder.rows().rings.table, mount), shape,
-                  image.return_capacity(), memory) {
-    rings.ring_of_point.reserve(most_points);
-    labels.reserve(most_points);
-  }
-
-  [[nodiscard]] Status check_room(const cloud::CloudView& cloud) const {
-    if (cloud.points.size() <= most_points) return {};
-    return fail(ErrorCode::kCapacityExceeded,
-                fmt::format("{} points; the first cloud made room for {}", cloud.points.size(),
-                            most_points));
-  }
-
-  Status label(const cloud::CloudView& cloud) {
-    if (Status room = check_room(cloud); !room) return room;
-    if (Status found = finder.find(cloud, rings); !found) return found;
-    (void)to_image.place(cloud.points, rings.ring_of_point, image);
-    (void)segmenter.segment(image);
-    to_image.labels_of_points(segmenter.labels(), labels);
-    return {};
-  }
-
-  memory::FixedMemory memory;
-  frame::ImageShape shape;
-  cloud::RowFinder finder;
-  frame::RangeImage image;
-  std::size_t first_points;  ///< Of the first cloud.
-  std::size_t most_points;
-  scan::ScanToImage to_image;
-  ground::Segmenter segmenter;
-  scan::RingRecovery rings;
-  std::vector<Label> labels;
-};
-
 struct Segmenter::Engine {
   /// Reads the mount off the first clouds of a sensor.
   class MountOfFirstClouds {
    public:
-    MountOfFirstClouds() : to_image_(mount::kAtTheSensor) {}
+    explicit MountOfFirstClouds(const cloud::SensorRows& rows)
+        : to_image_(rows, mount::kAtTheSensor, memory_) {}
 
-    /// `image`: room to place the cloud in. Whether there is another mount to label by.
-    bool look(std::span<const scan::ScanPoint> points, std::span<const std::int16_t> ring_of_point,
-              frame::RangeImage& image) {
-      (void)to_image_.place(points, ring_of_point, image);
-      search_.add_frame(image);
+    /// Whether the cloud shows another mount to label by, now found(). The errors of
+    /// cloud::RowFinder::find().
+    Expected<bool> look(const cloud::CloudView& view) {
+      if (const Status placed = to_image_.place(view); !placed) {
+        return tl::unexpected(placed.error());
+      }
+      search_.add_frame(to_image_.image());
       const bool is_whole = search_.has_enough_frames();
       if (found_ && !is_whole) return false;
       const auto found = search_.found();
@@ -120,56 +77,81 @@ struct Segmenter::Engine {
     [[nodiscard]] const std::optional<mount::FoundMount>& found() const noexcept { return found_; }
 
    private:
-    scan::ScanToImage to_image_;
+    memory::FixedMemory memory_;
+    cloud::CloudToImage to_image_;
     ground::MountSearch search_;
     std::optional<mount::FoundMount> found_;
     Error fault_{ErrorCode::kMountNotFound, ""};
     bool is_done_ = false;
   };
 
-  explicit Engine(const Config& wanted) : config(wanted), mount(mount_of(wanted.mount)) {
-    if (wanted.find_mount) first_clouds.emplace();
-  }
+  explicit Engine(const Config& wanted) : config(wanted), mount(mount_of(wanted.mount)) {}
 
   Expected<std::span<const Label>> label(const cloud::CloudView& view) {
-    if (!labeller) {
-      auto rows =
-          cloud::learn_rows(1, [&](std::size_t) -> Expected<cloud::CloudView> { return view; });
-      if (!rows) return tl::unexpected(rows.error());
-      labeller.emplace(config, mount, *std::move(rows), view.points.size());
+    if (!pipeline) {
+      if (const Status learnt = learn(view); !learnt) return tl::unexpected(learnt.error());
     }
-    if (first_clouds && !first_clouds->is_done()) {
+    if (view.points.size() > most_points) {
+      return fail(ErrorCode::kCapacityExceeded,
+                  fmt::format("{} points; the first cloud made room for {}", view.points.size(),
+                              most_points));
+    }
+    if (first_clouds) {
       if (const Status looked = look_for_mount(view); !looked) {
         return tl::unexpected(looked.error());
       }
     }
-    if (const Status labelled = labeller->label(view); !labelled) {
+    status::FrameRecord record;
+    if (const Status labelled = pipeline->label(view, record); !labelled) {
       return tl::unexpected(labelled.error());
     }
     // Once, and not before: the view may look into these.
-    cloud.points.reserve(labeller->most_points);
-    cloud.laser.reserve(labeller->most_points);
-    return std::span<const Label>(labeller->labels);
+    cloud.points.reserve(most_points);
+    cloud.laser.reserve(most_points);
+    return std::span<const Label>(pipeline->point_labels());
+  }
+
+  Status learn(const cloud::CloudView& view) {
+    auto learnt =
+        cloud::learn_rows(1, [&](std::size_t) -> Expected<cloud::CloudView> { return view; });
+    if (!learnt) return tl::unexpected(learnt.error());
+    rows = *std::move(learnt);
+    most_points = 2 * view.points.size();
+    make_pipeline();
+    if (config.find_mount) first_clouds.emplace(*rows);
+    return {};
+  }
+
+  void make_pipeline() {
+    pipeline.emplace(*rows, scan::ring_profile(rows->rings.table, mount),
+                     ground::maker_of(*method_of(config)));
+    most_points = std::max(most_points, pipeline->image().return_capacity());
+    pipeline->reserve(most_points);
   }
 
   Status look_for_mount(const cloud::CloudView& view) {
-    if (Status room = labeller->check_room(view); !room) return room;
-    if (Status found = labeller->finder.find(view, labeller->rings); !found) return found;
-    if (first_clouds->look(view.points, labeller->rings.ring_of_point, labeller->image)) {
-      mount = first_clouds->found()->mount;
-      const std::size_t first_points = labeller->first_points;
-      cloud::SensorRows rows = labeller->finder.rows();
-      labeller.emplace(config, mount, std::move(rows), first_points);
+    const auto shows_another = first_clouds->look(view);
+    if (!shows_another) return tl::unexpected(shows_another.error());
+    if (*shows_another) {
+      found = first_clouds->found();
+      mount = found->mount;
+      make_pipeline();
     }
-    if (first_clouds->found() || config.guess_mount) return {};
-    return tl::unexpected(mount_not_found(first_clouds->fault()));
+    if (!found && !config.guess_mount) {
+      return tl::unexpected(mount_not_found(first_clouds->fault()));
+    }
+    if (first_clouds->is_done()) first_clouds.reset();
+    return {};
   }
 
   Config config;
   mount::Mount mount;
-  cloud::Cloud cloud;  ///< What is taken out of drivers' memory.
-  std::optional<Labeller> labeller;
-  std::optional<MountOfFirstClouds> first_clouds;  ///< Where the mount is to be found.
+  std::optional<mount::FoundMount> found;          ///< What `mount` is, where it was found.
+  cloud::Cloud cloud;                              ///< What is taken out of drivers' memory.
+  std::optional<cloud::SensorRows> rows;           ///< As the first cloud tells them.
+  std::size_t most_points = 0;                     ///< Of a cloud.
+  std::optional<run::CloudPipeline> pipeline;      ///< From the first cloud on.
+  std::optional<MountOfFirstClouds> first_clouds;  ///< While the mount is looked for.
 };
 
 Segmenter::Segmenter(std::unique_ptr<Engine> engine) noexcept : engine_(std::move(engine)) {}
@@ -194,8 +176,8 @@ Expected<std::span<const Label>> Segmenter::label(const Cloud& cloud) {
 }
 
 std::optional<FoundMount> Segmenter::found_mount() const noexcept {
-  if (!engine_->first_clouds || !engine_->first_clouds->found()) return std::nullopt;
-  return public_mount(*engine_->first_clouds->found());
+  if (!engine_->found) return std::nullopt;
+  return public_mount(*engine_->found);
 }
 
 Expected<std::span<const Label>> Segmenter::label(const PointBuffer& buffer) {

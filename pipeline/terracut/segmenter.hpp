@@ -120,7 +120,6 @@ class Segmenter {
 
  private:
   struct Engine;
-  struct Labeller;
   explicit Segmenter(std::unique_ptr<Engine> engine) noexcept;
   std::unique_ptr<Engine> engine_;
 };

@@ -8,11 +8,11 @@
 
 #include "firmware_io/cloud/row_doubt.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
+#include "pipeline/run/cloud_pipeline.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/figures/run_report.hpp"
 #include "tools/cli/input/cloud_input.hpp"
-#include "tools/cli/input/cloud_labeller.hpp"
 #include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/mount_watch.hpp"
 #include "tools/cli/input/recorded_frames.hpp"
@@ -69,14 +69,14 @@ ExitCode run_segment(const Options& options) {
       "{} rows by {}", rows->rings.table.size(),
       options.capture.calibration.empty() ? description_of(rows->source) : "the calibration given");
 
-  CloudLabeller labeller(method_of(options.method), *rows, *profile);
+  run::CloudPipeline pipeline(*rows, *profile, method_of(options.method));
   MountWatch watch(profile->mount, *mount);
   Report::ScanPoints points;  // of all scans
   std::vector<std::uint32_t> truth;
   FrameOutputs outputs(options.output);
   const Status outputs_open =
       outputs.open({.sensor = sensor_line,
-                    .rows = labeller.image.shape().rows,
+                    .rows = pipeline.image().shape().rows,
                     .mount = profile->mount,
                     .has_road = method_config_of(options.method).segmenter.road.enabled});
   if (!outputs_open) return refuse(outputs_open.error());
@@ -104,28 +104,28 @@ ExitCode run_segment(const Options& options) {
     status::FrameRecord record;
     record.info.complete = true;
     record.info.number = file.frame.value_or(static_cast<std::uint32_t>(i));
-    Status labelled = labeller.label(*cloud, record);
+    Status labelled = pipeline.label(*cloud, record);
     if (!labelled) {
       labelled.error().message.insert(0, file.points.string() + ": ");
       unused.add(labelled.error());
       continue;
     }
-    watch.add_frame(labeller.image);
-    points.no_place += labeller.placed.no_place;
-    points.no_ring += labeller.placed.no_ring;
+    watch.add_frame(pipeline.image());
+    points.no_place += pipeline.placed().no_place;
+    points.no_ring += pipeline.placed().no_ring;
     report.add(record);
-    if (!truth.empty()) report.score(labeller.point_labels, truth);
-    Status written = outputs.write_labels(file.name, labeller.point_labels);
+    if (!truth.empty()) report.score(pipeline.point_labels(), truth);
+    Status written = outputs.write_labels(file.name, pipeline.point_labels());
     if (written) {
-      written = outputs.write_frame(file.name, labeller.image, labeller.method->labels(),
-                                    labeller.truth_of_returns(truth));
+      written = outputs.write_frame(file.name, pipeline.image(), pipeline.labels(),
+                                    pipeline.truth_of_returns(truth));
     }
     if (written) {
       // Players of recordings need stamps that grow, and files have none.
       constexpr std::int64_t kFramePeriod_ns = 100'000'000;
       record.info.first_packet_ns = record.info.number * kFramePeriod_ns;
       record.info.last_packet_ns = record.info.first_packet_ns;
-      written = outputs.publish(record, labeller.image, labeller.method->labels());
+      written = outputs.publish(record, pipeline.image(), pipeline.labels());
     }
     if (!written) return refuse(written.error());
     progress.update(static_cast<double>(i + 1));

@@ -4,8 +4,8 @@
 
 #include <memory>
 
+#include "firmware_io/cloud/cloud_to_image.hpp"
 #include "firmware_io/decode/decoder.hpp"
-#include "firmware_io/scan/scan_to_image.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
@@ -110,10 +110,7 @@ mount::RingProfile CaptureFrames::ring_profile(const mount::Mount& mount) const 
 Status CloudFrames::each_frame(const mount::Mount& mount, std::size_t most,
                                const OnFrame& on_frame) {
   memory::FixedMemory memory;
-  frame::RangeImage image(rows_.shape(), rows_.shape().cells(), memory);
-  scan::ScanToImage to_image(mount);
-  scan::RingRecovery rings;
-  const cloud::RowFinder finder(rows_);
+  cloud::CloudToImage to_image(rows_, mount, memory);
   const std::size_t step = (clouds_.size() + most - 1) / most;
   std::size_t shown = 0;
   Status last_fault;
@@ -124,15 +121,14 @@ Status CloudFrames::each_frame(const mount::Mount& mount, std::size_t most,
       last_fault = tl::unexpected(cloud.error());
       continue;
     }
-    if (Status found = finder.find(*cloud, rings); !found) {
-      found.error().message = clouds_.file(i).points.string() + ": " + found.error().message;
-      last_fault = found;
+    if (Status placed = to_image.place(*cloud); !placed) {
+      placed.error().message = clouds_.file(i).points.string() + ": " + placed.error().message;
+      last_fault = placed;
       continue;
     }
     ++shown;
     if (!cloud::has_places(cloud->points)) continue;
-    (void)to_image.place(cloud->points, rings.ring_of_point, image);
-    if (Status going = on_frame(image); !going) return going;
+    if (Status going = on_frame(to_image.image()); !going) return going;
   }
   return shown > 0 ? Status{} : last_fault;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "calib/beams/angle.hpp"
+#include "firmware_io/cloud/cloud_to_image.hpp"
 #include "firmware_io/cloud/row_doubt.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "tools/cli/console.hpp"
@@ -51,7 +52,7 @@ Status NodeLabeller::set_up() {
   const auto profile = ring_profile_of(table, choice.options);
   if (!profile) return tl::unexpected(profile.error());
   mount_ = profile->mount;
-  labeller_.emplace(method_of(options_.method), *rows, *profile);
+  pipeline_.emplace(*rows, *profile, method_of(options_.method));
   watch_.emplace(profile->mount, choice);
   return {};
 }
@@ -59,15 +60,10 @@ Status NodeLabeller::set_up() {
 ground::MountSearch NodeLabeller::mount_search(const std::vector<cloud::Cloud>& clouds,
                                                const cloud::SensorRows& rows) {
   memory::FixedMemory memory;
-  frame::RangeImage image(rows.shape(), rows.shape().cells(), memory);
-  scan::ScanToImage to_image(mount::kAtTheSensor);
-  const cloud::RowFinder row_finder(rows);
-  scan::RingRecovery rings;
+  cloud::CloudToImage to_image(rows, mount::kAtTheSensor, memory);
   ground::MountSearch search;
   for (const cloud::Cloud& cloud : clouds) {
-    if (!row_finder.find(cloud.view(), rings)) continue;
-    (void)to_image.place(cloud.points, rings.ring_of_point, image);
-    search.add_frame(image);
+    if (to_image.place(cloud.view())) search.add_frame(to_image.image());
   }
   return search;
 }
@@ -90,7 +86,7 @@ Status NodeLabeller::label(status::FrameRecord& record) {
     return {};
   }
   const std::int64_t begun_cpu_ns = clock.thread_cpu_ns();
-  const Status labelled = labeller_->label(cloud_.view(), record,
+  const Status labelled = pipeline_->label(cloud_.view(), record,
                                            is_timed ? degradation_.budget() : min_cut::CutBudget{});
   record.segment_cpu_ns = clock.thread_cpu_ns() - begun_cpu_ns;
   record.labels_ns = clock.realtime_ns();
@@ -105,7 +101,7 @@ Status NodeLabeller::label(status::FrameRecord& record) {
 }
 
 void NodeLabeller::watch_mount() {
-  watch_->add_frame(labeller_->image);
+  watch_->add_frame(pipeline_->image());
 }
 
 }  // namespace terracut::cli

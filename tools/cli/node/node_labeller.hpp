@@ -11,9 +11,9 @@
 #include "firmware_io/cloud/cloud.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/live/degradation_policy.hpp"
+#include "pipeline/run/cloud_pipeline.hpp"
 #include "pipeline/terracut/point_buffer.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
-#include "tools/cli/input/cloud_labeller.hpp"
 #include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/mount_watch.hpp"
 #include "tools/cli/options.hpp"
@@ -34,7 +34,7 @@ class NodeLabeller {
   [[nodiscard]] bool has_places() const noexcept;
 
   /// Whether rows and mount are known, as label() needs them.
-  [[nodiscard]] bool is_ready() const noexcept { return labeller_.has_value(); }
+  [[nodiscard]] bool is_ready() const noexcept { return pipeline_.has_value(); }
   /// Keeps a copy of the cloud read last. True where as many are kept as set_up() can use.
   [[nodiscard]] bool learn_from_cloud();
   /// From the clouds that were kept, which are forgotten. The errors of cloud::learn_rows(), and
@@ -49,7 +49,7 @@ class NodeLabeller {
   [[nodiscard]] Status label(status::FrameRecord& record);
   /// One a point, in the cloud's order.
   [[nodiscard]] const std::vector<frame::Label>& point_labels() const noexcept {
-    return labeller_->point_labels;
+    return pipeline_->point_labels();
   }
 
   /// Compares the mount with the ground of the cloud labelled last; milliseconds.
@@ -67,7 +67,7 @@ class NodeLabeller {
   std::int64_t deadline_ns_;
   cloud::Cloud cloud_;
   std::vector<cloud::Cloud> kept_;
-  std::optional<CloudLabeller> labeller_;
+  std::optional<run::CloudPipeline> pipeline_;
   std::optional<MountWatch> watch_;
   mount::Mount mount_;
   std::string sensor_;

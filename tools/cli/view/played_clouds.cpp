@@ -36,7 +36,8 @@ Expected<std::unique_ptr<PlayedClouds>> PlayedClouds::open(const std::filesystem
   if (!profile) return tl::unexpected(profile.error());
   opened->sensor_line_ = fmt::format("{} rows of clouds", rows->rings.table.size());
   opened->mount_ = profile->mount;
-  opened->labeller_ = std::make_unique<CloudLabeller>(method_of(options.method), *rows, *profile);
+  opened->pipeline_ =
+      std::make_unique<run::CloudPipeline>(*rows, *profile, method_of(options.method));
   return opened;
 }
 
@@ -68,7 +69,7 @@ Status PlayedClouds::label(std::size_t index) {
   // Players of recordings need stamps that grow.
   record_.info.first_packet_ns = static_cast<std::int64_t>(index + 1) * kPeriod_ns;
   record_.info.last_packet_ns = record_.info.first_packet_ns;
-  if (const Status labelled = labeller_->label(*cloud, record_); !labelled) {
+  if (const Status labelled = pipeline_->label(*cloud, record_); !labelled) {
     return fail(labelled.error().code, file.points.string() + ": " + labelled.error().message);
   }
   return {};
@@ -76,8 +77,8 @@ Status PlayedClouds::label(std::size_t index) {
 
 void PlayedClouds::take(publish::LabelledFrame& frame) {
   frame.record = record_;
-  frame.points.resize(labeller_->image.returns());
-  (void)points::pack_labelled_points(labeller_->image, labeller_->method->labels(), frame.points);
+  frame.points.resize(pipeline_->image().returns());
+  (void)points::pack_labelled_points(pipeline_->image(), pipeline_->labels(), frame.points);
 }
 
 Status PlayedClouds::go_to(double seek_s) {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
+#include "pipeline/run/cloud_pipeline.hpp"
 #include "played_recording.hpp"
 #include "tools/cli/input/cloud_input.hpp"
-#include "tools/cli/input/cloud_labeller.hpp"
 #include "tools/cli/options.hpp"
 
 namespace terracut::cli {
@@ -23,7 +23,7 @@ class PlayedClouds : public PlayedRecording {
       const std::filesystem::path& clouds, const Options& options);
 
   [[nodiscard]] const std::string& sensor_line() const noexcept { return sensor_line_; }
-  [[nodiscard]] int rows() const noexcept { return labeller_->image.shape().rows; }
+  [[nodiscard]] int rows() const noexcept { return pipeline_->image().shape().rows; }
   [[nodiscard]] const mount::Mount& sensor_mount() const noexcept { return mount_; }
 
   [[nodiscard]] double frame_s() const override;
@@ -41,7 +41,7 @@ class PlayedClouds : public PlayedRecording {
   CloudReader reader_;
   std::string sensor_line_;
   mount::Mount mount_;
-  std::unique_ptr<CloudLabeller> labeller_;
+  std::unique_ptr<run::CloudPipeline> pipeline_;
   status::FrameRecord record_;
   std::size_t next_ = 0;
   std::string trouble_;  ///< Of the newest cloud that could not be labelled.

@@ -17,7 +17,6 @@
 #include <utility>
 
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/scan/scan_to_image.hpp"
 #include "firmware_io/scan/sensor_motion.hpp"
 #include "firmware_io/vehicle/planar_pose.hpp"
 #include "frame_judge.hpp"
@@ -80,16 +79,15 @@ frame::Place moved(const frame::Place& place, const std::optional<scan::RigidMot
 /// By up to ten scans of the sequence, evenly apart, as a run would find it.
 Expected<mount::FoundMount> mount_of(const datasets::Sequence& sequence) {
   memory::FixedMemory memory;
-  frame::RangeImage image(sequence.shape(), sequence.shape().cells(), memory);
-  scan::ScanToImage to_image(mount::kAtTheSensor);
+  DirectWay way(sequence.shape(), mount::kAtTheSensor, memory);
   datasets::LabelledScan scan;
   ground::MountSearch search;
   const std::size_t scans = std::min(sequence.size(), mount::kFramesToFind);
   for (std::size_t i = 0; i < scans; ++i) {
     const Status read = sequence.read(i * sequence.size() / scans, scan);
     if (!read) continue;  // is said when its turn comes
-    to_image.place(scan.scan.points, scan.rings.ring_of_point, image);
-    search.add_frame(image);
+    const auto placed = way.place(scan.scan.points, scan.rings.ring_of_point);
+    if (placed) search.add_frame(*placed->image);
   }
   return search.found();
 }

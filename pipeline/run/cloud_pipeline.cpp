@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/run/cloud_pipeline.hpp"
+
+namespace terracut::run {
+
+CloudPipeline::CloudPipeline(const cloud::SensorRows& rows, const mount::RingProfile& profile,
+                             const ground::MethodMaker& method)
+    : placement_(rows, profile.mount, memory_),
+      method_(method({.profile = profile,
+                      .shape = rows.shape(),
+                      .return_capacity = placement_.image().return_capacity()},
+                     memory_)) {}
+
+void CloudPipeline::reserve(std::size_t points) {
+  placement_.reserve(points);
+  point_labels_.reserve(points);
+}
+
+Status CloudPipeline::label(const cloud::CloudView& cloud, status::FrameRecord& record,
+                            const min_cut::CutBudget& budget) {
+  if (Status placed = placement_.place(cloud); !placed) return placed;
+  record.segmentation = method_->segment(image(), budget, &clock_);
+  record.stages = clock_.take();
+  placement_.labels_of_points(labels(), point_labels_);
+  record.segmentation.count(point_labels_);
+  // Points that are no return have kNone, which is counted as neither.
+  const auto no_place = static_cast<std::uint32_t>(placed().no_place);
+  record.segmentation.returns -= no_place;
+  record.segmentation.obstacles -= no_place;
+  record.info.returns = static_cast<std::uint32_t>(cloud.points.size()) - no_place;
+  record.info.losses.overflow_full_returns = placed().overflow_full;
+  return {};
+}
+
+std::span<const std::uint32_t> CloudPipeline::truth_of_returns(
+    std::span<const std::uint32_t> truth) {
+  return_truth_.clear();
+  if (truth.empty()) return return_truth_;
+  for (const std::uint32_t point : point_of_return()) return_truth_.push_back(truth[point]);
+  return return_truth_;
+}
+
+}  // namespace terracut::run

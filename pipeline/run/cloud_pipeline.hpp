@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/cloud/cloud_to_image.hpp"
+#include "firmware_io/cloud/sensor_rows.hpp"
+#include "pipeline/ground/frame_method.hpp"
+#include "pipeline/run/stage_clock.hpp"
+#include "pipeline/status/frame_record.hpp"
+#include "rt/memory/fixed_memory.hpp"
+
+namespace terracut::run {
+
+/// The way from clouds to labels on one thread: clouds of one sensor go in one after the other, a
+/// label for every point comes out.
+///
+///   status::FrameRecord record;
+///   if (const Status labelled = pipeline.label(cloud, record); !labelled) return labelled;
+///   write(record, pipeline.point_labels());
+///
+/// Whoever needs images alone, to find a mount by, has cloud::CloudToImage.
+///
+/// The constructor takes the memory of the image and the method. Labelling allocates for clouds
+/// larger than all before and than reserve()d, and where cloud::RowFinder does; never throws.
+class CloudPipeline {
+ public:
+  CloudPipeline(const cloud::SensorRows& rows, const mount::RingProfile& profile,
+                const ground::MethodMaker& method);
+
+  /// Takes room for clouds of so many points.
+  void reserve(std::size_t points);
+
+  /// Labels one cloud, and fills in what of `record` is known of a cloud. `budget`: what of a cut
+  /// there is time for. The errors of cloud::RowFinder::find().
+  [[nodiscard]] Status label(const cloud::CloudView& cloud, status::FrameRecord& record,
+                             const min_cut::CutBudget& budget = {});
+
+  /// Of the cloud labelled last, as all that follows: one label a point, in the cloud's order.
+  [[nodiscard]] const std::vector<frame::Label>& point_labels() const noexcept {
+    return point_labels_;
+  }
+  /// One a return, by return index of image().
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_->labels(); }
+  [[nodiscard]] const frame::RangeImage& image() const noexcept { return placement_.image(); }
+  /// By cell of image(), above the ground that the method has found.
+  [[nodiscard]] std::span<const float> height_m() const noexcept {
+    return method_->planes().height_m;
+  }
+  /// How many points became returns, and why others did not.
+  [[nodiscard]] const scan::ScanToImage::Summary& placed() const noexcept {
+    return placement_.placed();
+  }
+  /// By return index.
+  [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
+    return placement_.point_of_return();
+  }
+  /// The truth of each return, by return index; empty where `truth`, one a point, is.
+  [[nodiscard]] std::span<const std::uint32_t> truth_of_returns(
+      std::span<const std::uint32_t> truth);
+
+ private:
+  memory::FixedMemory memory_;
+  cloud::CloudToImage placement_;
+  std::unique_ptr<ground::FrameMethod> method_;  ///< Never null.
+  StageClock clock_;
+  std::vector<frame::Label> point_labels_;
+  std::vector<std::uint32_t> return_truth_;
+};
+
+}  // namespace terracut::run

@@ -20,12 +20,16 @@ constexpr std::uint16_t kPort = 2368;
 
 class InterfaceLoss : public LiveTest {
  protected:
-  /// Pulls and puts back the cable in every way, with a source that `open_source()` opens and a
-  /// sensor on the other machine that sends to `to`.
-  template <class Open>
-  void survive(PrivateNetwork& network, std::uint32_t to, Open&& open_source,
-               bool names_interface) {
-    auto source = open_source();
+  /// Pulls and puts back the cable in every way, with such a source and a sensor on the
+  /// other machine that sends to `to`.
+  template <class Source = UdpSource, class Config = net::UdpSourceConfig>
+  void survive(std::uint32_t to, const Config& config) {
+    with_cable([&](PrivateNetwork& network) { survive<Source>(network, to, config); });
+  }
+  template <class Source>
+  void survive(PrivateNetwork& network, std::uint32_t to, const auto& config) {
+    const bool names_interface = !config.interface.empty();
+    auto source = Source::open(config, memory_);
     ASSERT_TRUE(source) << source.error().message;
     expect_reception(network, *source, to);
 
@@ -101,42 +105,23 @@ class InterfaceLoss : public LiveTest {
 };
 
 TEST_F(InterfaceLoss, IsSurvivedByASourceOnThatInterface) {
-  with_cable([&](PrivateNetwork& network) {
-    survive(
-        network, kHere,
-        [&] { return UdpSource::open({.bind = {0, kPort}, .interface = "sensor0"}, memory_); },
-        true);
-  });
+  survive(kHere, {.bind = {0, kPort}, .interface = "sensor0"});
 }
 
 TEST_F(InterfaceLoss, IsSurvivedByASourceBoundToItsAddress) {
-  with_cable([&](PrivateNetwork& network) {
-    survive(
-        network, kHere, [&] { return UdpSource::open({.bind = {kHere, kPort}}, memory_); }, false);
-  });
+  survive(kHere, {.bind = {kHere, kPort}});
 }
 
 TEST_F(InterfaceLoss, IsSurvivedByAMulticastGroupOnThatInterface) {
-  with_cable([&](PrivateNetwork& network) {
-    survive(
-        network, kLossGroup,
-        [&] {
-          return UdpSource::open(
-              {.bind = {0, kPort}, .multicast_group = kLossGroup, .interface = "sensor0"}, memory_);
-        },
-        true);
-  });
+  survive(kLossGroup, {.bind = {0, kPort}, .multicast_group = kLossGroup, .interface = "sensor0"});
 }
 
 TEST_F(InterfaceLoss, IsSurvivedByAMulticastGroupThatTheRoutesLeadTo) {
-  with_cable([&](PrivateNetwork& network) {
-    survive(
-        network, kLossGroup,
-        [&] {
-          return UdpSource::open({.bind = {0, kPort}, .multicast_group = kLossGroup}, memory_);
-        },
-        false);
-  });
+  survive(kLossGroup, {.bind = {0, kPort}, .multicast_group = kLossGroup});
+}
+
+TEST_F(InterfaceLoss, IsSurvivedByListeningWithLibpcap) {
+  survive<LivePcapSource, net::LivePcapConfig>(kHere, {.interface = "sensor0", .port = kPort});
 }
 
 TEST_F(InterfaceLoss, LosesNoCountOfDropsAndInventsNone) {
@@ -149,15 +134,6 @@ TEST_F(InterfaceLoss, LosesNoCountOfDropsAndInventsNone) {
     ASSERT_TRUE(network.plug_in());
     expect_reception(network, source, kHere);
     flood(network, source);
-  });
-}
-
-TEST_F(InterfaceLoss, IsSurvivedByListeningWithLibpcap) {
-  with_cable([&](PrivateNetwork& network) {
-    survive(
-        network, kHere,
-        [&] { return LivePcapSource::open({.interface = "sensor0", .port = kPort}, memory_); },
-        true);
   });
 }
 

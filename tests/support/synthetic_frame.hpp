@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <vector>
 
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/range_image.hpp"

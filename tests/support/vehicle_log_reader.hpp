@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstdint>
 #include <cstdio>
 #include <numbers>
 #include <sstream>

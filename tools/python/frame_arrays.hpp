@@ -4,7 +4,6 @@
 
 #include <pybind11/numpy.h>
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <initializer_list>
 #include <ostream>

@@ -6,7 +6,6 @@
 #include <sys/socket.h>
 
 #include <array>
-#include <utility>
 
 #include "firmware_io/can/can_wire.hpp"
 #include "rt/files/owned_descriptor.hpp"

@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/net/packet_ring.hpp"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <limits>
 #include <optional>

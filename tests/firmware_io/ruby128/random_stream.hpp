@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
-#include <span>
 #include <vector>
 
 #include "calib/beams/angle.hpp"

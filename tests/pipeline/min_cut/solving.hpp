@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "pipeline/min_cut/grid_cut.hpp"

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <vector>
-
 #include "relabel_job.hpp"
 
 namespace terracut::cli {

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstddef>
-#include <memory>
 #include <string_view>
 #include <vector>
 

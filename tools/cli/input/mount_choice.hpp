@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "calib/mount/mount_finder.hpp"
 #include "recorded_frames.hpp"

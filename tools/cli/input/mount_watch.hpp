@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstdint>
-
 #include "calib/mount/mount_check.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "pipeline/status/mount_figures.hpp"

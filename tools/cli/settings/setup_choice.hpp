@@ -4,7 +4,6 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "calib/mount/ring_profile.hpp"
 #include "calib/sensor_calibration.hpp"

@@ -9,7 +9,6 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "pipeline/publish/labelled_frame.hpp"

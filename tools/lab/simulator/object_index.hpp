@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>

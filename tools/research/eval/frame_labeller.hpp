@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <variant>

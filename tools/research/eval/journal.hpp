@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <mutex>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // DipG-Seg as a peer of tools/beside_peer.
-#include <list>
 
 #include "dipgseg.h"
 #include "peer_program.hpp"

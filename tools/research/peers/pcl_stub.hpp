@@ -8,10 +8,6 @@
 #include <boost/shared_ptr.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <iostream>
-#include <list>
-#include <map>
-#include <queue>
 #include <vector>
 
 /// In place of PCL's headers, for peers that use its clouds as vectors of points and nothing else:

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <cstdlib>
-#include <map>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "tests/tools/cli/cli_fixture.hpp"
 #include "tools/cli/fleet/labelled_drive.hpp"

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "tests/firmware_io/scan/synthetic_scan.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -93,13 +93,11 @@ Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration
                  const mount::Mount& mount, const Config& config, memory::FixedMemory& memory)
     : reorder_packets_(config.reorder_packets),
       dual_owner_(config.dual_owner),
-      packet_bytes_(model.packet_bytes),
       sensor_(sensor_of(calibration, mount, config, model.columns, memory)),
       tracker_(model.clock_wrap_us, memory),
       frames_(frame_config(model, config), memory),
       clock_(model.clock_wrap_us),
-      kept_(memory.take<KeptPacket>("packets in doubt", kMostKept)),
-      kept_bytes_(memory.take<std::uint8_t>("packets in doubt", kMostKept * packet_bytes_)) {
+      in_doubt_(model.packet_bytes, memory) {
   std::vector<std::int32_t> beam_ticks(static_cast<std::size_t>(model.rows));
   with_sensor([&](auto& sensor) noexcept {
     const auto rows = sensor.trait().rows();
@@ -141,23 +139,19 @@ void Decoder::push(const packet::Datagram& datagram) noexcept {
   const std::int64_t began_ns = host_began_ns(datagram.stamp_ns);
   const Placement placed = tracker_.place(azimuths_, began_ns, frames_.losses());
   if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
-  if (placed.arrival == Arrival::kDoubtful) {
-    if (placed.is_first_in_doubt) reject_kept();
-    return keep(datagram, placed);
+  if (placed.arrival == Arrival::kDoubtful || placed.arrival == Arrival::kNewStream) {
+    if (placed.is_first_in_doubt) in_doubt_.drop(frames_.losses());
+    in_doubt_.keep(datagram, azimuths_, placed);
+    if (placed.arrival == Arrival::kNewStream) begin_anew(Step::kNothing);
+    return;
   }
-  if (placed.arrival == Arrival::kNewStream) {
-    anew_.pushed = datagram;
-    anew_.pushed_azimuths = azimuths_;
-    return begin_anew(placed.rotor_cdeg, true);
-  }
-  reject_kept();
+  in_doubt_.drop(frames_.losses());
   after_packet_ = Step::kNothing;
   take(datagram.payload, datagram.stamp_ns, placed);
 }
 
 void Decoder::end_stream() noexcept {
-  if (kept_packets_ > 0) return begin_anew(kept_[kept_packets_ - 1].rotor_cdeg, false);
-  step_ = Step::kEnd;
+  begin_anew(Step::kEnd);
 }
 
 frame::Frame* Decoder::next(frame::RangeImage* in_exchange) noexcept {
@@ -176,9 +170,6 @@ bool Decoder::go_on() noexcept {
     case Step::kTakeKept:
       take_kept();
       break;
-    case Step::kTakePushed:
-      take_pushed();
-      break;
     case Step::kRestart:
       restart();
       break;
@@ -192,47 +183,26 @@ bool Decoder::go_on() noexcept {
   return true;
 }
 
-void Decoder::keep(const packet::Datagram& datagram, const Placement& placed) noexcept {
-  std::ranges::copy(datagram.payload, kept_bytes(kept_packets_).begin());
-  kept_[kept_packets_++] = {azimuths_, datagram.stamp_ns, placed.rotor_cdeg, placed.reject};
-}
-
-void Decoder::begin_anew(std::int64_t newest_cdeg, bool has_pushed) noexcept {
-  anew_.next = 0;
-  anew_.has_begun = false;
-  anew_.has_pushed = has_pushed;
-  anew_.newest_cdeg = newest_cdeg;
+void Decoder::begin_anew(Step then) noexcept {
+  anew_ = {.has_begun = false, .then = then};
   step_ = after_packet_ = Step::kTakeKept;
 }
 
 void Decoder::take_kept() noexcept {
-  if (anew_.next == kept_packets_) {
-    kept_packets_ = 0;
-    step_ = anew_.has_pushed ? Step::kTakePushed : Step::kEnd;
+  const PacketsInDoubt::Packet* packet = in_doubt_.take();
+  if (packet == nullptr) {
+    step_ = after_packet_ = anew_.then;
     return;
   }
-  const std::size_t number = anew_.next++;
-  const KeptPacket& kept = kept_[number];
-  if (kept.rotor_cdeg < anew_.newest_cdeg - beams::kRevolution_cdeg)
-    return count_rejected(kept.reason);
-  azimuths_ = kept.azimuths;
-  const std::int64_t began_ns = host_began_ns(kept.stamp_ns);
+  rejected_.reset();
+  if (in_doubt_.is_too_old(*packet)) return reject(packet->reason);
+  azimuths_ = packet->azimuths;
+  const std::int64_t began_ns = host_began_ns(packet->stamp_ns);
   const Placement placed = std::exchange(anew_.has_begun, true)
                                ? tracker_.go_on(azimuths_, began_ns, frames_.losses())
                                : tracker_.begin(azimuths_, began_ns, frames_.losses());
-  if (placed.arrival == Arrival::kRejected) return count_rejected(placed.reject);
-  take(kept_bytes(number), kept.stamp_ns, placed);
-}
-
-void Decoder::take_pushed() noexcept {
-  rejected_.reset();
-  step_ = after_packet_ = Step::kNothing;
-  azimuths_ = anew_.pushed_azimuths;
-  const packet::Datagram& pushed = anew_.pushed;
-  const Placement placed =
-      tracker_.go_on(azimuths_, host_began_ns(pushed.stamp_ns), frames_.losses());
   if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
-  take(pushed.payload, pushed.stamp_ns, placed);
+  take(packet->payload, packet->stamp_ns, placed);
 }
 
 void Decoder::take(std::span<const std::uint8_t> payload, std::int64_t stamp_ns,

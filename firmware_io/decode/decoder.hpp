@@ -17,6 +17,7 @@
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/host_clock.hpp"
 #include "firmware_io/decode/packet_returns.hpp"
+#include "firmware_io/decode/packets_in_doubt.hpp"
 #include "firmware_io/decode/stream_tracker.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
@@ -112,7 +113,7 @@ class Decoder {
   [[nodiscard]] frame::LossCounters losses() const noexcept { return frames_.total_losses(); }
   [[nodiscard]] std::uint64_t packets_decoded() const noexcept { return packets_; }
   /// Returns the number of packets neither decoded nor rejected yet.
-  [[nodiscard]] std::size_t packets_kept() const noexcept { return kept_packets_; }
+  [[nodiscard]] std::size_t packets_kept() const noexcept { return in_doubt_.size(); }
   [[nodiscard]] std::uint64_t columns_decoded() const noexcept { return columns_; }
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_.frames(); }
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return frames_.shape(); }
@@ -218,21 +219,6 @@ class Decoder {
     count_rejected(reason);
     rejected_ = reason;
   }
-  /// A packet that contradicts the stream, kept until that is decided.
-  struct KeptPacket {
-    packet::PacketAzimuths azimuths;
-    std::int64_t stamp_ns;
-    std::int64_t rotor_cdeg;  ///< Placement::rotor_cdeg
-    frame::Reject reason;     ///< Used if the packet is rejected in the end.
-  };
-  void keep(const packet::Datagram& datagram, const Placement& placed) noexcept;
-  [[nodiscard]] std::span<std::uint8_t> kept_bytes(std::size_t number) noexcept {
-    return kept_bytes_.subspan(number * packet_bytes_, packet_bytes_);
-  }
-  void reject_kept() noexcept {
-    for (std::size_t i = 0; i < kept_packets_; ++i) count_rejected(kept_[i].reason);
-    kept_packets_ = 0;
-  }
   /// Converts a host stamp for a packet with a sector inside: the device stamps the first firing,
   /// the host the arrival, and the sector lies between. A capture's stamps may be anything, so this
   /// may wrap.
@@ -255,20 +241,17 @@ class Decoder {
   /// What remains to be done when the finished frames are handed out.
   enum class Step : std::uint8_t {
     kNothing,
-    kTakeKept,    ///< Decode the kept packets as a new stream.
-    kTakePushed,  ///< Decode the packet that confirmed it.
-    kRestart,     ///< Start the stream; the old one's frames are handed out.
-    kPlace,       ///< Place the packet's returns; there is room for them.
-    kEnd,         ///< End the stream.
+    kTakeKept,  ///< Decode the kept packets as a new stream.
+    kRestart,   ///< Start the stream; the old one's frames are handed out.
+    kPlace,     ///< Place the packet's returns; there is room for them.
+    kEnd,       ///< End the stream.
   };
   /// Does one step; false if none is left.
   bool go_on() noexcept;
-  /// Starts a new stream with the kept packets, but only those within a revolution of the head at
-  /// `newest_cdeg`: more would hand out several frames at once.
-  void begin_anew(std::int64_t newest_cdeg, bool has_pushed) noexcept;
+  /// The packets in doubt, if any, are the stream from here on; what is to be done `then`.
+  void begin_anew(Step then) noexcept;
   void take_kept() noexcept;
-  void take_pushed() noexcept;
-  /// Decodes a packet that the tracker has placed, in two or three steps.
+  /// Decodes what the tracker has placed, in two or three steps.
   void take(std::span<const std::uint8_t> payload, std::int64_t stamp_ns,
             const Placement& placed) noexcept;
   void restart() noexcept;
@@ -316,11 +299,8 @@ class Decoder {
     frames_.losses().azimuth_hole_columns +=
         static_cast<std::uint64_t>((due.ticks + step_ticks / 2) / step_ticks);
   }
-  static constexpr std::size_t kMostKept = StreamTracker::kNewStream_packets - 1;
-
   int reorder_packets_;
   frame::CellOwner dual_owner_;
-  std::size_t packet_bytes_;
   SensorReturns sensor_;
   StreamTracker tracker_;
   FrameBuilder frames_;
@@ -328,20 +308,15 @@ class Decoder {
   HostClock clock_;
   std::span<float> beam_turns_;
   std::optional<Deskewer> deskewer_;
-  std::span<KeptPacket> kept_;
-  std::span<std::uint8_t> kept_bytes_;  ///< Payloads of the kept packets.
-  std::size_t kept_packets_ = 0;
+  PacketsInDoubt in_doubt_;
   packet::PacketAzimuths azimuths_;
   Step step_ = Step::kNothing;
   Step after_packet_ = Step::kNothing;  ///< What follows when the job is done.
   Job job_;
   struct {
-    std::size_t next = 0;  ///< Index of the next kept packet.
-    bool has_begun = false, has_pushed = false;
-    std::int64_t newest_cdeg = 0;
-    packet::PacketAzimuths pushed_azimuths;
-    packet::Datagram pushed;
-  } anew_;  ///< State while kept packets become the stream.
+    bool has_begun = false;
+    Step then = Step::kNothing;
+  } anew_;  ///< While packets that were in doubt become the stream.
   std::optional<frame::Reject> rejected_;
   std::int64_t frontier_ticks_ = 0;          ///< The head has been seen up to here.
   std::int64_t complete_ticks_ = 0;          ///< Up to here no more returns are expected.

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "calib/beams/angle.hpp"
+#include "firmware_io/decode/stream_tracker.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
+#include "rt/memory/fixed_memory.hpp"
+
+namespace terracut::decode {
+
+/// Packets that contradict the stream (Arrival::kDoubtful), with their bytes, until it is known
+/// whether they are strays or, with the one that is a kNewStream, the stream from here on. All but
+/// the constructor is real-time safe. One thread.
+class PacketsInDoubt {
+ public:
+  struct Packet {
+    packet::PacketAzimuths azimuths;
+    std::int64_t stamp_ns = 0;
+    std::int64_t rotor_cdeg = 0;  ///< Placement::rotor_cdeg
+    frame::Reject reason{};       ///< Unless others agree with it.
+    std::span<const std::uint8_t> payload{};
+  };
+
+  /// `packet_bytes`: the size of a data packet.
+  PacketsInDoubt(std::size_t packet_bytes, memory::FixedMemory& memory)
+      : packet_bytes_(packet_bytes),
+        packets_(memory.take<Packet>("packets in doubt", kMost)),
+        bytes_(memory.take<std::uint8_t>("packets in doubt", kMost * packet_bytes)) {}
+
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+  /// At most StreamTracker::kNewStream_packets, the last of them the kNewStream.
+  void keep(const packet::Datagram& datagram, const packet::PacketAzimuths& azimuths,
+            const Placement& placed) noexcept {
+    const auto bytes = bytes_.subspan(size_ * packet_bytes_, packet_bytes_);
+    std::ranges::copy(datagram.payload, bytes.begin());
+    packets_[size_++] = {azimuths, datagram.stamp_ns, placed.rotor_cdeg, placed.reject, bytes};
+  }
+  /// They were strays, each of which is counted for its own reason.
+  void drop(frame::LossCounters& losses) noexcept {
+    for (const Packet& packet : packets_.first(size_)) {
+      ++losses.rejected[static_cast<std::size_t>(packet.reason)];
+    }
+    size_ = next_ = 0;
+  }
+
+  /// They are a stream: the oldest that was not taken yet. Null, and all are forgotten, when there
+  /// is none left.
+  [[nodiscard]] const Packet* take() noexcept {
+    if (next_ < size_) return &packets_[next_++];
+    size_ = next_ = 0;
+    return nullptr;
+  }
+  /// It lies more than a frame before the newest. Such a packet is left out: for more revolutions
+  /// more frames would be handed out at once.
+  [[nodiscard]] bool is_too_old(const Packet& packet) const noexcept {
+    return packet.rotor_cdeg < packets_[size_ - 1].rotor_cdeg - beams::kRevolution_cdeg;
+  }
+
+ private:
+  static constexpr std::size_t kMost = StreamTracker::kNewStream_packets;
+
+  std::size_t packet_bytes_;
+  std::span<Packet> packets_;
+  std::span<std::uint8_t> bytes_;  ///< Their payloads.
+  std::size_t size_ = 0;
+  std::size_t next_ = 0;  ///< To be taken.
+};
+
+}  // namespace terracut::decode

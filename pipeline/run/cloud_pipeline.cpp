@@ -37,7 +37,8 @@ std::span<const std::uint32_t> CloudPipeline::truth_of_returns(
     std::span<const std::uint32_t> truth) {
   return_truth_.clear();
   if (truth.empty()) return return_truth_;
-  for (const std::uint32_t point : point_of_return()) return_truth_.push_back(truth[point]);
+  for (const std::uint32_t point : placement_.point_of_return())
+    return_truth_.push_back(truth[point]);
   return return_truth_;
 }
 

@@ -49,17 +49,9 @@ class CloudPipeline {
   /// One a return, by return index of image().
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_->labels(); }
   [[nodiscard]] const frame::RangeImage& image() const noexcept { return placement_.image(); }
-  /// By cell of image(), above the ground that the method has found.
-  [[nodiscard]] std::span<const float> height_m() const noexcept {
-    return method_->planes().height_m;
-  }
   /// How many points became returns, and why others did not.
   [[nodiscard]] const scan::ScanToImage::Summary& placed() const noexcept {
     return placement_.placed();
-  }
-  /// By return index.
-  [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
-    return placement_.point_of_return();
   }
   /// The truth of each return, by return index; empty where `truth`, one a point, is.
   [[nodiscard]] std::span<const std::uint32_t> truth_of_returns(

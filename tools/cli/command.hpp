@@ -39,7 +39,7 @@ struct CommandText {
   std::string_view name, about;
 };
 
-/// By Command.
+/// Names and help by Command.
 inline constexpr std::array kCommands{
     CommandText{"replay", "Label every return of a capture, frame by frame"},
     CommandText{"view", "Show labelled frames in a browser, to play, step and seek"},
@@ -51,7 +51,7 @@ inline constexpr std::array kCommands{
     CommandText{"compare",
                 "Compare two labelings of the same recordings: what changed, where most"},
     CommandText{"simulate", "Drive a simulated sensor: capture, table and truth"},
-    CommandText{"encode", "Frame recorded scans into packets with their truth"},
+    CommandText{"encode", "Turn recorded scans into packets, with their truth"},
     CommandText{"calibrate",
                 "Find the mount and the rings' ground distances from a capture,\n"
                 "or from clouds, taken on a straight, level, open road"},
@@ -78,7 +78,8 @@ inline constexpr std::array kCommands{
   return kCommands[static_cast<std::size_t>(command)].name;
 }
 
-/// Some of them: kReplay | kLive.
+/// A set of commands: kReplay
+/// kLive.
 class CommandSet {
  public:
   constexpr CommandSet() noexcept = default;
@@ -100,7 +101,7 @@ class CommandSet {
   return CommandSet(a) | CommandSet(b);
 }
 
-/// "replay, live".
+/// Returns "replay, live".
 [[nodiscard]] inline std::string names_of(CommandSet commands) {
   std::string names;
   for (std::size_t i = 0; i < kCommands.size(); ++i) {

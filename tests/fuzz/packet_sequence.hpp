@@ -31,7 +31,7 @@ struct Head {
     return blind_cdeg > 0 &&
            beams::wrap_cdeg(azimuth_cdeg - blind_from_cdeg) < static_cast<std::int32_t>(blind_cdeg);
   }
-  /// Frames on to where it is not blind any more.
+  /// Rotates the head to the end of its blind sector.
   void leave_sector(std::int64_t firing_ns) {
     for (; is_blind() && step_cdeg > 0; device_ns += firing_ns) azimuth_cdeg += step_cdeg;
   }

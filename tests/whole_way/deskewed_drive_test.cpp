@@ -244,7 +244,7 @@ TEST_F(DeskewedDrive, ReturnsLieWithinCentimetresOfTheUnmovingTruth) {
   }
 }
 
-TEST_F(DeskewedDrive, OnUnevenRoadsWhatIsLeftIsTheRollAndPitchThatSpeedAndFrameRateDoNotTell) {
+TEST_F(DeskewedDrive, OnUnevenRoadsWhatIsLeftIsTheRollAndPitchThatSpeedAndYawRateDoNotTell) {
   for (const auto& [scene, allowed_m] : {std::pair{"street", 0.03}, std::pair{"highway", 0.06},
                                          std::pair{"rural", 0.1}, std::pair{"hill", 0.3}}) {
     const auto config = fast_bend<packets::Hdl64eEncoderTraits>(scene, 2);

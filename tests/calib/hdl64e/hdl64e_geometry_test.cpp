@@ -114,7 +114,7 @@ TEST(Hdl64eGeometry, FollowsAHandComputedExample) {
   EXPECT_NEAR(ros.z_m, -4.826795, 1e-6);
 }
 
-TEST(Hdl64eGeometry, PositiveRotationalCorrectionFramesTheBeamLeft) {
+TEST(Hdl64eGeometry, PositiveRotationalCorrectionTurnsTheBeamLeft) {
   Hdl64eCalibration calibration;
   calibration.lasers[0].rot_correction_rad = beams::deg_to_rad(5);
   EXPECT_GT(Hdl64eGeometry(calibration).point(0, 0.0, 5000).y_m, 0);

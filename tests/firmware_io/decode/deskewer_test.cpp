@@ -72,7 +72,7 @@ class DeskewerTest : public testing::Test {
     const double range_m = 10 + 20 * row;
     return {range_m * std::cos(azimuth_rad), -range_m * std::sin(azimuth_rad), 1, 0};
   }
-  /// Frames of the head until a cell's beam fires: the beam is in the middle of its column.
+  /// Revolutions of the head until a cell's beam fires: the beam is in the middle of its column.
   static double share_of(int frame, int row, int column) {
     return frame + (column + 0.5) / kShape.columns -
            static_cast<double>(kBeam_ticks[static_cast<std::size_t>(row)]) /

@@ -443,7 +443,7 @@ TEST(Disorder, AFrozenDeviceClockIsCountedAndDecodedAnyway) {
 }
 
 TEST(Disorder, NoStreamMakesAFrameLargerThanItsImage) {
-  // The same sector over and over, with running stamps: the head "frames" but gets nowhere.
+  // The same sector over and over, with running stamps: the head "rotates" but gets nowhere.
   const auto packets = random_packets({.last_cdeg = 35'100, .share_of_returns = 1.0});
   Recorder recorder;
   std::uint64_t sent = 0;

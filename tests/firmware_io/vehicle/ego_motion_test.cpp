@@ -48,7 +48,7 @@ class EgoMotionTest : public testing::Test {
   EgoMotion motion_{{}, memory_};
 };
 
-TEST_F(EgoMotionTest, ASteadyFrameIsAnArcSeenFromAnyReference) {
+TEST_F(EgoMotionTest, ASteadyTurnIsAnArcSeenFromAnyReference) {
   drive(0, 200, 20, 0.5);
   for (const double reference_ms : {37.0, 80.0, 150.0, 200.0}) {
     for (const double instant_ms : {11.0, 80.0, 123.4, 199.0}) {

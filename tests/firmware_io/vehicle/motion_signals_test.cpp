@@ -127,7 +127,7 @@ TEST_F(MotionSignalsTest, TakesTheUnitOfTheConfigurationBeforeThatOfTheFile) {
   EXPECT_NEAR(sample->yaw_rate_radps, 0.5, 1e-12);
 }
 
-TEST_F(MotionSignalsTest, TakesSignsFromSignalsOfTheirOwnAndFramesThemRound) {
+TEST_F(MotionSignalsTest, TakesSignsFromSignalsOfTheirOwnAndReversesThem) {
   auto config = plain();
   config.speed.sign = "BACKWARDS";
   config.yaw_rate.sign = "RATE_SIGN";
@@ -136,7 +136,7 @@ TEST_F(MotionSignalsTest, TakesSignsFromSignalsOfTheirOwnAndFramesThemRound) {
   wheels(0, 3600, 0, 0, 1);
   EXPECT_NEAR(yaw(1, 100, 0)->speed_mps, -10, 1e-12);
   EXPECT_LT(yaw(2, 100, 0)->yaw_rate_radps, 0);
-  EXPECT_GT(yaw(3, 100, 1)->yaw_rate_radps, 0) << "both frame it";
+  EXPECT_GT(yaw(3, 100, 1)->yaw_rate_radps, 0) << "both reverse it";
   wheels(4, 3600, 0, 0, 0);
   EXPECT_NEAR(yaw(5, 100)->speed_mps, 10, 1e-12);
 }

@@ -22,7 +22,7 @@ TEST(PlanarPose, APoseAndItsInverseCancel) {
   expect_near(inverse(pose) * pose, {}, 1e-15);
 }
 
-TEST(PlanarPose, ConstantMotionIsAnArcOfTheRadiusSpeedByFrameRate) {
+TEST(PlanarPose, ConstantMotionIsAnArcOfTheRadiusSpeedByYawRate) {
   for (const double yaw_rate_radps : {0.5, -0.5, 0.013, 3.0, -9.0}) {
     for (const double seconds : {0.01, 0.1, 1.0, -0.1}) {
       const double radius_m = 20 / yaw_rate_radps, rotated_rad = yaw_rate_radps * seconds;

@@ -5,9 +5,10 @@
 
 slurm_test.py REPOSITORY PROGRAM WORK_FOLDER
 
-An array of twelve shards over simulated and recorded drives of both sensors, one input cut short and one missing; a slurmd and
-a task are killed with -9. Every good drive's labels have to be those of `terracut replay` or `segment`, the bad ones named, and
-the same submission again, or GNU parallel, does only what is missing. The daemons are this test's own: their ports, keys and folders are.
+An array of twelve shards over simulated and recorded drives of HDL-64E and RS-Ruby128, one input cut short and one missing; a
+slurmd and a task are killed with -9. Every good drive's labels have to be those of `terracut replay` or `segment`, the bad ones
+named, and the same submission again, or GNU parallel, does only what is missing. The daemons are this test's own: their ports,
+keys and folders are.
 """
 
 import contextlib
@@ -143,7 +144,7 @@ PartitionName=all Nodes=n1,n2 Default=YES MaxTime=INFINITE State=UP
 
 
 class Fleet:
-    """Drives of both sensors, and what is made of them."""
+    """Drives of HDL-64E and RS-Ruby128, and their labels."""
 
     def __init__(self, repository: Path, program: Path, folder: Path):
         self.repository, self.program, self.folder = repository, program, folder

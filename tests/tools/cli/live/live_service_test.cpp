@@ -65,7 +65,7 @@ TEST_F(Watchdog, IsFedWhileTheSensorIsOff) {
 TEST_F(Watchdog, IsFedWhileTheHeadStands) {
   EXPECT_TRUE(may_feed(1000, 10));
   figures_->head_stands = true;
-  EXPECT_TRUE(may_feed(2000, 10)) << "a new start would not frame it";
+  EXPECT_TRUE(may_feed(2000, 10)) << "a restart would not make it rotate";
   figures_->head_stands = false;
   EXPECT_FALSE(may_feed(3000, 10));
 }

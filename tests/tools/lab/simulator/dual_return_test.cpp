@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// Both sensors in dual return, and the RS-Ruby128, in the simulated world.
+// HDL-64E and RS-Ruby128 in dual return, and RS-Ruby128 in single return, in the simulated world.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -23,7 +23,7 @@ namespace {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::chrono::seconds kPatience{3};
 constexpr const char* kWipeLine = "\r\x1b[K";
-std::atomic<bool> progress_line_stands = false;  // say() may come from any thread
+std::atomic<bool> progress_line_stands = false;  // shared, as say() may come from any thread
 thread_local HeardLines* listener = nullptr;
 std::atomic<int> output_error = 0;  // errno of the first result that could not be written
 std::atomic<MessageThread*> background = nullptr;  // never destroyed: it may hang
@@ -33,7 +33,7 @@ void note_output_error(int error_number) {
   output_error.compare_exchange_strong(none, error_number);
 }
 
-/// A message that cannot be written (disk full, reader gone) is no reason to end anything.
+/// A message that cannot be written (disk full, reader gone) must not end anything.
 void write_message(std::string_view text) {
   if (MessageThread* const thread = background) {
     return thread->put(STDERR_FILENO, std::string(text));
@@ -82,10 +82,10 @@ bool flush_output() {
 ExitCode end_output(ExitCode code) {
   MessageThread* const thread = background;
   if (thread != nullptr && !thread->finish(kPatience)) {
-    std::_Exit(code);  // its thread waits for whoever does not read, and cannot be ended otherwise
+    std::_Exit(code);  // its thread may hang on a reader and cannot be ended otherwise
   }
   if (flush_output()) return code;
-  // Whoever reads the first lines only (`| head`) has what they wanted.
+  // A reader that closes early (`| head`) is no error.
   if (output_error != EPIPE) {
     print_line(fmt::format("error: standard output: {}", std::strerror(output_error)));
   }

@@ -13,34 +13,34 @@
 #include "exit_codes.hpp"
 #include "rt/error.hpp"
 
-/// What people see: results go to stdout, everything said on the way to stderr.
+/// Output for people: results go to stdout, all other messages to stderr.
 namespace terracut::cli {
 
-/// One line on stderr, as for_terminal() lets it through; wipes a progress line that stands there.
-/// From any thread. A line that cannot be written is lost: a message ends nothing.
+/// Prints one line on stderr, filtered by for_terminal(); clears a progress line first. From any
+/// thread. A line that cannot be written is lost: a message ends nothing.
 void say(std::string_view line);
 void warn(std::string_view line);
 
-/// From now on messages and results are written by a thread of their own (MessageThread): whoever
-/// says something waits for no reader. For runs that have no end of their own. Once.
+/// Lets a thread of its own (MessageThread) write messages and results from now on, so that no
+/// caller waits for a reader. For runs that do not end by themselves. To be called once.
 void write_in_background();
-/// Messages that were lost because nobody took them.
+/// Returns the messages lost because nobody read them.
 [[nodiscard]] std::uint64_t lost_messages();
 
-/// Results on stdout. What cannot be written shows in end_output().
+/// Prints a result on stdout. end_output() reports a failure.
 void print_text(std::string_view text);
 template <class... Values>
 void print_out(fmt::format_string<Values...> format, Values&&... values) {
   print_text(fmt::format(format, std::forward<Values>(values)...));
 }
-/// For results that somebody watches while they come; false where they cannot be written.
+/// Flushes results that somebody watches as they come; false if they cannot be written.
 [[nodiscard]] bool flush_output();
-/// At a program's end: `code`, but kOutputFailed in place of kOk where a result could not be
-/// written. Ends the process at once where written texts are not taken within three seconds.
+/// Ends a program's output: returns `code`, but kOutputFailed in place of kOk if a result could not
+/// be written. Ends the process at once if texts are not taken within three seconds.
 [[nodiscard]] ExitCode end_output(ExitCode code);
 
-/// While it lives, what this thread says and warns of comes here instead of to stderr: for programs
-/// that have this one's work done and tell their users in a way of their own. One a thread.
+/// Collects what this thread says and warns of, instead of stderr, while it lives: for programs
+/// that report to their users in their own way. One a thread.
 class HeardLines {
  public:
   HeardLines();
@@ -51,25 +51,25 @@ class HeardLines {
   std::vector<std::string> said, warned;
 };
 
-/// Prints "error: <message>" and returns the exit code it leads to.
+/// Prints "error: <message>" and returns its exit code.
 [[nodiscard]] ExitCode refuse(const Error& error);
 [[nodiscard]] ExitCode refuse(ExitCode code, std::string_view message);
-/// kOk, or the error as above.
+/// Returns kOk, or prints the error and returns its exit code.
 [[nodiscard]] ExitCode done_or_refused(const Status& status);
 
-/// How far long work has come: `done` of `total` (0: unknown) after `lasts_s` seconds.
+/// The progress of long work: `done` of `total` (0: unknown) after `lasts_s` seconds.
 struct ProgressState {
   std::string_view task, unit;
   double done = 0, total = 0, lasts_s = 0;
 };
-/// "simulating: 0.3 of 3 s, 11 %, after 5 s"
+/// Returns "simulating: 0.3 of 3 s, 11 %, after 5 s".
 [[nodiscard]] std::string progress_line(const ProgressState& state);
 
-/// Shows how far long work has come: on a terminal one line that is redrawn, else a line every few
-/// seconds. Nothing is shown for work that ends at once.
+/// Shows the progress of long work: one redrawn line on a terminal, else a line every few seconds.
+/// Shows nothing for short work.
 class Progress {
  public:
-  /// `unit`: what is counted ("frames", "s"); `total`: how many there will be, 0 when unknown.
+  /// `unit` is what is counted ("frames", "s"), `total` how many there will be, 0 if unknown.
   Progress(std::string task, std::string unit, double total);
   ~Progress();
   Progress(const Progress&) = delete;

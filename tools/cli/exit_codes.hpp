@@ -6,22 +6,22 @@
 
 namespace terracut::cli {
 
-/// What the program's exit status means; printed by `terracut --help` and stable for scripts.
+/// The program's exit status; printed by `terracut --help` and stable for scripts.
 enum ExitCode : int {
   kOk = 0,
-  kInternal = 1,         ///< A bug or a lack of memory: nothing the input explains.
+  kInternal = 1,         ///< A bug or a lack of memory, not explained by the input.
   kUsage = 2,            ///< The command line is wrong: unknown option, value out of range.
   kInputRefused = 3,     ///< An input is missing, unreadable, malformed, or of a kind not handled.
-  kOutputFailed = 4,     ///< An output could not be written whole; nothing is left in its place.
+  kOutputFailed = 4,     ///< An output could not be written whole; no file is left.
   kNothingCameOut = 5,   ///< Packets were read but no frame came out; the message names the check.
-  kDeadlinesMissed = 6,  ///< A live run was all right but for deadlines it missed.
+  kDeadlinesMissed = 6,  ///< A live run was all right except for missed deadlines.
   kNotReady = 7,         ///< `terracut doctor` found a problem of the machine.
-  // 8 is that of ./tools/compare: a measure got worse.
+  // 8 is used by ./tools/compare: a measure got worse.
   kInterrupted = 9,     ///< Ctrl-C or SIGTERM came before the work was done; reports say so.
-  kMountNotFound = 10,  ///< The ground did not show the mount, which was not stated: no labels.
+  kMountNotFound = 10,  ///< The mount was neither stated nor found: no labels.
 };
 
-/// The exit code that an error of a library leads to.
+/// Returns the exit code of a library's error.
 [[nodiscard]] constexpr ExitCode exit_code_of(ErrorCode code) noexcept {
   switch (code) {
     case ErrorCode::kNotFound:

@@ -14,25 +14,25 @@
 
 namespace terracut::cli {
 
-/// `json` as the text of a file. Texts that are no UTF-8 (a status page is written by others) come
-/// out with U+FFFD instead of throwing.
+/// Returns `json` as the text of a file. Bytes that are not UTF-8 (others write status pages)
+/// become U+FFFD instead of throwing.
 [[nodiscard]] inline std::string json_text(const nlohmann::ordered_json& json) {
   return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// The same as a file, whole or not at all; none where `path` is empty.
+/// Writes that text to a file, whole or not at all; no file if `path` is empty.
 [[nodiscard]] inline Status write_json(const std::filesystem::path& path,
                                        const nlohmann::ordered_json& json) {
   return path.empty() ? Status{} : files::write_whole_file(path, json_text(json));
 }
 
-/// What is in a JSON file that others may have written: a plain file of no more than `most_bytes`,
-/// of which what lies deeper than 16 levels is left out. The types of what is in it are still to be
-/// looked at. kNotFound, kUnreadable, kMalformed.
+/// Reads a JSON file that others may have written: a plain file of at most `most_bytes`; values
+/// nested deeper than 16 levels are left out. The caller checks the values' types. kNotFound,
+/// kUnreadable, kMalformed.
 [[nodiscard]] inline Expected<nlohmann::ordered_json> read_json(const std::filesystem::path& path,
                                                                 std::size_t most_bytes) {
   using Ordered = nlohmann::ordered_json;
-  constexpr int kDeepest = 16;  // what goes through a value calls itself at each level
+  constexpr int kDeepest = 16;  // functions that visit a value recurse at each level
   const auto text = files::read_plain_file(path, most_bytes);
   if (!text) return tl::unexpected(text.error());
   try {
@@ -43,8 +43,8 @@ namespace terracut::cli {
   }
 }
 
-/// Whether each of those members of an object is a whole number, or not there. What is another
-/// number would be cast to one, and so made anything.
+/// True if each of these members of an object is missing or a whole number. Other numbers would be
+/// cast to arbitrary ones.
 [[nodiscard]] inline bool are_counts(const nlohmann::ordered_json& object,
                                      std::initializer_list<const char*> names) {
   return object.is_object() && std::ranges::all_of(names, [&](const char* name) {

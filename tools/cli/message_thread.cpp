@@ -63,7 +63,7 @@ void MessageThread::write(const Text& text) const {
     const ::ssize_t written = ::write(text.descriptor, rest.data(), rest.size());
     if (written >= 0) {
       rest.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno == EAGAIN) {  // whoever shares it has made it so
+    } else if (errno == EAGAIN) {  // another process has made the shared descriptor non-blocking
       ::pollfd room{text.descriptor, POLLOUT, 0};
       (void)::poll(&room, 1, -1);
     } else if (errno != EINTR) {

@@ -7,16 +7,15 @@
 
 namespace terracut::cli {
 
-/// From now on Ctrl-C and SIGTERM only make stop_wanted() true and call `also`, if not null, which
-/// has to suit a signal handler; a second one kills.
+/// Makes Ctrl-C and SIGTERM only set stop_wanted() and call `also`, unless null, which must be safe
+/// in a signal handler; a second signal kills.
 void catch_stop_signals(void (*also)() noexcept = nullptr);
 
 [[nodiscard]] bool stop_wanted() noexcept;
 
-// For work that is whole or not at all.
-/// An error where stop_wanted(), to end the work with.
+// Returns an error if stop_wanted(). For work that is whole or not at all.
 [[nodiscard]] Status go_on();
-/// Prints why the work was not done, and returns the exit code: `error`, or that it was stopped.
+/// Prints why the work was not done: `error`, or that it was stopped. Returns the exit code.
 [[nodiscard]] ExitCode refuse_work(const Error& error);
 
 }  // namespace terracut::cli

@@ -15,7 +15,7 @@ std::uint8_t byte_at(std::string_view text, std::size_t i) {
   return static_cast<std::uint8_t>(text[i]);
 }
 
-/// How many bytes from `text`'s first on are one character of UTF-8; 0: that byte is none.
+/// Returns the length in bytes of the UTF-8 character at the start of `text`; 0 if it is invalid.
 std::size_t character_bytes(std::string_view text) {
   const std::uint8_t first = byte_at(text, 0);
   if (first < 0x80) return 1;
@@ -32,7 +32,7 @@ std::size_t character_bytes(std::string_view text) {
   return code <= 0x10FFFF && is_shortest && !is_surrogate ? bytes : 0;
 }
 
-/// The same, but 0 for control characters, too.
+/// Returns the same length, but 0 for control characters.
 std::size_t shown_bytes(std::string_view text) {
   const std::size_t bytes = character_bytes(text);
   const std::uint8_t first = byte_at(text, 0);

@@ -5,17 +5,17 @@
 #include <string>
 #include <string_view>
 
-/// Texts that others wrote, names of files above all, on their way to a terminal or a shell.
+/// Makes foreign texts, above all file names, safe for a terminal or a shell.
 namespace terracut::cli {
 
-/// Control characters but for line ends, and bytes that are no UTF-8, become '?': nothing in it can
-/// move the cursor, set a title or wipe a line.
+/// Replaces control characters except line ends, and invalid UTF-8, by '?': a text cannot move the
+/// cursor, set a title or clear a line.
 [[nodiscard]] std::string for_terminal(std::string_view text);
-/// The same with line ends: what is one line stays one.
+/// Replaces line ends too: the text stays one line.
 [[nodiscard]] std::string line_for_terminal(std::string_view text);
 
-/// One word of a POSIX shell, in quotes. A text with control characters or bytes that are no UTF-8
-/// is written as bash, zsh and ksh take it: $'a\x1bb'.
+/// Returns one word of a POSIX shell, quoted. A text with control characters or invalid UTF-8 is
+/// written as bash, zsh and ksh take it: $'a\x1bb'.
 [[nodiscard]] std::string shell_word(std::string_view text);
 
 [[nodiscard]] bool is_utf8(std::string_view text);

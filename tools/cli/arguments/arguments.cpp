@@ -16,7 +16,7 @@
 namespace terracut::cli {
 namespace {
 
-/// The options of a command: what the file says of them, then what was typed.
+/// Assembles the options of a command: those of the configuration file, then those typed.
 class Assembly {
  public:
   Assembly(Command command, const std::vector<TypedOption>& typed)
@@ -44,7 +44,7 @@ class Assembly {
     return fail(ErrorCode::kInvalidArgument, std::move(message));
   }
 
-  /// What the file says for this command. A setup that was typed is not moved by the file's mount.
+  /// Takes the file's options for this command. A typed --setup is not changed by the file's mount.
   Status take(const Options& of_file) {
     for (const Setting& setting : settings()) {
       const bool is_its = command_ == Command::kConfig || setting.commands.contains(command_);
@@ -79,7 +79,8 @@ class Assembly {
         }
       }
     }
-    // The file's parameters are for all commands, whatever runs in them; those typed have to count.
+    // The file's parameters serve all commands, whatever method runs; typed ones must have an
+    // effect.
     const std::span<const std::string> settings = options_.method.settings;
     if (const Status used = check_used(settings.subspan(of_file), kinds()); !used) {
       return wrong("--set: " + used.error().message);
@@ -87,7 +88,7 @@ class Assembly {
     return {};
   }
 
-  /// The kinds of method that these options let run; a name that is none is refused elsewhere.
+  /// Returns the kinds of method that these options run; an unknown name is refused elsewhere.
   [[nodiscard]] std::vector<baselines::MethodKind> kinds() const {
     std::vector<baselines::MethodKind> kinds;
     for (const std::string& name : options_.eval.methods) {

@@ -13,16 +13,16 @@
 
 namespace terracut::cli {
 
-/// What the program was asked to do.
+/// The parsed request to the program.
 struct Arguments {
-  std::optional<Command> command;  ///< None: `text` is to be printed, help or the version.
+  std::optional<Command> command;  ///< Empty: print `text`, the help or the version.
   std::string text;
-  Options options;  ///< The defaults, the file over them, what was typed over it.
-  std::filesystem::path configuration;  ///< The file of --config; empty: none.
+  Options options;  ///< Defaults, overridden by the file, overridden by the command line.
+  std::filesystem::path configuration;  ///< The file of --config; may be empty.
 };
 
-/// Reads the command line and the configuration file that it names. kInvalidArgument, naming
-/// command and option, for a wrong command line; the errors of read_configuration().
+/// Reads the command line and the configuration file it names. kInvalidArgument, naming command and
+/// option, for a wrong command line; otherwise errors of read_configuration().
 [[nodiscard]] Expected<Arguments> parse_arguments(const std::vector<std::string>& words);
 
 }  // namespace terracut::cli

@@ -22,13 +22,13 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = RunFiles::Kind;
 
-/// A sequence folder is read in parts, so that results may lie in it; a plain one is read whole.
+/// A sequence folder is read in parts, so results may lie in it; a plain one is read as a whole.
 void add_scans(RunFiles& files, const fs::path& scans) {
   constexpr const char* kPoints = "velodyne";
   std::error_code none;
   const bool is_sequence = fs::is_directory(scans / kPoints, none);
   files.read("SCANS_DIR", is_sequence ? scans / kPoints : scans, "the folder of scans");
-  // Of a sequence's points alone the rest of it is not read, and is to be kept all the same.
+  // Only a sequence's points are read, but the rest must not be overwritten either.
   const fs::path place = files::FilePlace(scans).path();
   if (!is_sequence && place.filename() != kPoints) return;
   const fs::path sequence = is_sequence ? scans : place.parent_path();
@@ -58,8 +58,8 @@ RunFiles drive_of(const Options& options) {
   return files;
 }
 
-/// The stream of a live run, or what a command has as arguments; of a capture with what chooses one
-/// of several sensors.
+/// Names the input: the stream of a live run, or a command's arguments; for a capture also the
+/// choice among several sensors.
 std::string made_of(Command command, const RunFiles& files, const Options& options) {
   const auto with = [](std::string_view word, const std::string& text) {
     return text.empty() ? std::string() : fmt::format(" {} {}", word, text);

@@ -9,14 +9,14 @@
 
 namespace terracut::cli {
 
-/// What a command reads and writes: the paths that the table of settings marks so, and what lies
-/// beside or below some of them; and what its outputs come of, by absolute paths.
+/// Returns the files a command reads and writes: the paths marked so in the table of settings,
+/// related files beside or below them, and the input of its outputs, by absolute paths.
 [[nodiscard]] RunFiles files_of(Command command, const Options& options);
 
-/// The same with the configuration file.
+/// Returns the files of a command, including the configuration file.
 [[nodiscard]] RunFiles files_of(const Arguments& arguments);
 
-/// "wrote     d.pcap", and in the lines below it what lies beside it: of `simulate` and `encode`.
+/// Returns "wrote     d.pcap" and lines for the files beside it, for `simulate` and `encode`.
 [[nodiscard]] std::string wrote_drive(const Options& options);
 
 }  // namespace terracut::cli

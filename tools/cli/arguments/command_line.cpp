@@ -40,7 +40,7 @@ bool is_a(const Setting& setting) {
 using List = std::vector<std::string>*;
 using Switch = bool*;
 
-/// "m", "auto|hdl64e|ruby128", "PATH": what stands for the value in help.
+/// Returns the placeholder for the value in help: "m", "auto|hdl64e|ruby128", "PATH".
 std::string value_name(const Setting& setting) {
   Options scratch;
   const SettingField field = setting.field(scratch);
@@ -55,7 +55,7 @@ std::string value_name(const Setting& setting) {
   return std::string(setting.least < setting.most ? "NUMBER" : form_name(setting));
 }
 
-/// What it is, its range, and what holds where it is left out.
+/// Returns the help of a setting: what it is, its range, and its default.
 std::string help_of(const Setting& setting, Command command, const Options& in_force) {
   std::string text(setting.help);
   if (setting.bare == "no") {
@@ -107,7 +107,7 @@ void add_option(CLI::App& sub, const Setting& setting, Command command, const Op
   if (!setting.bare.empty()) option->expected(0, 1);
 }
 
-/// The first argument or option that the command requires and was not given.
+/// Returns the first required argument or option that was not given.
 std::string what_is_missing(const CommandLine& line) {
   for (const Setting& setting : settings()) {
     const bool is_required = line.command && setting.required_by.contains(*line.command);
@@ -123,7 +123,7 @@ tl::unexpected<Error> wrong(const CommandLine& line, std::string_view what) {
               fmt::format("{}: {}", line.command ? name_of(*line.command) : "terracut", what));
 }
 
-/// configuration_named_in() has looked at it before.
+/// Only for help and checks: configuration_named_in() has read it before.
 void add_config_option(CLI::App& app) {
   app.add_option_function<std::string>(
          "--config", [](const std::string&) {},
@@ -139,7 +139,7 @@ Expected<CommandLine> read_command_line(const std::vector<std::string>& words,
   CLI::App app{kAbout, "terracut"};
   app.footer(kExitCodes);
   app.set_version_flag("--version", "terracut " TERRACUT_VERSION);
-  app.require_subcommand(1);  // one alone: behind it `live` may be a name
+  app.require_subcommand(1);  // only one: after it `live` may be a name
   add_config_option(app);
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     const auto command = static_cast<Command>(i);

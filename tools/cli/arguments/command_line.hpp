@@ -11,21 +11,21 @@
 
 namespace terracut::cli {
 
-/// A setting that was typed, with the texts it was given; one for an option alone, its `bare`.
+/// A typed setting with its texts; an option without a value has its `bare` text.
 struct TypedOption {
   const Setting* setting = nullptr;
   std::vector<std::string> texts;
 };
 
-/// The command line, taken apart.
+/// The parsed command line.
 struct CommandLine {
-  std::optional<Command> command;  ///< None: `text` is to be printed, help or the version.
+  std::optional<Command> command;  ///< Empty: print `text`, the help or the version.
   std::vector<TypedOption> typed;
   std::string text;
 };
 
-/// Takes words apart that passed check_names(). Help shows the values of `in_force` as what holds
-/// where an option is left out. kInvalidArgument: an option twice, an argument too many.
+/// Parses words that passed check_names(). Help shows the values of `in_force` as defaults.
+/// kInvalidArgument: an option given twice, or too many arguments.
 [[nodiscard]] Expected<CommandLine> read_command_line(const std::vector<std::string>& words,
                                                       const Options& in_force);
 

@@ -21,12 +21,12 @@ tl::unexpected<Error> wrong(std::string message) {
   return fail(ErrorCode::kInvalidArgument, std::move(message));
 }
 
-/// A number below zero is none.
+/// False for a negative number.
 bool is_option(std::string_view word) {
   return word.size() > 1 && word[0] == '-' && (word[1] < '0' || word[1] > '9') && word[1] != '.';
 }
 
-/// "--json" of "--json=r.json", "-o" of "-or.json".
+/// Returns "--json" for "--json=r.json" and "-o" for "-or.json".
 std::string_view name_in(std::string_view word) {
   return word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
 }
@@ -46,7 +46,7 @@ Expected<Command> command_named(std::string_view name) {
                            did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-/// Why the command does not have it, where that is to be said.
+/// Returns why the command does not have the option, if there is a reason to tell.
 std::string_view denial_of(Command command, std::string_view option) {
   for (const Setting& setting : settings()) {
     if (setting.name() == option && setting.denied_to.contains(command)) return setting.denial;
@@ -54,7 +54,7 @@ std::string_view denial_of(Command command, std::string_view option) {
   return {};
 }
 
-/// Those commands that have it.
+/// Returns the commands that have the option.
 CommandSet commands_with(std::string_view option) {
   CommandSet commands;
   for (const Setting& setting : settings()) {

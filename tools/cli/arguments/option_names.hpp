@@ -10,12 +10,13 @@
 
 namespace terracut::cli {
 
-/// That a command is named, that it has every option that is named, and that these have the values
-/// they need. kInvalidArgument, with what was probably meant. Anything goes behind --help, and
-/// behind --version before a command.
+/// Checks that a command is named, that it has every option given, and that these have the values
+/// they need. kInvalidArgument with the likely correction. Words after --help, and after --version
+/// before a command, are not checked.
 [[nodiscard]] Status check_names(const std::vector<std::string>& words);
 
-/// The file of --config, before or behind the command; the last one counts. Empty: none.
+/// Returns the file of --config, before or after the command; the last one counts. Empty if there
+/// is none.
 [[nodiscard]] std::filesystem::path configuration_named_in(const std::vector<std::string>& words);
 
 }  // namespace terracut::cli

@@ -32,8 +32,8 @@ namespace {
 
 using measure::milliseconds;
 
-/// Keeps this thread on one core; -1 means the last one it may use. Returns the core, or -1 when
-/// the system does not allow it.
+/// Keeps this thread on one core; -1 means the last one allowed. Returns the core, or -1 if the
+/// system refuses.
 int stay_on_core(int core) {
   const std::vector<int> allowed = threads::allowed_cores();
   if (core < 0 && !allowed.empty()) core = allowed.back();
@@ -50,7 +50,7 @@ std::string processor_name() {
   return "unknown";
 }
 
-/// Datagrams kept in memory, so that reading a file does not disturb what is measured.
+/// Datagrams in memory, so that reading a file does not disturb the measurement.
 struct Packets {
   std::vector<std::uint8_t> payloads;
   std::vector<packet::Datagram> datagrams;
@@ -74,13 +74,13 @@ Expected<Packets> load(CapturePart& part) {
 }
 
 struct BenchResult {
-  TimeSummary times;                             ///< Of whole frames.
+  TimeSummary times;                             ///< Over whole frames.
   measure::LogLinearHistogram decode_column_ns;  ///< Mean of each pass.
   std::uint64_t returns = 0, unlabelled = 0;
   std::vector<status::FrameRecord> each;  ///< In order, pass after pass.
 };
 
-/// One pass over the packets: decoding and labelling, timed frame by frame.
+/// Runs one pass over the packets: decoding and labelling, timed frame by frame.
 void run_frames(run::PacketPipeline& pipeline, const Packets& packets, BenchResult* result) {
   const auto take_frames = [&] {
     while (run::Frame* frame = pipeline.next()) {
@@ -101,7 +101,7 @@ void run_frames(run::PacketPipeline& pipeline, const Packets& packets, BenchResu
   take_frames();
 }
 
-/// One pass of decoding alone: nanoseconds a column of 64 lasers.
+/// Runs one pass of decoding only; returns nanoseconds a column of 64 lasers.
 double run_decoding(decode::Decoder& decoder, const Packets& packets) {
   const std::uint64_t columns_before = decoder.columns_decoded();
   const std::int64_t start_ns = measure::thread_cpu_ns();
@@ -118,7 +118,7 @@ double run_decoding(decode::Decoder& decoder, const Packets& packets) {
   return columns == 0 ? 0 : static_cast<double>(spent_ns) / static_cast<double>(columns);
 }
 
-/// [{"decode", "segment", "after_frame"}, ..]: what the summary is made of.
+/// Returns the data of the summary: [{"decode", "segment", "after_frame"}, ..].
 nlohmann::ordered_json frames_json(const std::vector<status::FrameRecord>& frames) {
   auto list = nlohmann::ordered_json::array();
   for (const status::FrameRecord& frame : frames) {
@@ -129,7 +129,7 @@ nlohmann::ordered_json frames_json(const std::vector<status::FrameRecord>& frame
   return list;
 }
 
-/// They refer to `result`.
+/// Returns figures that refer to `result`.
 std::vector<status::Figure> figures_of(const Options& options, const CapturePart& part,
                                        const BenchResult& result, int core) {
   const double returns_per_frame =

@@ -21,10 +21,10 @@
 namespace terracut::cli {
 namespace {
 
-/// Frames the mount is read off, and that the rings are measured in at most.
+/// Most frames for finding the mount and for measuring the rings.
 constexpr std::size_t kMountFrames = 100, kRingFrames = 100'000;
 
-/// The mean distance of each ring's ground returns, labelled by the method itself.
+/// Measures the mean distance of each ring's ground returns, labelled by the method itself.
 Expected<mount::RingProfileEstimate> measure_rings(RecordedFrames& frames, const Options& options,
                                                    const mount::RingProfile& geometry) {
   memory::FixedMemory memory;
@@ -53,11 +53,11 @@ Expected<mount::RingProfileEstimate> measure_rings(RecordedFrames& frames, const
   return rings;
 }
 
-/// The mount as the frames show it, but for what is stated; with --keep-mount as it is stated.
+/// Returns the mount from the frames, except for stated figures; with --keep-mount as stated.
 Expected<mount::Mount> measured_mount(RecordedFrames& frames, const Options& options) {
   MountOptions stated = options.mount;
   if (!options.keep_mount) {
-    stated.setup.clear();  // it is to be measured anew
+    stated.setup.clear();  // to be measured again
     mount::MountFinder finder;
     if (const Status shown = frames.look_for_mount(kMountFrames, finder); !shown) {
       return tl::unexpected(shown.error());

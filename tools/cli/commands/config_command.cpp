@@ -7,8 +7,8 @@
 
 namespace terracut::cli {
 
-/// The configuration in force, checked when it was read and that its files are there, or what a
-/// file could say.
+/// Prints the configuration in force, or a file to start from. It was checked when read; here its
+/// files are checked, too.
 ExitCode run_config(const Options& options) {
   if (options.print_table) {
     print_text(configuration_table());

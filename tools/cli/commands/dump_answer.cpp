@@ -20,14 +20,15 @@ std::filesystem::path answer_path(const std::filesystem::path& folder, const std
   return folder / (name + ".terracut-dump");
 }
 
-/// Who asks stands in another folder than this process.
+/// Returns an absolute path: the asking process may be in another folder.
 std::string place_for_others(const std::filesystem::path& path) {
   std::error_code unknown;
   const auto absolute = std::filesystem::absolute(path, unknown);
   return unknown ? path.string() : absolute.string();
 }
 
-/// What a file holds that only the reader, root or a service can have written; else nothing.
+/// Returns a file's content if only the reader, root or a service can have written it; else
+/// nothing.
 std::string trusted_content(const std::filesystem::path& path) {
   constexpr std::size_t kMost = 65536;
   const files::OwnedDescriptor file(
@@ -62,7 +63,7 @@ Status DumpAnswers::publish(
     json["refusal"] = to_string(outcome.error().refusal);
     json["message"] = outcome.error().message;
   }
-  // A path may hold any bytes; JSON may not.
+  // A path may have any bytes; JSON may not.
   constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
   return files::write_whole_file(path_, json.dump(1, ' ', false, kReplace) + "\n");
 }
@@ -82,7 +83,7 @@ std::optional<DumpAnswer> read_dump_answer(const std::filesystem::path& folder,
                       .refusal = json.value("refusal", ""),
                       .message = json.value("message", "")};
   } catch (const nlohmann::json::exception&) {
-    return {};  // somebody else's file
+    return {};  // not our file
   }
 }
 

@@ -13,28 +13,28 @@
 
 namespace terracut::cli {
 
-/// What became of a dump that somebody asked a running process for.
+/// The outcome of a dump that a running process was asked for.
 struct DumpAnswer {
   int pid = 0;
-  std::uint64_t serial = 0;  ///< 1.. for the process's first answer and so on.
-  std::string capture;       ///< The file that was written; empty when it was refused.
-  std::string calibration;   ///< The unit's table beside it, if it was written, too.
+  std::uint64_t serial = 0;  ///< Number of the process's answer, from 1.
+  std::string capture;       ///< The file written; empty if it was refused.
+  std::string calibration;   ///< The unit's table beside it, if written.
   std::uint64_t datagrams = 0;
-  double seconds = 0;   ///< From its first datagram to its last.
-  std::string refusal;  ///< DumpRefusal's name.
+  double seconds = 0;   ///< From its first to its last datagram.
+  std::string refusal;  ///< Name of the DumpRefusal.
   std::string message;  ///< Why it was refused.
 };
 
-/// The running process's side: its last answer lies beside its status page as
-/// `NAME.terracut-dump`, for `terracut dump` to read. One thread; not real-time.
+/// Publishes a process's last answer beside its status page as `NAME.terracut-dump`, for `terracut
+/// dump` to read. One thread; not real-time.
 class DumpAnswers {
  public:
   DumpAnswers(const std::filesystem::path& folder, const std::string& name);
   DumpAnswers(const DumpAnswers&) = delete;
   DumpAnswers& operator=(const DumpAnswers&) = delete;
-  ~DumpAnswers();  ///< Takes the answer away.
+  ~DumpAnswers();  ///< Removes the answer.
 
-  /// kWriteFailed; the dump itself stands, only who asked does not hear of it.
+  /// Errors: kWriteFailed; the dump itself is kept, but the asking process gets no answer.
   [[nodiscard]] Status publish(
       const tl::expected<recorder::DumpReport, recorder::RefusedDump>& outcome);
 
@@ -43,8 +43,8 @@ class DumpAnswers {
   std::uint64_t serial_ = 0;
 };
 
-/// The last answer of the process of this name, alive or not; nothing when there is none, or one
-/// that anybody could have written (rt/files/trusted_file.hpp). Its texts may hold any bytes.
+/// Returns the last answer of the process of this name, alive or not; nothing if there is none, or
+/// if anybody could have written it (rt/files/trusted_file.hpp). Its texts may have any bytes.
 [[nodiscard]] std::optional<DumpAnswer> read_dump_answer(const std::filesystem::path& folder,
                                                          const std::string& name);
 

@@ -36,7 +36,7 @@ namespace {
 using eval::EvaluationConfig;
 using eval::FrameRange;
 
-/// "7", "0-99", "0-99:10"; empty for all.
+/// Parses "7", "0-99", "0-99:10"; empty means all.
 Expected<FrameRange> frame_range_of(const std::string& text) {
   FrameRange range;
   if (text.empty()) return range;
@@ -79,7 +79,7 @@ bool is_any_given(const Options& options, std::initializer_list<const char*> nam
   });
 }
 
-/// That no option was given which this kind of dataset would not use.
+/// Checks that no option was given which this kind of dataset does not use.
 Status check_fit(const Options& options) {
   const auto refuse = [&](std::string_view what) {
     return fail(ErrorCode::kInvalidArgument,
@@ -113,22 +113,22 @@ Status check_fit(const Options& options) {
   return {};
 }
 
-/// One name for one folder, wherever it is named from; what has none keeps the one it was given.
+/// Returns the same name for a folder however it is named; for a missing one the given name.
 std::filesystem::path canonical_path(const std::filesystem::path& path) {
   std::error_code error;
-  // Absolute first: of what does not exist, it leaves the relative name as it is.
+  // Made absolute first: a missing path would keep its relative name.
   const auto absolute = std::filesystem::absolute(path, error);
   auto canonical = std::filesystem::weakly_canonical(absolute, error);
   return error ? path : std::move(canonical);
 }
 
-/// Those of --method, or the profile.
+/// Returns the methods of --method, or the profile.
 std::vector<std::string> methods_of(const Options& options) {
   if (!options.eval.methods.empty()) return options.eval.methods;
   return {std::string(word_of(kProfileWords, options.method.profile))};
 }
 
-/// Of any dataset; of simulated drives `root` is their scenes.
+/// Makes the configuration for any dataset; for simulated drives `root` is their scenes.
 Expected<EvaluationConfig> config_of(const Options& options, const datasets::ClassTable& classes) {
   EvaluationConfig config;
   if (classes.layout()) config.layout = *classes.layout();
@@ -169,7 +169,7 @@ Expected<EvaluationConfig> config_of(const Options& options, const datasets::Cla
   return config;
 }
 
-/// The drives that `eval simulated` was asked for.
+/// Returns the drives for `eval simulated`.
 eval::SimulatedDrives drives_of(const Options& options) {
   eval::SimulatedDrives drives;
   const std::string scenes = options.eval.root.string();
@@ -201,8 +201,9 @@ Expected<datasets::ClassTable> classes_of(const Options& all) {
   return own;
 }
 
-/// A number that two builds share only if they are byte for byte the same: what was computed by one
-/// is not taken for the other's. "unknown" where the system does not show a program its own file.
+/// Returns a number that two builds share only if they are identical byte for byte, so that one
+/// does not continue the other's journal. "unknown" if the system does not show a program its own
+/// file.
 std::string identity_of_this_build() {
   std::ifstream file("/proc/self/exe", std::ios::binary);
   const std::string program(std::istreambuf_iterator<char>(file), {});
@@ -210,7 +211,7 @@ std::string identity_of_this_build() {
   return fmt::format("{:016x}", std::hash<std::string>()(program));
 }
 
-/// Everything the counts of a frame depend on: a journal of other settings is not gone on with.
+/// Returns all that a frame's counts depend on: a journal with other settings is not continued.
 std::string settings_line(const Options& options, const EvaluationConfig& config) {
   std::string line =
       fmt::format("{} build={} dataset={} layout={} root={} through_packets={} mount={},{},{}",
@@ -307,7 +308,7 @@ Expected<eval::EvaluationOutcome> evaluate_drives(const Options& options,
                                   journal ? &*journal : nullptr, progress, stop_wanted);
 }
 
-/// What a report's reader has to know of this dataset besides.
+/// Adds facts about this dataset for the report's reader.
 void add_facts_of_dataset(const Options& options, const datasets::ClassTable& classes,
                           nlohmann::ordered_json& json) {
   if (!classes.note().empty()) {
@@ -344,7 +345,7 @@ ExitCode run_eval(const Options& options) {
   if (!classes) return refuse(classes.error());
   auto config = config_of(options, *classes);
   if (!config) return refuse(config.error());
-  // What stands tall and what moves is the dataset's matter: another table needs no second run.
+  // Which classes are tall or moving does not need another run if the table changes.
   const auto built_in = datasets::built_in_table(options.eval.dataset);
   config->classes = built_in ? &*built_in : &*classes;
   std::optional<eval::ChangedFrames> changed;
@@ -352,7 +353,7 @@ ExitCode run_eval(const Options& options) {
     config->changed_frames = &changed.emplace(config->methods, *classes);
   }
   std::optional<eval::Journal> journal;
-  // Frames that a journal has are not labelled again, and their labels are not in it.
+  // Frames in a journal are not labelled again, and the journal does not have their labels.
   if (!options.output.json.empty() && options.eval.changes.empty()) {
     auto opened = eval::Journal::open(journal_path(options), settings_line(options, *config));
     if (!opened) return refuse(opened.error());

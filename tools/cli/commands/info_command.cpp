@@ -39,7 +39,7 @@ std::string endpoint(std::uint32_t address, std::uint16_t port) {
                      address & 0xFFU, port);
 }
 
-/// Where a stream goes to, its VLAN included.
+/// Returns where a stream goes, its VLAN included.
 std::string destination(const UdpStream& stream) {
   const std::string text = endpoint(stream.destination_address, stream.destination_port);
   return stream.vlan == 0 ? text : text + " VLAN " + streams::vlan_text(stream.vlan);
@@ -64,7 +64,7 @@ std::string utc(std::int64_t stamp_ns) {
                      fmt::gmtime(static_cast<std::time_t>(stamp_ns / 1'000'000'000)));
 }
 
-/// The table in the packets: "complete, fingerprint ...", or what is missing.
+/// Describes the table in the packets: "complete, fingerprint ...", or what is missing.
 std::string calibration_in(const Hdl64eFacts& facts) {
   if (!facts.table) {
     return fmt::format("incomplete, {} of {} bytes missing", facts.status_holes,
@@ -126,14 +126,14 @@ std::string text_of(const Ruby128Facts& facts) {
              facts.temperature_deg_c);
 }
 
-/// The angles in DIFOP: "complete, fingerprint ...", or why they are of no use.
+/// Describes the angles in DIFOP: "complete, fingerprint ...", or why they cannot be used.
 std::string calibration_in(const Ruby128DeviceReader& device) {
   const auto calibration = device.calibration();
   if (!calibration) return calibration.error().message;
   return fmt::format("complete, fingerprint {:016x}", fingerprint(*calibration));
 }
 
-/// Two digits a byte: "00:1c:23".
+/// Returns two digits a byte: "00:1c:23".
 std::string hex_text(const std::array<std::uint8_t, 6>& bytes, std::string_view separator) {
   return fmt::format("{:02x}", fmt::join(bytes, separator));
 }
@@ -276,7 +276,7 @@ Json json_of(const CaptureSurvey& survey) {
   return json;
 }
 
-/// What chooses each of several sensors.
+/// Lists how to choose each of several sensors.
 std::string text_of(const std::vector<StreamName>& sensors) {
   if (sensors.empty()) return {};
   std::string text = "\nseveral sensors; choose one:\n";
@@ -286,7 +286,7 @@ std::string text_of(const std::vector<StreamName>& sensors) {
   return text;
 }
 
-/// Of a capture of several.
+/// Returns the sensors of a capture if there are several.
 std::vector<StreamName> several_sensors_of(const CaptureOptions& options) {
   auto source = capture::PcapSource::open(options.file);
   if (!source) return {};
@@ -294,7 +294,7 @@ std::vector<StreamName> several_sensors_of(const CaptureOptions& options) {
   return sensors.size() < 2 ? std::vector<StreamName>() : names_of(sensors);
 }
 
-/// That a calibration lies beside a capture whose packets hold none.
+/// Notes that a calibration lies beside a capture whose packets hold none.
 std::string note_of_calibration(const CaptureSurvey& survey, const CaptureOptions& options) {
   const auto lacks_one = [](const UdpStream& stream) {
     return stream.hdl64e && !stream.hdl64e->table;

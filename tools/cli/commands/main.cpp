@@ -18,15 +18,15 @@
 namespace terracut::cli {
 namespace {
 
-/// By Command.
+/// Indexed by Command.
 constexpr std::array kRun{
     run_replay, run_view,      run_segment, run_manifest, run_relabel,    run_compare, run_simulate,
     run_encode, run_calibrate, run_info,    run_plan,     run_parameters, run_bench,   run_send,
     run_live,   run_node,      run_dump,    run_eval,     run_top,        run_config,  run_doctor};
 static_assert(kRun.size() == kCommands.size());
 
-/// Where a descriptor of messages or results is closed, the next file that is opened would be
-/// written messages into.
+/// Opens closed standard descriptors: otherwise the next opened file would get one of their
+/// numbers, and messages would be written into it.
 void hold_standard_descriptors() {
   int opened = ::open("/dev/null", O_RDWR);
   while (opened >= 0 && opened <= STDERR_FILENO) opened = ::dup(opened);
@@ -44,7 +44,7 @@ ExitCode run_command(const std::vector<std::string>& words) {
     print_text(arguments->text);
     return kOk;
   }
-  std::vector<Error> unwritable;  // which a live run goes on without
+  std::vector<Error> unwritable;  // outputs that a live run goes on without
   const bool goes_on = arguments->command == Command::kLive;
   const RunFiles files = files_of(*arguments);
   const auto claims = claim_outputs(files, goes_on ? &unwritable : nullptr);
@@ -71,6 +71,6 @@ ExitCode run(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
   using namespace terracut::cli;
   hold_standard_descriptors();
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of one write, not an end
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of one write, not the process's end
   return end_output(run(std::vector<std::string>(argv + 1, argv + argc)));
 }

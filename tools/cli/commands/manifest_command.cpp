@@ -15,9 +15,9 @@
 namespace terracut::cli {
 namespace {
 
-/// A line for each kind of what was left out.
+/// Prints one line for each kind of file left out.
 void warn_of(const std::vector<LeftOut>& left_out) {
-  std::map<std::string, std::pair<std::size_t, std::string>> kinds;  // how many, the first
+  std::map<std::string, std::pair<std::size_t, std::string>> kinds;  // count, first path
   for (const auto& [path, why] : left_out) {
     auto& [count, first] = kinds[why];
     if (count++ == 0) first = path.string();

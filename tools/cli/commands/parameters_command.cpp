@@ -8,7 +8,7 @@
 
 namespace terracut::cli {
 
-/// The table of docs/reference/parameters.md, in Markdown, from the table the program itself reads.
+/// Prints docs/reference/parameters.md in Markdown from the table that the program itself reads.
 ExitCode run_parameters(const Options&) {
   print_out("| key | unit | range | terracut | paper | what it is |\n|---|---|---|---|---|---|\n");
   const auto print_rows = [](const auto& parameters, const auto& terracut, const auto& paper) {

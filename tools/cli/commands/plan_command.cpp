@@ -27,8 +27,8 @@ std::size_t resident_bytes() {
   return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// What a process of `relabel` writes a drive's labels with, where all frames are as large as they
-/// may be.
+/// Returns the memory with which a process of `relabel` writes a drive's labels if all frames are
+/// as large as possible.
 std::size_t output_bytes(FleetFormat format, std::size_t returns) {
   switch (format) {
     case FleetFormat::kLabels:
@@ -39,7 +39,7 @@ std::size_t output_bytes(FleetFormat format, std::size_t returns) {
   return 0;
 }
 
-/// Takes what labels a capture into `memory`, and says how many returns a frame of it may have.
+/// Takes into `memory` what labels a capture, and returns the most returns of a frame.
 std::size_t take_memory(const Options& options, const calib::SensorCalibration& calibration,
                         const mount::RingProfile& profile, bool has_motion,
                         memory::FixedMemory& memory) {
@@ -59,7 +59,7 @@ double to_mib(std::size_t bytes) {
 
 }  // namespace
 
-/// Builds the very objects a replay builds, so the figures are those of a replay, not an estimate.
+/// Builds the same objects as a replay, so the figures are exact, not an estimate.
 ExitCode run_plan(const Options& options) {
   const std::size_t program_bytes = resident_bytes();
   const calib::SensorCalibration calibration =
@@ -80,7 +80,7 @@ ExitCode run_plan(const Options& options) {
             to_mib(memory.total_bytes()));
   json["total_bytes"] = memory.total_bytes();
 
-  // What a report adds up, what is read of a capture at a time, and code that only a run needs.
+  // For the report's sums, the reading buffer of a capture, and code that only a run needs.
   constexpr std::size_t kRest_bytes = std::size_t{4} << 20;
   const std::size_t beside_bytes =
       program_bytes + kRest_bytes + output_bytes(options.fleet.format, returns);

@@ -9,8 +9,8 @@
 
 namespace terracut::cli {
 
-/// Sends the capture over and over in real time, as run_send() does, without faults and summary,
-/// until it is `enough` or stop_wanted(). The errors of opening capture and sockets.
+/// Sends the capture repeatedly in real time, as run_send() does but without faults and summary,
+/// until `enough` or stop_wanted(). Errors of opening capture and sockets.
 [[nodiscard]] Status send_until(const Options& options, const std::atomic<bool>& enough);
 
 }  // namespace terracut::cli

@@ -24,9 +24,9 @@ namespace {
 
 using frame::FrameInfo;
 
-/// Sleeps so that datagrams come at `rate` times the speed of the capture's time; 0 never sleeps.
-/// Where the run is to stop it sleeps no longer than a moment, and where the capture shows nothing
-/// for longer than kLongestPause_ns it goes on at once: there its clock was set.
+/// Sleeps so that datagrams come at `rate` times the capture's speed; 0 never sleeps. Sleeps only a
+/// moment once the run is to stop. A pause longer than kLongestPause_ns is skipped: there the
+/// capture's clock was set.
 class Pace {
  public:
   explicit Pace(double rate) : rate_(rate) {}
@@ -41,7 +41,7 @@ class Pace {
       started_ = now;
     }
     newest_ns_ = since_begin_ns;
-    constexpr double kFar_ns = 9e18;  // a rate near 0 would leave the 64 bits
+    constexpr double kFar_ns = 9e18;  // a rate near 0 would overflow 64 bits
     const double due_ns = static_cast<double>(since_begin_ns - first_ns_) / rate_;
     const auto due = started_ + std::chrono::nanoseconds(
                                     static_cast<std::int64_t>(std::clamp(due_ns, 0.0, kFar_ns)));
@@ -60,12 +60,12 @@ class Pace {
   std::chrono::steady_clock::time_point started_;
 };
 
-/// The truth of one frame after the other, as far as there is any that fits.
+/// Reads the truth of successive frames, as far as it fits.
 class FrameTruth {
  public:
   explicit FrameTruth(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// One id a return, or empty: no truth asked for, or none that fits (said once).
+  /// Returns one id a return; empty if no truth was asked for or none fits (reported once).
   std::span<const std::uint32_t> read(const std::string& name, std::size_t returns) {
     labels_.clear();
     if (folder_.empty()) return labels_;
@@ -84,7 +84,7 @@ class FrameTruth {
   bool warned_ = false;
 };
 
-/// Hands the labelled frames of a capture to the sinks that the options name.
+/// Hands the labelled frames of a capture to the sinks named by the options.
 class Replay {
  public:
   Replay(const Options& options, LabelledCapture& capture)
@@ -113,16 +113,16 @@ class Replay {
       const std::uint64_t offered_before = capture_.offered();
       while (const run::Frame* frame = sinks_ ? capture_.next() : nullptr) take(*frame);
       const bool is_over = report.interrupted || !report.input_warning.empty();
-      // A replay without an end is not cut short by Ctrl-C.
+      // Ctrl-C does not interrupt an endless replay: it is its normal end.
       if (options_.replay.loops == 0) report.interrupted = false;
-      // A pass without packets will stay without.
+      // A pass without packets will not have any later.
       if (!sinks_ || is_over || capture_.offered() == offered_before) break;
     }
     return conclude();
   }
 
  private:
-  /// A sink that fails is remembered, and ends the replay.
+  /// Hands on a frame. The first error of a sink is kept and ends the replay.
   void take(const run::Frame& frame) {
     const FrameInfo& info = frame.record.info;
     const frame::RangeImage& image = *frame.image;

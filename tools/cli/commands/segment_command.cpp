@@ -23,7 +23,7 @@
 namespace terracut::cli {
 namespace {
 
-/// What of a folder could not be used: said at once, and again in the end.
+/// The files of a folder that could not be used: reported at once and again at the end.
 class UnusedFiles {
  public:
   void add(const Error& fault) {
@@ -41,7 +41,7 @@ class UnusedFiles {
   std::string first_;
 };
 
-/// A car's sensor at 1.4 m or more whose points are feet; few stand so high.
+/// Warns if the mount found is higher than 4.5 m: few are, but a car's is at 1.4 m in feet.
 std::string doubt_of_height(const MountOptions& stated, const MountChoice& mount) {
   constexpr double kRarelyHigher_m = 4.5;
   if (stated.height_m || !mount.found || mount.found->mount.height_m < kRarelyHigher_m) return {};
@@ -71,7 +71,7 @@ ExitCode run_segment(const Options& options) {
 
   run::CloudPipeline pipeline(*rows, *profile, method_of(options.method));
   MountWatch watch(profile->mount, *mount);
-  Report::ScanPoints points;  // of all scans
+  Report::ScanPoints points;  // over all scans
   std::vector<std::uint32_t> truth;
   FrameOutputs outputs(options.output);
   const Status outputs_open =
@@ -121,7 +121,7 @@ ExitCode run_segment(const Options& options) {
                                     pipeline.truth_of_returns(truth));
     }
     if (written) {
-      // Players of recordings need stamps that grow, and files have none.
+      // Stamps must increase for players of recordings, and files have none.
       constexpr std::int64_t kFramePeriod_ns = 100'000'000;
       record.info.first_packet_ns = record.info.number * kFramePeriod_ns;
       record.info.last_packet_ns = record.info.first_packet_ns;

@@ -34,7 +34,7 @@ using send::PacketPacer;
 using send::UdpSender;
 using Json = nlohmann::ordered_json;
 
-/// What Ctrl-C ends, while it waits for its time to send, too.
+/// The pacer that Ctrl-C interrupts while it waits.
 PacketPacer* interruptible = nullptr;
 
 /// Everything the command line names, opened.
@@ -42,7 +42,7 @@ struct Parts {
   PcapSource source;
   send::FaultScript faults;
   send::PortSenders sensor;
-  std::optional<send::PortSenders> stranger;  ///< Who foreign packets come from, if somebody else.
+  std::optional<send::PortSenders> stranger;  ///< The sender of foreign packets, if another.
 };
 
 Expected<Parts> open_parts(const Options& options, memory::FixedMemory& memory) {
@@ -112,7 +112,7 @@ class Send {
   }
 
  private:
-  /// False when the sending is over: Ctrl-C, or the capture broke off.
+  /// False if the sending is over: Ctrl-C, or the capture broke off.
   bool play_once() {
     while (!pacer_.stopped()) {
       const auto next = parts_.source.next();
@@ -136,7 +136,7 @@ class Send {
     return sum;
   }
 
-  /// Sending without an end is not cut short by Ctrl-C.
+  /// False for Ctrl-C during endless sending, which is its normal end.
   [[nodiscard]] bool interrupted() const {
     return pacer_.stopped() && options_.send.play.loops != 0;
   }

@@ -37,7 +37,7 @@ Ruby128EncoderTraits::Config sensor_config(const Options& options, Ruby128Encode
   config.returns = options.simulate.returns;
   config.timestamp = options.simulate.timestamp;
   config.unit.rpm = static_cast<std::uint16_t>(std::lround(60 * options.simulate.spin_hz));
-  config.unit.serial = {'S', 'I', 'M', 'U', 'L', 'A'};  // nobody takes it for a real unit's
+  config.unit.serial = {'S', 'I', 'M', 'U', 'L', 'A'};  // so that nobody takes it for a real unit's
   return config;
 }
 template <class Model>
@@ -112,9 +112,9 @@ ExitCode simulate_and_say(const Options& options, const std::filesystem::path& o
   return kOk;
 }
 
-/// Rays take longer to trace than a frame lasts: the drive is computed first, then sent on time.
-/// Meanwhile its beginning goes out over and over, so that a sensor is heard within seconds: as
-/// much as tells the unit's table, which of an HDL-64E takes 1.2 s.
+/// Tracing rays takes longer than real time, so the drive is computed first and then sent on time.
+/// Meanwhile its beginning is sent repeatedly, long enough to contain the unit's table (1.2 s of an
+/// HDL-64E), so that a sensor is heard within seconds.
 double beginning_s(const Options& options) {
   return options.capture.sensor.value_or(sensor::SensorModel::kHdl64e) ==
                  sensor::SensorModel::kHdl64e
@@ -136,7 +136,7 @@ ExitCode simulate_sending_the_beginning(const Options& options, const std::files
   std::atomic<bool> is_computed{false};
   ExitCode simulated = kOk;
   std::jthread computing([&] {
-    (void)::setpriority(PRIO_PROCESS, 0, 10);  // of this thread: packets go out on time
+    (void)::setpriority(PRIO_PROCESS, 0, 10);  // of this thread: packets must go out on time
     simulated = simulate_and_say(options, drive);
     is_computed = true;
   });

@@ -35,8 +35,8 @@ status::LineStyle style_of_stdout() {
   return style;
 }
 
-/// Overwrites what stands there instead of clearing first, which would flicker. Lines lose what was
-/// longer before, and the screen what stood below.
+/// Overwrites the screen instead of clearing it, which would flicker. Clears the rest of each line,
+/// and of the screen below.
 std::string redrawn(const std::string& text) {
   std::string result = "\x1b[H";
   for (const char c : text) {
@@ -46,7 +46,7 @@ std::string redrawn(const std::string& text) {
   return result + "\x1b[J";
 }
 
-/// The page's figures, for whoever calculates with them.
+/// Refuses a page whose figures are impossible.
 ExitCode refuse_figures(const Reader& page, const std::string& name) {
   return refuse(kInputRefused,
                 fmt::format("the status page '{}' (process {}) holds figures that cannot be: it is "
@@ -54,7 +54,7 @@ ExitCode refuse_figures(const Reader& page, const std::string& name) {
                             name, page.publisher_pid()));
 }
 
-/// Waits for a publisher that was held up while it wrote, as happens on a machine under load.
+/// Waits for a publisher that was held up while writing, as happens on a busy machine.
 std::optional<status::MonitorSnapshot> read_patiently(const Reader& page) {
   constexpr int kLooks = 100;
   constexpr std::chrono::milliseconds kPause{10};
@@ -92,7 +92,7 @@ ExitCode watch(const Reader& page, const std::string& name, double interval_s) {
   const bool terminal = ::isatty(STDOUT_FILENO) == 1;
   if (terminal) print_out("\x1b[2J");
   for (;;) {
-    const bool lives = page.publisher_lives();  // asked first: the last figures are shown too
+    const bool lives = page.publisher_lives();  // asked first, so that the last figures are shown
     if (const auto figures = page.read()) {
       if (!status::are_possible(*figures)) return refuse_figures(page, name);
       const std::string text = dashboard(*figures, measure::realtime_ns(), style_of_stdout());
@@ -109,7 +109,7 @@ ExitCode watch(const Reader& page, const std::string& name, double interval_s) {
 
 }  // namespace
 
-/// Reads the status page of a running process, and nothing else of it.
+/// Reads the status page of a running process and nothing else.
 ExitCode run_top(const Options& options) {
   std::string name = options.watched;
   if (name.empty()) {

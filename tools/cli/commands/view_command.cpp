@@ -32,7 +32,7 @@ ExitCode show(PlayedRecording& recording, const publish::RunFacts& stream, const
     foxglove = *std::move(opened);
   }
   return done_or_refused(player.run([&](const publish::LabelledFrame& frame) -> Status {
-    if (foxglove != nullptr) (void)foxglove->put(frame);  // nothing of it can fail
+    if (foxglove != nullptr) (void)foxglove->put(frame);  // cannot fail
     return (*page)->put(frame);
   }));
 }

@@ -40,10 +40,10 @@ constexpr Colour kToObstacleColour{255, 86, 70}, kToGroundColour{70, 205, 255},
     kOtherChangeColour{255, 221, 0}, kGroundBefore{66, 60, 48}, kObstacleBefore{84, 92, 112};
 
 using Visit = std::function<Status(const FrameChange&, const frame::RangeImage&)>;
-/// Of one drive, by the frames' names.
+/// The frames of one drive, by name.
 using Wanted = std::map<std::string, const FrameChange*>;
 
-/// The frames of a capture, until all that are wanted were there.
+/// Visits the frames of a capture until all wanted ones have come.
 Status visit_capture(const Options& options, Wanted wanted, const Visit& visit) {
   auto capture = open_capture(options.capture);
   if (!capture) return tl::unexpected(capture.error());
@@ -81,7 +81,7 @@ Status visit_capture(const Options& options, Wanted wanted, const Visit& visit) 
   return take_frames();
 }
 
-/// Clouds as images of one row, each point a cell of its own, so that the n-th return is the n-th
+/// Visits clouds as images of one row, with one cell a point, so that the n-th return is the n-th
 /// point; only good for pictures from above.
 Status visit_clouds(const Options& options, const Wanted& wanted, const Visit& visit) {
   const auto folder = scan::list_scan_folder(options.scans, cloud::kCloudFiles);
@@ -113,7 +113,7 @@ Status visit_clouds(const Options& options, const Wanted& wanted, const Visit& v
   return {};
 }
 
-/// A picture of what changed.
+/// Returns a picture of the changes.
 Expected<pictures::Picture> picture_of(const FrameChange& change, const frame::RangeImage& image,
                                        const fs::path& before, const fs::path& after) {
   std::vector<std::uint32_t> ids_before, ids_after;
@@ -153,7 +153,7 @@ Expected<pictures::Picture> picture_of(const FrameChange& change, const frame::R
                       legend);
 }
 
-/// The options of the run that labelled a drive.
+/// Returns the options of the run that labelled a drive.
 Expected<Options> options_of(const Labelling& labelling, const FleetDrive& drive) {
   const fs::path settings = labelling.state / kJobSettings;
   if (const auto file = files::open_plain_file(settings); !file) {

@@ -11,12 +11,12 @@
 
 namespace terracut::cli {
 
-/// Draws frames of which two labelings say different things, from above, "DRIVE.NNNNNN.changes.png"
-/// in output.png, with slashes of the drive's name as underscores: returns that were ground and are
-/// obstacle, those that were obstacle and are ground, others that changed, and the rest dim. Points
-/// are read from the recordings again, as `after` has read them; of captures everything up to the
-/// frame. kInvalidArgument where `after` is of no job, so that its recordings are not known; errors
-/// of the recordings and of writing.
+/// Draws frames whose labels differ between two labellings, from above, to
+/// "DRIVE.NNNNNN.changes.png" in output.png (slashes of the drive's name as underscores): returns
+/// that became obstacle, returns that became ground, other changes, and the rest dim. Reads points
+/// from the recordings again, as `after` did; from a capture all up to the frame. kInvalidArgument
+/// if `after` has no job, so that its recordings are unknown; errors of the recordings and of
+/// writing.
 [[nodiscard]] Status draw_changes(const Labelling& before, const Labelling& after,
                                   std::span<const FrameChange> frames, const OutputOptions& output);
 

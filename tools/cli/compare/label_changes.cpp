@@ -46,7 +46,7 @@ std::set<std::string> label_files_in(const fs::path& folder) {
   return names;
 }
 
-/// Of the files that SHA256SUMS lists, those not written to since it was.
+/// Returns the sums in SHA256SUMS of files that were not written since.
 std::map<std::string, std::string> sums_still_true(const fs::path& folder) {
   std::map<std::string, std::string> sums = listed_sums(folder);
   std::error_code error;
@@ -72,7 +72,7 @@ void keep_most(std::vector<FrameChange>& frames, std::size_t most) {
   if (frames.size() > most) frames.resize(most);
 }
 
-/// Two folders of label files of one drive.
+/// Compares two folders of label files of one drive.
 class DriveComparison {
  public:
   DriveComparison(std::string drive, const fs::path& before, const fs::path& after, bool trust_sums)
@@ -127,7 +127,7 @@ class DriveComparison {
     return {};
   }
 
-  /// Of a file that is the same in both by what their sums say.
+  /// Returns the size of a file that has the same sum in both folders.
   [[nodiscard]] std::optional<std::uint64_t> bytes_by_sum(const std::string& name) const {
     const auto sum = sums_before_.find(name), other = sums_after_.find(name);
     if (sum == sums_before_.end() || other == sums_after_.end() || sum->second != other->second) {

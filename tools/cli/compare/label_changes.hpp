@@ -12,11 +12,11 @@
 
 namespace terracut::cli {
 
-/// Returns of which two labelings say different things.
+/// Counts of returns with different labels.
 struct ReturnChanges {
   std::uint64_t returns = 0;  ///< Compared.
   std::uint64_t to_obstacle = 0, to_ground = 0;
-  std::uint64_t other = 0;  ///< Between kinds of ground, or to or from no label.
+  std::uint64_t other = 0;  ///< Between kinds of ground, or from or to no label.
 
   [[nodiscard]] std::uint64_t changed() const noexcept { return to_obstacle + to_ground + other; }
   [[nodiscard]] double share() const noexcept {
@@ -26,7 +26,7 @@ struct ReturnChanges {
 };
 
 struct FrameChange {
-  std::string drive, frame;  ///< "000012"
+  std::string drive, frame;  ///< The frame is "000012".
   ReturnChanges changes;
 };
 
@@ -36,30 +36,30 @@ struct DriveChange {
   ReturnChanges changes;
 };
 
-/// How one labelling of recordings differs from another.
+/// The differences between two labellings of recordings.
 struct LabelChanges {
   std::uint64_t drives_before_alone = 0, drives_after_alone = 0;
-  std::uint64_t frames_in_one_alone = 0;   ///< Of drives in both.
-  std::uint64_t frames_of_other_size = 0;  ///< As many returns in neither: not compared.
-  std::uint64_t frames_by_sum = 0;         ///< Not read, for both SHA256SUMS say the same.
+  std::uint64_t frames_in_one_alone = 0;   ///< In drives of both.
+  std::uint64_t frames_of_other_size = 0;  ///< With different numbers of returns: not compared.
+  std::uint64_t frames_by_sum = 0;         ///< Not read, as both SHA256SUMS agree.
   DriveChange all;
-  std::vector<DriveChange> drives;  ///< In both; by share, the most changed first.
-  std::vector<FrameChange> most;  ///< Frames, by share, the most changed first; only changed ones.
+  std::vector<DriveChange> drives;  ///< In both; those with the largest changed share first.
+  std::vector<FrameChange> most;    ///< Changed frames, those with the largest share first.
 
-  /// For people, several lines; `shown` drives at most.
+  /// Returns several lines for people with at most `shown` drives.
   [[nodiscard]] std::string text(std::size_t shown) const;
   [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
-/// Ground: 40 and 49; obstacle: 99; the upper 16 bits do not count. `trust_sums`: files that have
-/// the same sum in both SHA256SUMS, are as long, and were not written to since then, are not read.
-/// Else all are, for a sum says what a file once was. `most`: how many frames to name. The errors
-/// of the label files;
-/// kNotFound where there is no drive in both; kNothingCameOut when stop_wanted().
+/// Compares labels: ground is 40 and 49, obstacle 99; the upper 16 bits do not count. With
+/// `trust_sums`, files with equal sums in both SHA256SUMS are not read if they have the same size
+/// and were not written since; otherwise all are read, as a sum may be out of date. `most` is the
+/// number of frames to name. Errors of the label files; kNotFound if no drive is in both;
+/// kNothingCameOut when stop_wanted().
 [[nodiscard]] Expected<LabelChanges> compare_labels(const Labelling& before, const Labelling& after,
                                                     std::size_t most, bool trust_sums);
 
-/// What became of a return; kNone: the same as before.
+/// How a return's label changed; kNone: not at all.
 enum class LabelChange : std::uint8_t { kNone, kToObstacle, kToGround, kOther };
 [[nodiscard]] bool is_obstacle_id(std::uint32_t label) noexcept;
 [[nodiscard]] LabelChange change_between(std::uint32_t before, std::uint32_t after) noexcept;

@@ -35,7 +35,7 @@ Expected<Labelling> plain_labelling(const fs::path& folder) {
     const fs::path place = path.parent_path();
     labelling.drives[place.lexically_relative(folder).string()] = place;
   }
-  // What is not seen would not be compared, and nothing would be said to differ.
+  // A file not seen would not be compared, and no difference reported.
   if (error && fs::exists(folder, none)) {
     return fail(ErrorCode::kUnreadable,
                 folder.string() + ": a folder in it cannot be listed: " + error.message());

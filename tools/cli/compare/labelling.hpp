@@ -13,13 +13,13 @@ namespace terracut::cli {
 /// Label files of one origin.
 struct Labelling {
   std::map<std::string, std::filesystem::path> drives;  ///< Where the label files of each are.
-  std::filesystem::path state;  ///< Of the job that made them (RelabelJob::state()); empty: none.
+  std::filesystem::path state;  ///< Of the job that made them (RelabelJob::state()); may be empty.
 };
 
-/// What lies in a folder: of `terracut relabel`, what the job that began last there has done; of
-/// FOLDER/.relabel/ID, what that one has; of any other, each folder with .label files is a drive,
-/// by its place below. kNotFound where there are no label files; kUnreadable where a
-/// folder cannot be listed; the errors of read_job().
+/// Finds the labels in a folder. A folder of `terracut relabel` has those of its newest job;
+/// FOLDER/.relabel/ID those of that job; in any other, each folder with .label files is a drive,
+/// named by its path below. kNotFound if there are no label files; kUnreadable if a folder cannot
+/// be listed; errors of read_job().
 [[nodiscard]] Expected<Labelling> find_labelling(const std::filesystem::path& folder);
 
 }  // namespace terracut::cli

@@ -82,7 +82,7 @@ class Trace {
     if (frame.segment_begin_ns <= 0) return;
     std::int64_t begin_ns = frame.segment_begin_ns;
     for (std::size_t i = frame.stages_ahead; i < figures_.stages(); ++i) {
-      if (frame.stages.stage_ns[i] <= 0) continue;  // did not run on this level
+      if (frame.stages.stage_ns[i] <= 0) continue;  // not run on this level
       const std::int64_t end_ns = std::min(begin_ns + frame.stages.stage_ns[i], frame.labels_ns);
       slice(kSegment, std::string(figures_.stage_names[i].view()), begin_ns, end_ns,
             {{"cpu_ms", milliseconds(frame.stages.stage_ns[i])}});
@@ -90,7 +90,7 @@ class Trace {
     }
   }
 
-  /// Where the deadline ran out; for a frame that was given up before, where that was.
+  /// Marks the deadline of a missed frame, or the moment when a frame was given up before it.
   void add_miss(const status::FrameRecord& frame) {
     if (frame.labels_ns <= 0) return;
     const std::int64_t when_ns =
@@ -105,7 +105,7 @@ class Trace {
   }
 
   void slice(Track on, std::string name, std::int64_t begin_ns, std::int64_t end_ns, Json args) {
-    if (begin_ns <= 0 || end_ns < begin_ns) return;  // a stamp that is not known
+    if (begin_ns <= 0 || end_ns < begin_ns) return;  // an unknown stamp
     Json event = event_of("X", on, std::move(name));
     event["ts"] = microseconds(begin_ns);
     event["dur"] = static_cast<double>(end_ns - begin_ns) / 1000.0;

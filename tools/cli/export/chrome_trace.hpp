@@ -9,15 +9,15 @@
 
 namespace terracut::cli {
 
-/// The way of frames through the threads as Chrome's trace event format, which Perfetto's UI and
-/// chrome://tracing open: a track each for receive, segment and publish, a slice a frame and a
-/// frame, an instant event where a deadline was missed. Times are microseconds since the earliest
-/// stamp; its time of day is otherData.origin_ns.
+/// Returns the path of frames through the threads in Chrome's trace event format, which Perfetto's
+/// UI and chrome://tracing open: a track each for receive, segment and publish, slices for frames
+/// and their stages, an instant event where a deadline was missed. Times are microseconds since the
+/// earliest stamp; its time of day is otherData.origin_ns.
 ///
 /// Stages are measured in processor time, so their slices stand one after another from the start of
-/// their frame at the width of that time; what is left of the frame's slice behind them is time off
-/// the core. A frame's slice begins at its first packet, but not before the frame before it was
-/// handed over, because two frames are open at once around the seam.
+/// their frame at the width of that time; the rest of the frame's slice is time off the core. A
+/// frame's slice begins at its first packet, but not before the previous frame was handed over,
+/// because two frames are open at once around the seam.
 ///
 /// `figures` gives the stages' names and the deadline; `frames` in the order they were judged.
 [[nodiscard]] nlohmann::ordered_json chrome_trace(const status::MonitorSnapshot& figures,

@@ -25,7 +25,7 @@ using page::StatusPageEntry;
 
 struct Pages {
   std::vector<StatusPageEntry> running;
-  std::string left_over;  ///< For people: those of processes that are gone.
+  std::string left_over;  ///< Lists pages of processes that are gone, for people.
 };
 
 Pages pages_in(const std::filesystem::path& folder) {
@@ -47,8 +47,9 @@ bool still_runs(const std::filesystem::path& folder, const StatusPageEntry& proc
   });
 }
 
-/// Is of the user whose page names it, and blocks or catches SIGUSR1, as /proc/PID/status tells in
-/// hexadecimal masks. What cannot be read does not listen: a signal is not sent on a guess.
+/// True if the process belongs to the user of its page and blocks or catches SIGUSR1, as the
+/// hexadecimal masks in /proc/PID/status tell. False if these cannot be read: no signal is sent on
+/// a guess.
 bool listens_for_dumps(const StatusPageEntry& process) {
   constexpr std::uint64_t kSignal = std::uint64_t{1} << (SIGUSR1 - 1);
   std::ifstream status(fmt::format("/proc/{}/status", process.pid));
@@ -103,8 +104,8 @@ Expected<StatusPageEntry> find_live_process(const std::filesystem::path& folder,
 }
 
 Status ask_for_dump(const std::filesystem::path& folder, const StatusPageEntry& process) {
-  // The descriptor stands for this very process: once it is seen to be the right one, the signal
-  // cannot reach another that was given its number later.
+  // The descriptor stands for this very process: after the check the signal cannot reach a later
+  // process of the same number.
   const files::OwnedDescriptor held(static_cast<int>(::syscall(SYS_pidfd_open, process.pid, 0)));
   if (!held) return tl::unexpected(system_refusal(process, errno));
   if (!still_runs(folder, process)) return tl::unexpected(system_refusal(process, ESRCH));

@@ -10,12 +10,12 @@
 
 namespace terracut::cli {
 
-/// Copies the newest figures. Called on the server's thread, never after the server is gone.
+/// Copies the newest figures. Called on the server's thread, never after the server's end.
 using FiguresSource = std::function<void(status::MonitorSnapshot&)>;
 
 /// Answers GET /metrics with the figures for Prometheus (metrics_text.hpp), within HttpBounds.
-/// Listen on loopback unless the network is trusted. What the pages of others have a browser ask
-/// gets 403. The errors of HttpServer::start().
+/// Listen on loopback unless the network is trusted. Requests from foreign web pages get 403.
+/// Errors of HttpServer::start().
 [[nodiscard]] Expected<HttpServer> serve_metrics(const net::Ipv4Endpoint& at, FiguresSource source,
                                                  const HttpBounds& bounds = {});
 

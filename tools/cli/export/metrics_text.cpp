@@ -18,12 +18,12 @@ namespace {
 
 using Labels = std::vector<std::pair<std::string_view, std::string>>;
 
-/// From well below a quick stage to well above a deadline of one frame.
+/// Buckets from well below a fast stage to well above a deadline of one frame.
 constexpr std::array<std::int64_t, 19> kLimits_us{
     100,    250,    500,    1'000,  2'000,  3'000,  5'000,   7'500,   10'000,   15'000,
     20'000, 25'000, 30'000, 40'000, 50'000, 75'000, 100'000, 200'000, 1'000'000};
 
-/// Inside the quotes of a label.
+/// Escapes a text inside the quotes of a label.
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -33,7 +33,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-/// The samples of one metric, which stand together.
+/// The samples of one metric, which must stand together.
 class Family {
  public:
   explicit Family(const status::Metric& metric, bool is_histogram)

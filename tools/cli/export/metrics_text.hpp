@@ -8,9 +8,10 @@
 
 namespace terracut::cli {
 
-/// The figures in Prometheus' text exposition format 0.0.4. Every counter counts since the start of
-/// the process; times are seconds. A value within 1/128 below a bucket's limit may be counted in
-/// the next bucket, none above it in this one (measure::LogLinearHistogram::count_not_above).
+/// Returns the figures in Prometheus' text exposition format 0.0.4. Every counter counts since the
+/// start of the process; times are seconds. A value within 1/128 below a bucket's limit may be
+/// counted in the next bucket, none above it in this one
+/// (measure::LogLinearHistogram::count_not_above).
 [[nodiscard]] std::string metrics_text(const status::MonitorSnapshot& figures);
 
 }  // namespace terracut::cli

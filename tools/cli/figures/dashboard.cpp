@@ -19,7 +19,7 @@ using measure::milliseconds;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kStale_ns = 3 * kSecond_ns;  // a page is written many times a second
 
-/// "2 d 03:04:05"
+/// Returns "2 d 03:04:05".
 std::string duration(std::int64_t ns) {
   const std::int64_t s = std::max<std::int64_t>(ns, 0) / kSecond_ns;
   const std::string days = s >= 86'400 ? fmt::format("{} d ", s / 86'400) : "";
@@ -41,7 +41,8 @@ std::string title(const status::MonitorSnapshot& figures, std::int64_t now_ns,
   return text + '\n';
 }
 
-/// A bar a stage: '#' up to its median, '-' on to its p99, all on the scale of the longest.
+/// Draws a bar for each stage: '#' up to its median, '-' up to its p99, all on the scale of the
+/// longest.
 std::string bars_of_stages(const status::MonitorSnapshot& figures, const status::LineStyle& style) {
   constexpr int kBesideBar = 18 + 10 + 10 + 2;
   const auto width = static_cast<double>(std::clamp(style.columns - 1 - kBesideBar, 10, 60));

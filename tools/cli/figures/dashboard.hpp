@@ -10,17 +10,17 @@
 
 namespace terracut::cli {
 
-/// What `terracut top` shows: the figures for people, lines ended by '\n'. `now_ns`: time of day,
-/// by which it is seen that a process hangs. Only printable ASCII comes out (and the escape
-/// sequences of colours), whatever the texts of the snapshot hold: it was written by another
-/// process and goes to a terminal.
+/// Returns the screen of `terracut top`: the figures for people as lines that end with '\n'.
+/// `now_ns` is the time of day, which shows if a process hangs. The output is printable ASCII (and
+/// escape sequences of colours), whatever the snapshot's texts hold: another process wrote them,
+/// and they go to a terminal.
 [[nodiscard]] std::string dashboard(const status::MonitorSnapshot& figures, std::int64_t now_ns,
                                     const status::LineStyle& style);
 
-/// What `terracut live` prints at its end.
+/// Returns the final output of `terracut live`.
 [[nodiscard]] std::string closing_lines(const status::MonitorSnapshot& figures);
 
-/// Of a run out of which no frame came: what became of its datagrams instead.
+/// Explains a run without frames: what happened to its datagrams instead.
 [[nodiscard]] std::string why_no_frames(const status::MonitorSnapshot& figures);
 
 }  // namespace terracut::cli

@@ -44,7 +44,7 @@ Json json_of(const status::Value& value) {
       value);
 }
 
-/// "mount.seen", "threads.0"; the whole for "".
+/// Returns the group "mount.seen" or "threads.0"; the whole for "".
 Json& group_in(Json& whole, std::string_view group) {
   if (group.empty()) return whole;
   const std::size_t dot = std::min(group.find('.'), group.size());
@@ -68,7 +68,7 @@ void add_figures(std::span<const status::Figure> figures, Json& json) {
 Json live_summary(const status::MonitorSnapshot& figures) {
   Json json;
   add_figures(status::figures_of(figures), json);
-  if (!json.contains("threads")) json["threads"] = Json::array();  // none runs yet
+  if (!json.contains("threads")) json["threads"] = Json::array();  // no thread runs yet
   return json;
 }
 

@@ -10,13 +10,13 @@
 
 namespace terracut::cli {
 
-/// Puts the figures into `json`, each in its group under its key. Durations are milliseconds,
-/// times of day nanoseconds, histograms {count, mean, p50, p90, p99, p99.9, max} of milliseconds.
+/// Adds the figures to `json`, each in its group under its key. Durations are milliseconds, times
+/// of day nanoseconds, histograms {count, mean, p50, p90, p99, p99.9, max} of milliseconds.
 void add_figures(std::span<const status::Figure> figures, nlohmann::ordered_json& json);
 
-/// All figures of a live run for programs, as `terracut top --print-json` prints them and a run
-/// writes them at its end: those of status::figures_of(), under their keys. `motion` and `health`
-/// are there where they are asked for; `blind` is null where no blind sector is known.
+/// Returns all figures of a live run for programs, as printed by `terracut top --print-json` and
+/// written at a run's end: those of status::figures_of(), under their keys. `motion` and `health`
+/// are present if used; `blind` is null if no blind sector is known.
 [[nodiscard]] nlohmann::ordered_json live_summary(const status::MonitorSnapshot& figures);
 
 }  // namespace terracut::cli

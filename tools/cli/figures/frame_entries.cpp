@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kPiece_bytes = 1 << 16;
 constexpr std::string_view kNoFrames =
-    "\n \"frames\": []";  // in no text: newlines are escaped there
+    "\n \"frames\": []";  // unique: newlines in texts are escaped
 
 Error cannot_keep(const std::filesystem::path& path, int error_number) {
   return {ErrorCode::kWriteFailed,

@@ -12,18 +12,17 @@
 
 namespace terracut::cli {
 
-/// frames[] of a report, kept on the disk while its run goes on: of an hour's 36,000 frames they
-/// would take 200 MB of memory. The file has no name, so that nothing of it is left. One thread.
+/// Keeps a report's frames[] on the disk during the run: those of an hour, 36,000 frames, would
+/// take 200 MB of memory. The file has no name, so nothing of it is left. One thread.
 class FrameEntries {
  public:
-  /// Keeps them beside `report`, the file that they will be written to. An error is told by
-  /// write().
+  /// Keeps the entries beside `report`, the file they will be written to. write() reports errors.
   explicit FrameEntries(const std::filesystem::path& report);
 
   void add(const nlohmann::ordered_json& entry);
 
-  /// Writes `report` with its "frames", an empty list so far, filled by these; whole or not at all.
-  /// kWriteFailed.
+  /// Writes `report`, whose "frames" must be an empty list, with these entries; whole or not at
+  /// all. kWriteFailed.
   [[nodiscard]] Status write(const std::filesystem::path& path,
                              const nlohmann::ordered_json& report);
 
@@ -31,9 +30,9 @@ class FrameEntries {
   void flush();
 
   files::OwnedDescriptor file_;
-  std::string pending_;  ///< Not in the file yet.
+  std::string pending_;  ///< Not written to the file yet.
   std::uint64_t bytes_ = 0;
-  int error_number_ = 0;  ///< The first.
+  int error_number_ = 0;  ///< errno of the first error.
 };
 
 }  // namespace terracut::cli

@@ -27,13 +27,13 @@ bool is_deskewed(const FrameRecord& frame) {
   return frame.info.deskew.state == frame::DeskewState::kDone;
 }
 
-/// A cloud is there at once: nothing of its work is done while it arrives.
+/// False for a cloud, which comes at once, so that no work is done while it arrives.
 bool arrived_in_packets(const FrameRecord& frame) {
   return frame.decode_cpu_ns > 0;
 }
 
-/// What the report has of every frame: of its cut, how many cells it had to decide, how many kept
-/// their coarse label for want of budget, and the operations it took.
+/// Returns the report's figures for every frame; of its cut the cells to decide, those left coarse
+/// by the budget, and the operations.
 std::vector<Figure> frame_figures(const FrameRecord& frame) {
   const min_cut::CutReport& cut = frame.segmentation.cut;
   const auto count = [](std::uint64_t of) { return status::Value(of); };
@@ -68,7 +68,7 @@ std::vector<Figure> frame_figures(const FrameRecord& frame) {
   return figures;
 }
 
-/// Where each record of a capture is.
+/// Returns where each record of a capture went.
 std::vector<Figure> datagram_figures(const capture::CaptureAccount& account) {
   std::vector<Figure> figures = outside_figures(account.before_start, account.behind_end);
   const auto add = [&](std::string_view key, std::uint64_t count) {
@@ -85,7 +85,7 @@ std::vector<Figure> datagram_figures(const capture::CaptureAccount& account) {
   return figures;
 }
 
-/// How the vehicle's motion and the frames fit together in time.
+/// Returns how the vehicle's motion and the frames match in time.
 std::vector<Figure> motion_figures(std::uint64_t samples, const FrameTotals& totals) {
   const std::uint64_t deskewed = totals.deskewed;
   std::vector<std::int64_t> newest_ns = totals.newest_motion_ns;

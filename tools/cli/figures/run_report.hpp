@@ -26,38 +26,38 @@
 
 namespace terracut::cli {
 
-/// Times of all frames: per stage, decoding and the sum of both; of it what came after the frame's
-/// end; and by the wall clock.
+/// Times over all frames: by stage, decoding, their sum, the part after the frame's end, and wall
+/// time.
 struct TimeSummary {
   std::array<measure::LogLinearHistogram, stage::kStages> stages;
   measure::LogLinearHistogram decode, total, after_frame, wall;
 
   void add(const status::FrameRecord& frame) noexcept;
-  /// They refer to this.
+  /// Returns figures that refer to this object.
   [[nodiscard]] std::vector<status::Figure> figures() const;
 };
 
-/// What the records of all frames add up to.
+/// The sums over the records of all frames.
 struct FrameTotals {
   std::uint64_t frames = 0, complete = 0, returns_in = 0, returns_labelled = 0;
   frame::LossCounters losses;
   std::uint64_t deskewed = 0, remembering = 0, contradicted = 0;
-  std::vector<std::int64_t> newest_motion_ns;  ///< Of each frame of a run that has motion.
+  std::vector<std::int64_t> newest_motion_ns;  ///< One for each frame of a run with motion.
 
   void add(const status::FrameRecord& frame, bool has_motion);
 };
 
-/// The method that ran: its name, or profile and stages.
+/// Returns the method that ran: its name, or profile and stages.
 [[nodiscard]] std::vector<status::Figure> method_figures(const MethodOptions& options);
 
-/// How many datagrams lie outside of the part of a capture that was asked for.
+/// Returns the number of datagrams outside the requested part of a capture.
 [[nodiscard]] std::vector<status::Figure> outside_figures(std::uint64_t before_start,
                                                           std::uint64_t behind_end);
 
-/// An entry of frames[] in the report.
+/// Returns an entry of the report's frames[].
 [[nodiscard]] nlohmann::ordered_json frame_json(const status::FrameRecord& frame);
 
-/// The report of a run: what the frames' records say, and the same summarised.
+/// The report of a run: the frames' records and a summary.
 struct Report {
   std::string command;  ///< "replay"
   std::string input;
@@ -65,38 +65,36 @@ struct Report {
   std::string calibration;  ///< Origin and fingerprint of the table in use.
   MethodOptions method;
 
-  std::optional<FrameEntries> entries{};  ///< By add(), where the whole report is wanted.
-  FrameTotals totals{};                   ///< By add().
+  std::optional<FrameEntries> entries{};  ///< Filled by add(), if the whole report is wanted.
+  FrameTotals totals{};                   ///< Filled by add().
   TimeSummary times{};
-  quality::Quality scores{};  ///< By score().
+  quality::Quality scores{};  ///< Filled by score().
   std::uint64_t scored = 0;   ///< Frames with fitting truth.
 
-  /// Everything lost in the run, where that is more than the frames' sum (losses after the last
-  /// one).
+  /// All losses of the run, if more than the frames' sum (losses after the last frame).
   std::optional<frame::LossCounters> losses{};
-  std::optional<capture::CaptureAccount> datagrams{};  ///< Of a capture.
+  std::optional<capture::CaptureAccount> datagrams{};  ///< For a capture.
   frame::BlindAzimuths blind{};  ///< Where the sensor sends nothing, as known at the end.
   status::MountFigures mount{};
-  /// Samples of the vehicle's motion there were; of runs whose frames are to be deskewed, from
-  /// before the first frame.
+  /// Samples of the vehicle's motion; set before the first frame in runs that deskew.
   std::optional<std::uint64_t> motion_samples{};
-  /// Points of scan files that got no return: null or not finite, labelled 0; and of no ring,
-  /// labelled as obstacles.
+  /// Points of scan files without a return: null or not finite, labelled 0; and those without a
+  /// ring, labelled as obstacles.
   struct ScanPoints {
     std::uint64_t no_place = 0, no_ring = 0;
   };
   std::optional<ScanPoints> scan_points{};
-  std::string device_clock{};    ///< What is known of the sensor's clock, for people.
+  std::string device_clock{};    ///< State of the sensor's clock, for people.
   std::string sensor_warning{};  ///< Why clouds may not be one sensor's in its own frame.
-  std::string input_warning{};   ///< What of the input is missing: where it broke off.
-  bool interrupted = false;      ///< Ended before its work was done: not of all its input.
+  std::string input_warning{};   ///< Where the input broke off.
+  bool interrupted = false;      ///< Ended before all of its input was processed.
 
   void add(const status::FrameRecord& frame);
   void score(std::span<const frame::Label> labels, std::span<const std::uint32_t> truth);
 
-  /// The summary for people, several lines, as printed on stdout.
+  /// Returns the summary for people, several lines, as printed on stdout.
   [[nodiscard]] std::string text() const;
-  /// The whole report for programs, whole or not at all:
+  /// Writes the report for programs, whole or not at all:
   ///
   ///   terracut, command, input, calibration   of what ran on what
   ///   profile, stages; or method, where --method named it
@@ -116,7 +114,7 @@ struct Report {
   ///                   motion{samples, deskewed_frames, newest_sample_after_frame_ms{min, median,
   ///                   max}}
   [[nodiscard]] Status write_json(const std::filesystem::path& path);
-  /// The same with an empty list of frames.
+  /// Returns the report with an empty list of frames.
   [[nodiscard]] nlohmann::ordered_json json() const;
 
  private:
@@ -124,7 +122,7 @@ struct Report {
   [[nodiscard]] std::vector<status::Figure> summary_figures() const;
 };
 
-/// Prints the report, writes it to `json` too unless that is empty, and returns the exit code.
+/// Prints the report, writes it to `json` unless that is empty, and returns the exit code.
 [[nodiscard]] ExitCode conclude_with(Report& report, const std::filesystem::path& json);
 
 }  // namespace terracut::cli

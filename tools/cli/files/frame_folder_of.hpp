@@ -14,7 +14,7 @@
 
 namespace terracut::cli {
 
-/// A folder of --labels, --pcd or --png, which says how many older files it takes away.
+/// Makes a folder for --labels, --pcd or --png, which reports how many older files it removes.
 [[nodiscard]] inline output::FrameFolder frame_folder_of(const OutputOptions& options,
                                                          const std::filesystem::path& folder,
                                                          const std::string& ending) {

@@ -12,7 +12,7 @@
 
 namespace terracut::cli {
 
-/// The files and folders that a run reads and writes, as its command line names them.
+/// The files and folders that a run reads and writes, as named on its command line.
 struct RunFiles {
   struct Input {
     std::string option;  ///< "--calibration", or "FILE" of an argument.
@@ -21,41 +21,40 @@ struct RunFiles {
   };
   enum class Kind : std::uint8_t {
     kFile,
-    kFrames,          ///< Folder with a file a frame, all of one ending (FrameFolder).
-    kFolder,          ///< Folder for this run's files, which may lie beside others.
+    kFrames,          ///< Folder with one file per frame, all with one ending (FrameFolder).
+    kFolder,          ///< Folder that this run's files share with others.
     kReplacedFolder,  ///< Folder that is replaced as a whole.
-    kSharedFolder,    ///< Folder in which runs tell their files apart by themselves.
+    kSharedFolder,    ///< Folder in which runs keep their own files apart.
   };
   struct Output {
     std::string option;
     std::filesystem::path path;
     Kind kind = Kind::kFile;
-    std::string ending{};  ///< Of kFrames: ".label".
+    std::string ending{};  ///< For kFrames: ".label".
   };
 
   std::vector<Input> inputs;
   std::vector<Output> outputs;
-  std::string made_of{};         ///< What the outputs come of; empty: unknown.
-  bool replaces_others = false;  ///< In folders of frames also what came of something else.
+  std::string made_of{};         ///< Input of the outputs; empty: unknown.
+  bool replaces_others = false;  ///< In folders of frames also files made of another input.
 
-  /// Both leave out what was not given, an empty path.
+  /// read() and write() ignore empty paths, which stand for options not given.
   void read(std::string option, const std::filesystem::path& path, std::string what);
   void write(std::string option, const std::filesystem::path& path, Kind kind = Kind::kFile,
              std::string ending = {});
 };
 
-/// The one check of all commands, before any work: that no output is, lies in or replaces an input,
-/// that no two outputs are one, and that each can be what it is named for. Files are compared by
-/// what they are, not by their names (files::FilePlace). Then every output is held against other
-/// runs as long as the claims live. The errors of files::OutputClaim, and for folders of frames of
-/// FrameFolder::check(), naming options and files. What cannot be written to now
-/// (kWriteFailed, and what FrameFolder::check() says) is put into `unwritable` instead, where that
-/// is given.
+/// Checks the files of a command before any work: no output is, lies in or replaces an input, no
+/// two outputs are the same, and each can be of its kind. Files are compared by identity, not by
+/// name (files::FilePlace). Then reserves each output against other runs as long as its claim
+/// lives. Errors of files::OutputClaim and, for folders of frames, of FrameFolder::check(), naming
+/// options and files. Outputs that cannot be written now (kWriteFailed, and errors of
+/// FrameFolder::check()) are put into `unwritable` instead, if given.
 [[nodiscard]] Expected<std::vector<files::OutputClaim>> claim_outputs(
     const RunFiles& files, std::vector<Error>* unwritable = nullptr);
 
-/// "will be replaced: r.json, d.mcap": files and folders that stand where the run will put its
-/// own as a whole. Empty: there are none.
+/// Returns "will be replaced: r.json, d.mcap", the existing files and folders that the run replaces
+/// as a whole; empty if there are none.
 [[nodiscard]] std::string replaced_by(const RunFiles& files);
 
 }  // namespace terracut::cli

@@ -18,7 +18,7 @@
 namespace terracut::cli {
 namespace {
 
-/// Large enough for a network's file system, small enough for the processor's cache.
+/// Large enough for network file systems, small enough for the processor's cache.
 constexpr std::size_t kReadBytes = std::size_t{1} << 20;
 
 }  // namespace

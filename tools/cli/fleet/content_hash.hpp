@@ -15,15 +15,15 @@ struct evp_md_ctx_st;  // OpenSSL's EVP_MD_CTX
 
 namespace terracut::cli {
 
-/// SHA-256 (FIPS 180-4) of what it is given bit by bit. One thread.
+/// Computes SHA-256 (FIPS 180-4) of data given piece by piece. One thread.
 class ContentHash {
  public:
-  /// Throws std::bad_alloc where the library cannot be used.
+  /// Throws std::bad_alloc if the library cannot be used.
   ContentHash();
 
   void add(std::span<const std::byte> bytes);
   void add(std::string_view text) { add(std::as_bytes(std::span(text.data(), text.size()))); }
-  /// 64 digits, as sha256sum prints them. Once.
+  /// Returns 64 digits, as sha256sum prints them. To be called once.
   [[nodiscard]] std::string digits();
 
  private:
@@ -33,11 +33,11 @@ class ContentHash {
   std::unique_ptr<evp_md_ctx_st, Free> context_;
 };
 
-/// Of all that is in a file. kNotFound, kUnreadable; kNothingCameOut when stop_wanted().
+/// Hashes a whole file. kNotFound, kUnreadable; kNothingCameOut when stop_wanted().
 [[nodiscard]] Expected<std::string> sha256_of_file(const std::filesystem::path& path);
 
 [[nodiscard]] std::string sha256_of(std::string_view text);
-/// Its first 64 bits.
+/// The digits of the first 64 bits.
 inline constexpr std::size_t kShortHashDigits = 16;
 [[nodiscard]] std::string short_hash(std::string_view text);
 

@@ -27,7 +27,7 @@ Expected<std::string> stamp_of_file(const std::filesystem::path& path) {
                      file.st_ctim.tv_nsec);
 }
 
-/// One figure of a folder's clouds, from one of each.
+/// Collects one figure of each cloud in a folder.
 template <class OfFile>
 Expected<std::string> of_clouds(const std::filesystem::path& folder, OfFile&& of_file) {
   const auto listed = scan::list_scan_folder(folder, cloud::kCloudFiles);
@@ -49,7 +49,7 @@ std::vector<DriveInput> inputs_of(const FleetDrive& drive) {
       {"setup", drive.setup},     {"can", drive.can},     {"dbc", drive.dbc}};
   std::erase_if(inputs, [](const DriveInput& input) { return input.path.empty(); });
   if (drive.capture.empty() || !drive.calibration.empty()) return inputs;
-  // A run may take it where the packets hold none.
+  // A run may use it if the packets hold none.
   const auto beside = calibration_beside(drive.capture);
   if (beside && !beside->empty()) inputs.push_back({"calibration", *beside});
   return inputs;

@@ -13,22 +13,22 @@
 
 namespace terracut::cli {
 
-/// A file, or a folder of clouds, that a drive's labels come from.
+/// A file, or a folder of clouds, from which a drive's labels are made.
 struct DriveInput {
-  std::string_view role;  ///< "capture", as in the manifest.
+  std::string_view role;  ///< "capture" and so on, as in the manifest.
   std::filesystem::path path;
 };
 
-/// Those that the manifest names, and a calibration that lies beside a capture.
+/// Returns the inputs named by the manifest, and a calibration beside a capture.
 [[nodiscard]] std::vector<DriveInput> inputs_of(const FleetDrive& drive);
 
-/// Lengths and times of change by role, in some form: what has the same as before has not been
-/// written to, replaced or renamed since, whatever its time of writing was set to. Of a folder, of
-/// all its clouds. kNotFound, kUnreadable.
+/// Returns sizes and change times by role, for comparison: an input with equal stamps was not
+/// written, replaced or renamed in between, whatever its modification time says. For a folder,
+/// those of all its clouds. kNotFound, kUnreadable.
 [[nodiscard]] Expected<nlohmann::ordered_json> stamps_of(const FleetDrive& drive);
 
-/// SHA-256 of what is in it; of a folder, of its clouds' names and theirs. Neither its place nor
-/// its times count. kNotFound, kUnreadable; kNothingCameOut when stop_wanted().
+/// Returns SHA-256 of an input's content; of a folder, that of its clouds' names and contents. Path
+/// and times do not count. kNotFound, kUnreadable; kNothingCameOut when stop_wanted().
 [[nodiscard]] Expected<std::string> content_of(const DriveInput& input);
 
 }  // namespace terracut::cli

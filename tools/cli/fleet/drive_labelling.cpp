@@ -47,7 +47,7 @@ std::string cause_of(ExitCode code) {
   }
 }
 
-/// A part of this process, gone when this is.
+/// A part folder of this process, removed with this object.
 class LabellingFolder {
  public:
   LabellingFolder(const RelabelJob& job, const FleetDrive& drive)
@@ -60,7 +60,7 @@ class LabellingFolder {
   }
 
   [[nodiscard]] bool made() const { return static_cast<bool>(part_.lock); }
-  /// What is to become the drive's folder, with the rights that the user gives to new ones.
+  /// Returns the later folder of the drive, which has the user's normal rights for new folders.
   [[nodiscard]] fs::path labels() const { return part_.path / "labels"; }
   [[nodiscard]] fs::path settings() const { return labels() / kJobSettings; }
   [[nodiscard]] fs::path report() const { return part_.path / "report.json"; }
@@ -70,7 +70,7 @@ class LabellingFolder {
   files::Part part_;
 };
 
-/// Where the run is to write.
+/// Returns the options that tell the run where to write.
 std::vector<std::string> output_words(const RelabelJob& job, const Json& recipe,
                                       const LabellingFolder& folder) {
   std::vector<std::string> words{"--json", folder.report().string()};
@@ -87,7 +87,7 @@ std::vector<std::string> output_words(const RelabelJob& job, const Json& recipe,
   return words;
 }
 
-/// The summary of a run's report without that of its frames, of which an hour has 36,000.
+/// Returns a run's report without its frames, 36,000 in an hour.
 Json report_without_frames(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return Json::parse(
@@ -98,7 +98,7 @@ Json report_without_frames(const fs::path& path) {
       false);
 }
 
-/// Its last error, else its last line.
+/// Returns the log's last error, else its last line.
 std::string last_words(const fs::path& log) {
   std::ifstream file(log);
   std::string error, last;
@@ -123,13 +123,13 @@ ExitCode failed(const Error& error, RelabelRecord& record) {
   return failed(code, cause_of(code), error.message, record);
 }
 
-/// Of check_place() and put_in_place().
+/// Records an error of check_place() or put_in_place().
 ExitCode not_placed(const Error& error, RelabelRecord& record) {
   if (error.code == ErrorCode::kWriteFailed) return failed(error, record);
   return failed(kOutputFailed, kNoPlace, error.message, record);
 }
 
-/// Why the run's labels are not to be taken, if so.
+/// Records why the run's labels cannot be used, if so.
 ExitCode judge(const ProgramRun& run, const Json& report, const LabellingFolder& folder,
                RelabelRecord& record) {
   if (run.signal != 0) {
@@ -138,7 +138,7 @@ ExitCode judge(const ProgramRun& run, const Json& report, const LabellingFolder&
   }
   if (run.exit_code != kOk) {
     const auto code = static_cast<ExitCode>(run.exit_code);
-    record.ends_shard = code == kOutputFailed;  // what it writes lies beside every other drive's
+    record.ends_shard = code == kOutputFailed;  // it writes where all other drives are written
     return failed(code, cause_of(code), last_words(folder.log()), record);
   }
   if (!report.is_object() || !report.contains("summary")) {
@@ -190,7 +190,7 @@ ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive, const Json&
     if (summary.contains(key)) facts[key] = summary[key];
   }
   std::error_code error;
-  // The list by which a later `--labels` of the same folder would take them for its own.
+  // Removed, or a later `--labels` into this folder would take the files for its own.
   fs::remove(folder.labels() / ".label.terracut", error);
   if (const Status sealed = seal(folder.labels(), facts); !sealed) {
     return failed(sealed.error(), record);

@@ -10,18 +10,18 @@
 
 namespace terracut::cli {
 
-/// Labels a drive in a folder of its own below the job's parts, by `terracut replay` or `segment`,
-/// and puts what came out in its place, "job.folder/record.output". Completes `record`: done, or
-/// the cause of the failure. Whatever happens, nothing half written gets that name, nor what came
-/// of inputs that are no longer those of `record.stamps`, which were taken before they were hashed.
-/// Returns what the failure would be as an exit code; kInterrupted leaves the record as it is.
+/// Labels a drive in a folder of its own among the job's parts, by `terracut replay` or `segment`,
+/// and moves the result to its place, "job.folder/record.output". Completes `record`: done, or the
+/// cause of the failure. Nothing incomplete ever gets that name, nor the result of inputs that have
+/// changed since `record.stamps`, taken before they were hashed. Returns the failure's exit code;
+/// kInterrupted leaves the record unchanged.
 [[nodiscard]] ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive,
                                    const nlohmann::ordered_json& recipe, RelabelRecord& record);
 
-/// What the facts of a whole folder (labelled_drive.hpp) say for the record of its drive.
+/// Takes the facts of a complete folder (labelled_drive.hpp) into its drive's record.
 void take_facts(const nlohmann::ordered_json& facts, RelabelRecord& record);
 
-/// The cause and exit code of an error before the labelling, as of an input that is not there.
+/// Records an error before the labelling, such as a missing input. Returns its exit code.
 [[nodiscard]] ExitCode note_failure(const Error& error, RelabelRecord& record);
 
 }  // namespace terracut::cli

@@ -41,14 +41,14 @@ Status add_companions(const Beside& beside, FleetDrive& drive) {
                           drive.can.string(), beside.stem));
 }
 
-/// How many captures of each folder would be called the same without their endings.
+/// Counts the captures in each folder that have the same name without ending.
 std::map<fs::path, int> count_stems(const std::set<fs::path>& captures) {
   std::map<fs::path, int> counts;
   for (const fs::path& capture : captures) ++counts[capture.parent_path() / stem_of(capture)];
   return counts;
 }
 
-/// Paths in a message, not too many.
+/// Lists some paths for a message.
 std::string some_of(const std::vector<LeftOut>& left_out) {
   constexpr std::size_t kShown = 3;
   std::string text;
@@ -59,7 +59,7 @@ std::string some_of(const std::vector<LeftOut>& left_out) {
   return text;
 }
 
-/// A name that relabel takes for outputs: without dots at its beginning.
+/// Returns a name that relabel accepts for outputs: without leading dots.
 std::string name_of_root(const fs::path& root) {
   const std::string name = root.filename().string();
   const std::size_t begin = name.find_first_not_of('.');

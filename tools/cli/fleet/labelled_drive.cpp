@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Files of a folder but for what seal() writes: how many, how long together.
+/// Returns number and total size of a folder's files, except those seal() writes.
 std::pair<std::uint64_t, std::uint64_t> extent_of(const fs::path& folder) {
   std::pair<std::uint64_t, std::uint64_t> extent{0, 0};
   std::error_code error;
@@ -42,8 +42,8 @@ std::pair<std::uint64_t, std::uint64_t> extent_of(const fs::path& folder) {
   return extent;
 }
 
-/// As sha256sum writes it: of a name with a line break in it one line all the same, marked by a
-/// backslash at its begin.
+/// Returns a line as sha256sum writes it: a name with a line break is escaped and marked by a
+/// backslash at the line's beginning.
 std::string sum_line(const std::string& sum, const std::string& name) {
   if (name.find('\n') == std::string::npos) return fmt::format("{}  {}\n", sum, name);
   std::string escaped;
@@ -51,7 +51,7 @@ std::string sum_line(const std::string& sum, const std::string& name) {
   return fmt::format("\\{}  {}\n", sum, escaped);
 }
 
-/// The name behind such a mark.
+/// Returns the name on a line marked by that backslash.
 std::string unescaped(std::string_view text) {
   std::string name;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -79,7 +79,7 @@ Expected<std::string> sums_of(const fs::path& folder) {
   return sums;
 }
 
-/// Whether what a call failed of stands in the way of every other file there, too.
+/// True for errors that every other file on the disk would get, too.
 bool is_of_the_disk(int error_number) {
   return error_number == ENOSPC || error_number == EDQUOT || error_number == EROFS ||
          error_number == EIO;
@@ -90,7 +90,7 @@ tl::unexpected<Error> write_failed(const fs::path& path, int error_number) {
               fmt::format("{}: {}", path.string(), std::generic_category().message(error_number)));
 }
 
-/// That members which are there are what they are named for.
+/// True if all present members have the right types.
 bool are_facts(const Json& facts) {
   if (!are_counts(facts, {"frames", "complete_frames", "returns_labelled", "files", "bytes"})) {
     return false;
@@ -151,7 +151,7 @@ Status seal(const fs::path& folder, Json facts) {
   if (Status written = files::write_whole_file(folder / kDriveSums, *sums); !written) {
     return written;
   }
-  // One call for all of its files: a rename may reach the disk before what it renames.
+  // One call for all files: a rename may reach the disk before the renamed data.
   const files::OwnedDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!opened || ::syncfs(opened.get()) != 0) return write_failed(folder, errno);
   return {};
@@ -176,7 +176,7 @@ Status check_place(const fs::path& place) {
 Expected<fs::path> put_in_place(const fs::path& folder, const fs::path& place,
                                 const fs::path& broken) {
   fs::path kept;
-  constexpr int kTries = 1000;  // others may put theirs in place at the same time
+  constexpr int kTries = 1000;  // others may rename to the same places at the same time
   for (int i = 1; i <= kTries; ++i) {
     if (Status free = check_place(place); !free) return tl::unexpected(free.error());
     if (rename_folder(folder, place)) return kept;

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 
-/// The paths of a drive and their names in the file.
+/// Calls `use` with each path of a drive and its name in the file.
 template <class Drive>
 auto paths_in(Drive& drive) {
   return std::array{std::pair{"capture", &drive.capture},
@@ -37,7 +37,7 @@ bool has_nul(const std::string& text) {
   return text.find('\0') != std::string::npos;
 }
 
-/// Whether outputs can be named so: a path that stays below where it is put.
+/// True if outputs can be named so: a relative path that stays below its folder.
 bool is_name(const std::string& name) {
   const fs::path path(name);
   return !name.empty() && !has_nul(name) && path.is_relative() && path.has_filename() &&
@@ -45,7 +45,7 @@ bool is_name(const std::string& name) {
                               [](const fs::path& part) { return part.native().starts_with('.'); });
 }
 
-/// Throws nlohmann::json::exception where a member is of another type.
+/// Throws nlohmann::json::exception if a member has another type.
 FleetDrive drive_in(const Json& json, const fs::path& root) {
   FleetDrive drive;
   drive.name = json.value("name", "");
@@ -86,7 +86,7 @@ Expected<Manifest> read_manifest(const fs::path& path) {
         ErrorCode::kMalformed,
         fmt::format("{}: no manifest: {}; `terracut manifest` makes one", path.string(), what));
   };
-  constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // a million drives
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // enough for a million drives
   const auto read = read_json(path, kMostBytes);
   if (!read && read.error().code != ErrorCode::kMalformed) return tl::unexpected(read.error());
   if (!read) return malformed(read.error().message);
@@ -148,9 +148,9 @@ std::vector<FleetDrive> drives_of(const Manifest& manifest, const Shard& shard) 
   std::ranges::sort(drives, [](const FleetDrive& a, const FleetDrive& b) {
     return std::tie(b.bytes, a.name) < std::tie(a.bytes, b.name);
   });
-  using Load = std::pair<std::uint64_t, std::size_t>;  // bytes, which shard
+  using Load = std::pair<std::uint64_t, std::size_t>;  // bytes, number of the shard
   std::set<Load> loads;
-  // No drive is divided, so shards beyond as many as there are drives have none.
+  // Drives are not divided, so with more shards than drives some are empty.
   const std::size_t filled = std::min(shard.of, drives.size());
   for (std::size_t i = 1; i <= filled; ++i) loads.emplace(0, i);
   std::vector<FleetDrive> its_own;

@@ -14,22 +14,22 @@
 
 namespace terracut::cli {
 
-/// A recording to be labelled. Empty paths: there is none of that.
+/// A recording to be labelled. Empty paths mean there is no such file.
 struct FleetDrive {
-  std::string name;               ///< Unique; its place below the root, "2026-11-02/front".
-  std::filesystem::path capture;  ///< pcap or pcapng, or
-  std::filesystem::path scans;    ///< a folder of clouds.
+  std::string name;               ///< Unique: its path below the root, "2026-11-02/front".
+  std::filesystem::path capture;  ///< A pcap or pcapng file; empty for clouds.
+  std::filesystem::path scans;    ///< A folder of clouds; empty for a capture.
   std::filesystem::path calibration, setup;
-  std::filesystem::path can, dbc;      ///< Recording of the vehicle's bus, and what it means.
-  std::vector<std::string> arguments;  ///< More options of `replay` or `segment`, for it alone.
-  std::uint64_t bytes = 0;             ///< Of the capture or the clouds; by it shards are balanced.
+  std::filesystem::path can, dbc;      ///< Recording of the vehicle's bus, and its DBC file.
+  std::vector<std::string> arguments;  ///< Further options of `replay` or `segment` for this drive.
+  std::uint64_t bytes = 0;             ///< Of the capture or the clouds; balances the shards.
 
   [[nodiscard]] const std::filesystem::path& input() const noexcept {
     return capture.empty() ? scans : capture;
   }
 };
 
-/// The recordings of a fleet. As a file, JSON:
+/// The recordings of a fleet. Its JSON file has
 ///
 ///   manifest   1, the version of this layout
 ///   root       folder that paths are taken from; a relative one from the manifest's folder
@@ -41,11 +41,11 @@ struct Manifest {
   std::vector<LeftOut> left_out{};  ///< Not read back.
 };
 
-/// With absolute paths. Errors name the file and what is wrong in it: kNotFound, kUnreadable,
-/// kMalformed.
+/// Reads a manifest; paths become absolute. Errors name the file and the fault: kNotFound,
+/// kUnreadable, kMalformed.
 [[nodiscard]] Expected<Manifest> read_manifest(const std::filesystem::path& path);
 
-/// Paths below the root become relative to it. Whole or not at all.
+/// Writes a manifest, with paths below the root relative to it. Whole or not at all.
 [[nodiscard]] Status write_manifest(const std::filesystem::path& path, const Manifest& manifest);
 
 /// One of several parts of a manifest.
@@ -53,12 +53,12 @@ struct Shard {
   std::size_t number = 1, of = 1;  ///< 1 <= number <= of
 };
 
-/// "3/12". kInvalidArgument.
+/// Parses "3/12". kInvalidArgument.
 [[nodiscard]] Expected<Shard> parse_shard(std::string_view text);
 
-/// Its drives, the greatest first. Every drive is in one shard, shards differ in bytes by no more
-/// than their smallest drive allows (the greatest drive goes to the emptiest shard), and the same
-/// manifest always gives the same.
+/// Returns the shard's drives, the largest first. Every drive is in one shard, shards are balanced
+/// by bytes (the largest drive goes to the emptiest shard), and the same manifest always gives the
+/// same result.
 [[nodiscard]] std::vector<FleetDrive> drives_of(const Manifest& manifest, const Shard& shard);
 
 }  // namespace terracut::cli

@@ -28,10 +28,10 @@ double seconds_of(const ::timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// Between fork and exec: nothing that takes memory or locks.
+/// Runs between fork and exec: must not take memory or locks.
 [[noreturn]] void become(const std::vector<char*>& words, int log, ::pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(127);  // it has died before it could be asked for
+  if (::getppid() != parent) ::_exit(127);  // the parent has died already
   const int nowhere = ::open("/dev/null", O_RDWR);
   ::dup2(nowhere, STDIN_FILENO);
   ::dup2(nowhere, STDOUT_FILENO);
@@ -63,7 +63,7 @@ Expected<ProgramRun> run_program(const std::vector<std::string>& words,
   if (child < 0) return failed("no process for a drive", errno);
   if (child == 0) become(pointers, file.get(), parent);
   running = child;
-  if (stop_wanted()) stop_program();  // the signal may have come before there was somebody to tell
+  if (stop_wanted()) stop_program();  // the signal may have come before the program existed
   int status = 0;
   struct rusage used {};
   while (::wait4(child, &status, 0, &used) < 0 && errno == EINTR) {

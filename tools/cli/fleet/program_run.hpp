@@ -11,23 +11,22 @@
 
 namespace terracut::cli {
 
-/// How a run of the program ended, and what it took.
+/// How a run of the program ended, and its costs.
 struct ProgramRun {
-  int exit_code = -1;  ///< -1: a signal ended it.
+  int exit_code = -1;  ///< -1: ended by a signal.
   int signal = 0;
   double seconds = 0, cpu_seconds = 0;
   std::uint64_t peak_memory_bytes = 0;
 };
 
-/// Runs this very program, the file that runs now and not what stands in its place meanwhile, with
-/// other words behind its name, and waits for it. Its standard error goes to the file `log`, its
-/// standard output nowhere. It dies with this process, however that ends, and on
-/// catch_stop_signals() with stop_program() it is asked to stop, too. kWriteFailed where it cannot
-/// be started. From one thread at a time.
+/// Runs this very program, even if its file was replaced meanwhile, with other arguments, and waits
+/// for it. Its standard error goes to the file `log`, its standard output nowhere. It dies with
+/// this process, however that ends; with catch_stop_signals() and stop_program() it is asked to
+/// stop, too. kWriteFailed if it cannot be started. From one thread at a time.
 [[nodiscard]] Expected<ProgramRun> run_program(const std::vector<std::string>& words,
                                                const std::filesystem::path& log);
 
-/// For catch_stop_signals(): passes the wish to stop on to the program that runs.
+/// Passes a signal on to the running program; for catch_stop_signals().
 void stop_program() noexcept;
 
 }  // namespace terracut::cli

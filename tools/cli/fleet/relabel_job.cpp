@@ -39,7 +39,8 @@ std::string host_name() {
   return text;
 }
 
-/// What a drive's setup leaves aside where it is in a file: "--mount-height 1.9".
+/// Returns the stated mount as arguments: a drive's setup overrides a mount in the settings file,
+/// but not these. "--mount-height 1.9".
 std::vector<std::string> mount_words_of(const Options& options) {
   std::vector<std::string> words;
   for (const Setting& setting : settings()) {
@@ -67,9 +68,9 @@ Command command_for(const FleetDrive& drive) {
   return drive.capture.empty() ? Command::kSegment : Command::kReplay;
 }
 
-/// Whether a drive's own arguments may have it: what says how the drive is to be read and labelled,
-/// by values alone, for the content of a file would not be in the recipe. What is written, served
-/// or shown, and how often, is not for a manifest to say, which others may have written.
+/// True if a drive's own arguments may contain the setting: it must affect reading and labelling,
+/// and by its value alone, because the content of a file would not be in the recipe. Outputs are
+/// not for a manifest to choose, which others may have written.
 bool is_of_drive(const Setting& setting) {
   constexpr std::array kSections{"sensor.", "input.", "mount.", "motion.", "method."};
   constexpr std::array kWithoutKey{"--set", "--method"};
@@ -93,8 +94,8 @@ tl::unexpected<Error> not_of_drive(const FleetDrive& drive, std::string_view fou
                           drive.name, found, fmt::join(allowed, " ")));
 }
 
-/// A drive's own arguments, each option with its value in one word, so that no value can be taken
-/// for another option.
+/// Returns a drive's own arguments, each option and its value as one word, so that no value can be
+/// taken for another option.
 Expected<std::vector<std::string>> argument_words(const FleetDrive& drive) {
   std::vector<std::string> words;
   for (auto word = drive.arguments.begin(); word != drive.arguments.end(); ++word) {
@@ -138,7 +139,7 @@ Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest)
     return fail(ErrorCode::kWriteFailed,
                 fmt::format("{}: {}", job.parts().string(), error.message()));
   }
-  if (read_job(job.state())) return job;  // what others have put there is replaced
+  if (read_job(job.state())) return job;  // replaces a file that others have put there
   Status written = files::write_whole_file(job.state() / kJobSettings, job.settings);
   if (written) written = write_json(job.state() / kJobFile, json_of(job, manifest));
   if (!written) return tl::unexpected(written.error());
@@ -146,7 +147,7 @@ Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest)
 }
 
 Expected<KnownJob> read_job(const fs::path& state) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // a million drives and more
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // enough for a million drives and more
   const auto malformed = [&](std::string_view why) {
     return fail(ErrorCode::kMalformed,
                 fmt::format("{}: says nothing of a job: {}", (state / kJobFile).string(), why));

@@ -15,8 +15,8 @@
 
 namespace terracut::cli {
 
-/// A manifest labelled by one program with one set of settings, into one folder. Any number of
-/// processes may work at it. What they know of it lies in the folder's .relabel:
+/// A manifest to be labelled by one program with one set of settings into one folder. Any number of
+/// processes may work on it. Their shared state lies in the folder's .relabel:
 ///
 ///   ID/job.json           manifest, drives and their bytes, program, when it began
 ///   ID/terracut.yaml      the settings
@@ -24,57 +24,57 @@ namespace terracut::cli {
 ///   parts/                what is under way: a folder each, of a process alone
 ///   broken/               drives' folders that were not whole, and what else was in them
 struct RelabelJob {
-  std::filesystem::path folder;    ///< Where the drives' folders come to lie.
-  std::filesystem::path manifest;  ///< Absolute.
+  std::filesystem::path folder;    ///< The folder of the drives' folders.
+  std::filesystem::path manifest;  ///< Absolute path.
   std::string id;                  ///< A hash of manifest, program and settings.
   std::string program;             ///< SHA-256 of the executable.
-  std::string settings;            ///< As a configuration file.
+  std::string settings;            ///< As text of a configuration file.
   FleetFormat format = FleetFormat::kLabels;
   std::string host;
 
   [[nodiscard]] std::filesystem::path parts() const { return folder / ".relabel" / "parts"; }
   [[nodiscard]] std::filesystem::path broken() const { return folder / ".relabel" / "broken"; }
   [[nodiscard]] std::filesystem::path state() const { return folder / ".relabel" / id; }
-  /// How the parts of a drive begin, "HASH@ID@", whichever host they are of.
+  /// Returns the beginning of a drive's part names, "HASH@ID@", on any host.
   [[nodiscard]] std::string part_prefix(const FleetDrive& drive) const;
 };
 
-/// Writes job.json and terracut.yaml unless the job is there already. The errors of reading this
-/// program's file and of writing.
+/// Writes job.json and terracut.yaml unless the job exists. Errors of reading this program's file
+/// and of writing.
 [[nodiscard]] Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest);
 
 inline constexpr std::string_view kJobSettings = "terracut.yaml";
 
-/// A job as its folder says.
+/// A job as described in its folder.
 struct KnownJob {
   struct Drive {
     std::string name;
     std::uint64_t bytes = 0;
   };
-  std::filesystem::path state;  ///< Its folder.
+  std::filesystem::path state;  ///< The job's folder.
   std::filesystem::path manifest;
-  std::string version;  ///< Of terracut.
+  std::string version;  ///< Version of terracut.
   std::int64_t began_ns = 0;
   std::vector<Drive> drives;
 };
-/// kNotFound, kUnreadable; kMalformed where job.json is none.
+/// Errors: kNotFound, kUnreadable; kMalformed for an invalid job.json.
 [[nodiscard]] Expected<KnownJob> read_job(const std::filesystem::path& state);
-/// Of a folder for drives, by when they began; what is no job is left out. kNotFound where there is
-/// none.
+/// Returns the jobs in a folder for drives, ordered by start; invalid ones are left out. kNotFound
+/// if there is none.
 [[nodiscard]] Expected<std::vector<KnownJob>> jobs_in(const std::filesystem::path& folder);
 
-/// The words that label a drive by `terracut replay` or `segment` with the settings of that file,
-/// but for what is written. kMalformed where an argument of the manifest does not say how the drive
-/// is to be read and labelled, and nothing else; the errors of the settings.
+/// Returns the arguments with which `terracut replay` or `segment` labels a drive with the settings
+/// of that file, without outputs. kMalformed if an argument in the manifest is not about reading
+/// and labelling; errors of the settings.
 [[nodiscard]] Expected<std::vector<std::string>> words_for(const FleetDrive& drive,
                                                            const std::filesystem::path& settings);
 
-/// Everything that a drive's labels depend on, which is what its folder is named by. The errors of
+/// Returns all that a drive's labels depend on, from which its folder's name is hashed. Errors of
 /// content_of().
 [[nodiscard]] Expected<nlohmann::ordered_json> recipe_of(const RelabelJob& job,
                                                          const FleetDrive& drive);
 
-/// "NAME-0123456789abcdef", below the job's folder.
+/// Returns "NAME-0123456789abcdef", below the job's folder.
 [[nodiscard]] std::string output_name_of(const FleetDrive& drive,
                                          const nlohmann::ordered_json& recipe);
 

@@ -24,13 +24,13 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kHour_ns = 3'600'000'000'000;
 
-/// How many drives of a kind there are, and what they hold.
+/// Number and content of drives of one kind.
 struct Sum {
   std::uint64_t drives = 0, bytes = 0, frames = 0, label_bytes = 0;
 };
 
 struct Tally {
-  Sum all, done, lately;  ///< lately: done within the last hour by labelling
+  Sum all, done, lately;  ///< lately: labelled within the last hour
   std::uint64_t missing_bytes = 0;
   std::int64_t lately_since_ns = 0;
   double lately_process_s = 0;
@@ -56,7 +56,7 @@ Tally tally_of(const fs::path& folder, const KnownJob& job, std::int64_t now_ns)
           line_for_terminal(record.drive + ": " + record.message));
       continue;
     }
-    // Whether each is whole, the next run looks: a fleet has millions of label files.
+    // The next run checks whether it is complete: a fleet has millions of label files.
     if (!fs::exists(folder / record.output / kDriveFacts, vanished)) {
       tally.missing_bytes += bytes;
       continue;
@@ -89,7 +89,7 @@ std::string when(std::int64_t ns) {
   return fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(seconds));
 }
 
-/// Speed and the end that follows from it, where there is any speed.
+/// Returns speed and expected end, if there is any speed.
 std::string pace_text(const Tally& tally, std::int64_t now_ns) {
   const double span_s = static_cast<double>(now_ns - tally.lately_since_ns) * 1e-9;
   if (tally.lately.drives == 0 || span_s <= 0) return {};
@@ -102,7 +102,7 @@ std::string pace_text(const Tally& tally, std::int64_t now_ns) {
       tally.lately_process_s / span_s);
   if (tally.missing_bytes == 0 || bytes_per_s <= 0) return text;
   const double left_s = static_cast<double>(tally.missing_bytes) / bytes_per_s;
-  constexpr double kYears_s = 3e9;  // records are others' to write, and so is their speed
+  constexpr double kYears_s = 3e9;  // limits the speed, as others may write records
   if (left_s > kYears_s) return text + "end       not within a hundred years at that speed\n";
   return text + fmt::format("end       in {:.1f} h at that speed, {}\n", left_s / 3600,
                             when(now_ns + static_cast<std::int64_t>(left_s * 1e9)));

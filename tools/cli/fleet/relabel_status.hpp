@@ -9,9 +9,9 @@
 
 namespace terracut::cli {
 
-/// What is done of the newest job in a folder of `terracut relabel`, what is missing, what failed
-/// and why, how fast it goes and when it will end, with the command that does the rest: several
-/// lines, for people. kNotFound where there is no job; kMalformed.
+/// Returns several lines for people about the newest job in a folder of `terracut relabel`: what is
+/// done, missing or failed and why, speed and expected end, and the command for the rest. kNotFound
+/// if there is no job; kMalformed.
 [[nodiscard]] Expected<std::string> relabel_status(const std::filesystem::path& folder);
 
 }  // namespace terracut::cli

@@ -110,10 +110,11 @@ void ShardRun::failed(const RelabelRecord& record, ExitCode code) {
 void ShardRun::note(const RelabelRecord& record) {
   RelabelRecord ended = record;
   ended.ended_ns = measure::realtime_ns();
-  // Another's success is not to be covered by this process's failure.
+  // Another process's success must not be overwritten by this one's failure.
   const RelabelRecord before = read_record(job_.state(), record.drive);
   if (!record.done && is_there(before, record)) return;
-  // On a full disk the next drive's labels end the shard; a record's place alone costs its record.
+  // On a full disk the next drive's labels end the shard; a failure of this file alone costs only
+  // the record.
   if (const Status written = write_record(job_, ended); !written) worst_ = refuse(written.error());
 }
 

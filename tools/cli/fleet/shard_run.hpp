@@ -12,25 +12,25 @@
 
 namespace terracut::cli {
 
-/// A process's way through its shard: each drive is labelled unless its labels are there. Drives
-/// that others are at come last, and those of this host are waited for; what other hosts have not
-/// finished by then is done once more, for they may be gone: whoever comes second throws its own
-/// away. One thread.
+/// Labels the drives of a shard whose labels do not exist yet. Drives that other processes are
+/// labelling come last; those of this host are waited for. Those that other hosts have not finished
+/// by then are labelled again, as the hosts may be gone: whoever finishes second drops its result.
+/// One thread.
 class ShardRun {
  public:
-  /// `shard`: "3/12", for records.
+  /// `shard` is "3/12", for records.
   ShardRun(const RelabelJob& job, std::string shard);
 
-  /// Prints what was done. kInterrupted; kOutputFailed at the first output that cannot be written
-  /// of a cause that every other would meet, too, as a full disk; else the exit code of the last
-  /// drive that failed, or kOk.
+  /// Prints what was done. kInterrupted; kOutputFailed at the first output error that every other
+  /// drive would get, too, such as a full disk; else the exit code of the last failed drive, or
+  /// kOk.
   [[nodiscard]] ExitCode run(const std::vector<FleetDrive>& drives);
 
  private:
   enum class Attention : unsigned char { kIfFree, kFinally };
-  /// False: somebody else seems to be at it.
+  /// False if another process seems to be labelling it.
   bool attend(const FleetDrive& drive, Attention attention);
-  /// An earlier record is of the same inputs, and what it speaks of still stands.
+  /// True if an earlier record has the same inputs and its labels still exist.
   [[nodiscard]] bool is_there(const RelabelRecord& before, const RelabelRecord& now) const;
   void label(const FleetDrive& drive, RelabelRecord record);
   void failed(const RelabelRecord& record, ExitCode code);
@@ -43,7 +43,7 @@ class ShardRun {
   std::uint64_t labelled_ = 0, there_ = 0, failed_ = 0, frames_ = 0;
   std::map<std::string, std::vector<std::string>> failures_;  ///< Drives by cause.
   ExitCode worst_ = kOk;
-  bool ended_ = false;  ///< What stands in the way stands in that of the next drive, too.
+  bool ended_ = false;  ///< The cause would stop the next drive, too.
 };
 
 }  // namespace terracut::cli

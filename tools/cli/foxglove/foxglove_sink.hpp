@@ -12,8 +12,8 @@
 
 namespace terracut::cli {
 
-/// Labelled frames, diagnostics and the mount's transform for viewers, as they come. What nobody
-/// subscribed to is not made.
+/// Sends labelled frames, diagnostics and the mount's transform to viewers as they come. Messages
+/// without subscribers are not made.
 class FoxgloveSink final : public publish::FrameSink {
  public:
   FoxgloveSink(FoxgloveServer server, publish::RunFacts facts);

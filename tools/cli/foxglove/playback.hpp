@@ -9,22 +9,22 @@
 #include "rt/error.hpp"
 #include "tools/cli/view/player_command.hpp"
 
-/// How a viewer plays a capture by Foxglove's protocol: its capability "playbackControl", in binary
-/// messages (foxglove-sdk 0.25; the sub-protocol foxglove.sdk.v1).
+/// Playing a capture by Foxglove's protocol: its capability "playbackControl", in binary messages
+/// (foxglove-sdk 0.25; the sub-protocol foxglove.sdk.v1).
 namespace terracut::cli {
 
 struct PlaybackRequest {
   PlayerCommand command;
-  std::string id;  ///< Goes into the answer.
+  std::string id;  ///< Returned in the answer.
 };
 
-/// Of a client's binary message. Places before the capture are its beginning, speeds go into a
-/// player's range. kUnsupported: a message of another kind; kMalformed. Any bytes may come.
+/// Parses a client's binary message, any bytes. Times before the capture become its beginning,
+/// speeds are limited to a player's range. kUnsupported: another kind of message; kMalformed.
 [[nodiscard]] Expected<PlaybackRequest> parse_playback_request(std::string_view bytes,
                                                                std::int64_t begin_ns);
 
-/// Where the capture stands. `did_seek`: a viewer is to forget what it has shown; `request_id`:
-/// what is answered, or empty.
+/// Returns a message with the capture's state. `did_seek` makes viewers forget what they have
+/// shown; `request_id` is the request answered, or empty.
 [[nodiscard]] std::string playback_state_message(const PlayerState& state, bool did_seek,
                                                  std::string_view request_id);
 

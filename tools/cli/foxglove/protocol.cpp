@@ -21,14 +21,14 @@ tl::unexpected<Error> malformed(const std::string& what) {
   return fail(ErrorCode::kMalformed, "not understood: " + what);
 }
 
-/// A number of the protocol; none: it is anything else.
+/// Returns a number of the protocol; nothing if it is anything else.
 std::optional<std::uint32_t> id_in(const Json& value) {
   if (!value.is_number_unsigned()) return std::nullopt;
   const auto id = value.get<std::uint64_t>();
   return id <= UINT32_MAX ? std::optional(static_cast<std::uint32_t>(id)) : std::nullopt;
 }
 
-/// Of an object that may not have it.
+/// Returns a member of an object, null if it is missing.
 const Json& member(const Json& object, const char* key) {
   static const Json kNone;
   const auto found = object.is_object() ? object.find(key) : object.end();
@@ -130,13 +130,13 @@ std::array<std::byte, 13> message_data_header(std::uint32_t subscription_id,
 bool is_allowed_origin(std::string_view origin, std::string_view user_agent,
                        std::string_view own_name, const std::vector<std::string>& allowed) {
   if (origin.empty() || std::ranges::find(allowed, origin) != allowed.end()) return true;
-  // Foxglove and Lichtblick for desktops are Electron's.
+  // The desktop programs of Foxglove and Lichtblick are based on Electron.
   if (origin == "file://") return user_agent.find(" Electron/") != std::string_view::npos;
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (!origin.starts_with(scheme)) continue;
     const std::string_view host = origin.substr(scheme.size());
     if (host.empty()) return false;
-    // Of addresses only the loopback's: a page from another machine's address is foreign.
+    // Only loopback addresses: a page from another machine's address is foreign.
     return host.starts_with("127.") || host.starts_with("[::1]")
                ? names_this_machine(host, {})
                : host.find_first_not_of("0123456789.:[]") != std::string_view::npos &&

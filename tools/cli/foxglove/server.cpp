@@ -3,7 +3,7 @@
 #include "server.hpp"
 
 #include "tools/cli/http/http_connection.hpp"
-// A line keeps them apart.
+// This line keeps the includes apart.
 #include <boost/beast/websocket.hpp>
 
 #include <algorithm>
@@ -28,17 +28,17 @@ using boost::system::error_code;
 
 constexpr std::size_t kMostTextBytes = 16 << 10;
 constexpr std::size_t kMostWaitingTexts = 32;
-/// A client that has not answered a ping, nor taken a message, in that time is gone.
+/// A client that neither answers a ping nor takes a message for so long is gone.
 constexpr std::chrono::seconds kMostSilence{60};
 constexpr std::size_t kTopics = ros_messages::kTopics.size();
 
-/// A message with its time, to be sent to those who come later.
+/// A message with its time, to be sent to later subscribers.
 struct Kept {
   std::uint64_t time_ns = 0;
   FoxgloveServer::Message message;
 };
 
-/// What all clients share; on the server's thread, but for what is atomic.
+/// State shared by all clients; used on the server's thread, except for atomics.
 struct Shared {
   FoxgloveServer::Config config;
   std::string own_name = own_host_name();
@@ -65,7 +65,8 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
       response.set(http::field::sec_websocket_protocol, {protocol.data(), protocol.size()});
     }));
     stream_.read_message_max(kMostTextBytes);
-    // A message is a frame of its own: cut in pieces of 4 KiB, a cloud would be a thousand writes.
+    // Sends each message as one WebSocket frame: in pieces of 4 KiB a cloud would be a thousand
+    // writes.
     stream_.auto_fragment(false);
     stream_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (error) {
@@ -80,7 +81,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
 
   [[nodiscard]] HttpStream& stream() noexcept override { return stream_.next_layer(); }
 
-  /// Learns what another client, a browser or the capture's end has changed.
+  /// Learns of changes by another client, a browser or the capture's end.
   void work_round() override {
     if (!speaks_playback_) return;
     const PlayerState state = shared_.config.capture->state();
@@ -90,13 +91,13 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
     tell_state(state, false, {});
   }
 
-  /// Where the capture stands.
+  /// Sends the capture's state.
   void tell_state(const PlayerState& state, bool did_seek, std::string_view request_id) {
     if (!speaks_playback_ || outgoing_.size() >= kMostWaitingTexts) return;
     enqueue({.text = playback_state_message(state, did_seek, request_id), .is_binary = true});
   }
 
-  /// To each of its subscriptions to the topic that has taken the last one.
+  /// Sends the message to each of the client's subscriptions to the topic.
   void offer(std::size_t topic, std::uint64_t time_ns, const FoxgloveServer::Message& message) {
     for (const auto& [id, subscribed] : topics_) {
       if (subscribed == topic) send(id, time_ns, message);
@@ -105,7 +106,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
 
  private:
   struct Outgoing {
-    std::string text{};  ///< If there is no message.
+    std::string text{};  ///< Used if there is no message.
     bool is_binary = false;
     std::optional<std::uint32_t> subscription{};
     std::array<std::byte, 13> header{};
@@ -162,7 +163,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
     capture->obey(request->command);
     state = capture->state();
     const bool seeks = request->command.seek_s.has_value();
-    if (seeks) {  // it will stand there in a moment
+    if (seeks) {  // where it will be in a moment
       state.position_s = *request->command.seek_s;
       state.at_end = false;
     }
@@ -170,9 +171,9 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
   }
 
   void subscribe(const FoxgloveRequest::Subscription& wish) {
-    const std::size_t topic = wish.channel_id - kFirstChannelId;  // wraps to beyond them
+    const std::size_t topic = wish.channel_id - kFirstChannelId;  // wraps to a large number for 0
     if (topic >= kTopics || !shared_.config.topics[topic]) return complain("no such channel");
-    // As the protocol has it; of a topic, then, a client that stops holds one message.
+    // As in the protocol: a client that stops reading holds one message per topic.
     const auto has = [&](const auto& each) {
       return each.first == wish.id || each.second == topic;
     };
@@ -186,7 +187,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
 
   void complain(const std::string& what) {
     ++shared_.figures.bad_requests;
-    // Whoever asks without listening to the answers gets no more of them.
+    // A client that does not read answers gets no more of them.
     if (outgoing_.size() < kMostWaitingTexts) say(warning_text(what));
   }
 
@@ -228,7 +229,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
 
   websocket::stream<HttpStream> stream_;
   Shared& shared_;
-  PlayerState seen_;  ///< As it was told.
+  PlayerState seen_;  ///< As last sent.
   beast::flat_buffer buffer_{kMostTextBytes};
   std::map<std::uint32_t, std::size_t> topics_;  ///< By id of the subscription.
   std::deque<Outgoing> outgoing_;                ///< The first one is being written.
@@ -261,7 +262,7 @@ struct FoxgloveServer::State {
   }
 
   Shared shared;
-  std::optional<HttpServer> server;  ///< Last: it uses all of the above.
+  std::optional<HttpServer> server;  ///< Declared last, as it uses all of the above.
 };
 
 FoxgloveServer::FoxgloveServer(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}

@@ -16,31 +16,30 @@
 
 namespace terracut::cli {
 
-/// Serves messages of ROS 2 to Foxglove, Lichtblick and whatever speaks their WebSocket protocol
+/// Serves ROS 2 messages to Foxglove, Lichtblick and others with their WebSocket protocol
 /// (protocol.hpp), on a thread of its own. A client that has not taken a channel's last message
-/// misses the next: no message is queued behind another of its channel, so a slow client costs one
-/// message a channel, and holds up nobody.
+/// misses the next: at most one message a channel waits for a slow client, and it delays nobody.
 ///
-/// What comes in is bounded: by HttpBounds, and then texts of 16 KiB and one subscription a
-/// channel. A client that stops reading holds a message a channel until it is disconnected. Host
-/// and Origin of a request are checked, there is neither encryption nor a password.
+/// Input is bounded: by HttpBounds, then by texts of 16 KiB and one subscription a channel. A
+/// client that stops reading holds a message a channel until it is disconnected. Host and Origin of
+/// a request are checked; there is neither encryption nor a password.
 class FoxgloveServer {
  public:
   struct Config {
-    net::Ipv4Endpoint at;  ///< Port 0: one the system chooses.
+    net::Ipv4Endpoint at;  ///< Port 0: chosen by the system.
     std::string name;      ///< For people.
     std::vector<bool> topics;
-    std::vector<std::string> origins{};  ///< Of pages that may connect besides this machine's.
-    ViewedCapture* capture = nullptr;  ///< That clients may play; outlives the server.
+    std::vector<std::string> origins{};  ///< Pages that may connect besides this machine's.
+    ViewedCapture* capture = nullptr;  ///< A capture that clients may play; outlives the server.
     HttpBounds bounds{};
   };
-  /// Since the start. From any thread.
+  /// Counts since the start. From any thread.
   struct Figures {
     std::atomic<std::uint64_t> skipped{0};       ///< Messages that a slow client missed.
     std::atomic<std::uint64_t> bad_requests{0};  ///< Messages that were not understood.
   };
 
-  /// The errors of HttpServer::start().
+  /// Errors of HttpServer::start().
   [[nodiscard]] static Expected<FoxgloveServer> start(const Config& config);
   FoxgloveServer(FoxgloveServer&&) noexcept;
   FoxgloveServer& operator=(FoxgloveServer&&) = delete;
@@ -52,12 +51,12 @@ class FoxgloveServer {
 
   using Message = std::shared_ptr<const std::vector<std::byte>>;
 
-  // From one other thread.
+  // For one other thread:
 
-  /// Whether anybody subscribed to it, so that a message is worth making.
+  /// True if a client has subscribed, so that a message is worth making.
   [[nodiscard]] bool is_wanted(std::size_t topic) const noexcept;
   void publish(std::size_t topic, std::int64_t time_ns, Message message);
-  /// For those who subscribe to it, once each, whenever they come.
+  /// Keeps a message to be sent once to each subscriber, present and later ones.
   void keep(std::size_t topic, std::int64_t time_ns, Message message);
 
  private:

@@ -2,8 +2,8 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <utility>  // before Asio, which forgets it (chriskohlhoff/asio#944)
-// A line keeps them apart.
+#include <utility>  // before Asio, which lacks it (chriskohlhoff/asio#944)
+// This line keeps the includes apart.
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
@@ -16,7 +16,7 @@
 
 namespace terracut::cli {
 
-/// How fast a client is listened to, and since when it takes nothing: Beast's RatePolicy.
+/// Limits how fast a client is read, and notes since when it takes nothing: Beast's RatePolicy.
 class HttpPace {
  public:
   using Clock = std::chrono::steady_clock;
@@ -24,7 +24,7 @@ class HttpPace {
   explicit HttpPace(std::size_t read_bytes_a_second) noexcept
       : read_limit_(read_bytes_a_second), readable_(read_bytes_a_second) {}
 
-  /// Since when what is being written has not moved; none: nothing is being written.
+  /// Returns since when the present write has not moved; nothing if nothing is being written.
   [[nodiscard]] std::optional<Clock::time_point> stands_since() const noexcept {
     return stands_since_;
   }
@@ -35,7 +35,7 @@ class HttpPace {
   [[nodiscard]] std::size_t available_read_bytes() const noexcept { return readable_; }
   void transfer_read_bytes(std::size_t count) noexcept { readable_ -= std::min(count, readable_); }
   void on_timer() noexcept { readable_ = read_limit_; }
-  /// Asked for as each part of a write begins.
+  /// Called as each part of a write begins.
   [[nodiscard]] std::size_t available_write_bytes() noexcept {
     stands_since_ = Clock::now();
     return SIZE_MAX;
@@ -50,14 +50,14 @@ using HttpStream =
     boost::beast::basic_stream<boost::asio::ip::tcp, boost::asio::ip::tcp::socket::executor_type,
                                HttpPace>;
 
-/// A connection whose request was heard, for who takes it over.
+/// A connection whose request was read, for its new owner.
 struct HttpConnection {
   HttpStream stream;
   boost::beast::http::request<boost::beast::http::string_body> request;
 };
 
-/// A connection that stays beyond its request: a stream of frames, a WebSocket. It lives as long as
-/// its own handlers hold it. On the server's thread.
+/// A connection that stays after its request: a stream of frames, a WebSocket. Its own handlers
+/// keep it alive. On the server's thread.
 class HttpGuest {
  public:
   HttpGuest() = default;
@@ -66,7 +66,7 @@ class HttpGuest {
   virtual ~HttpGuest() = default;
 
   [[nodiscard]] virtual HttpStream& stream() noexcept = 0;
-  /// Some ten times a second.
+  /// Called some ten times a second.
   virtual void work_round() {}
 };
 

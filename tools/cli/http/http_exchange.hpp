@@ -13,7 +13,7 @@ namespace terracut::cli {
 struct HttpConnection;
 class HttpGuest;
 
-/// What is asked, as far as answers depend on it. A header that was not sent is empty.
+/// The parts of a request that answers depend on. A missing header is empty.
 struct HttpRequest {
   std::string_view method{};  ///< "GET", also for HEAD; "POST"
   std::string_view path{};    ///< "/metrics": without what follows a question mark
@@ -29,13 +29,13 @@ struct HttpAnswer {
   std::string_view type = "text/plain; charset=utf-8";
 };
 
-/// Makes a guest of the connection: one that stays.
+/// Turns the connection into a guest, which stays.
 using HttpTakeover = std::function<std::shared_ptr<HttpGuest>(HttpConnection&&)>;
 using HttpReply = std::variant<HttpAnswer, HttpTakeover>;
-/// Called on the server's thread. What it throws costs the client its answer, nothing else.
+/// Called on the server's thread. An exception costs only this client its answer.
 using HttpResponder = std::function<HttpReply(const HttpRequest&)>;
 
-/// In one line, which ends here.
+/// Returns an answer of one line of text, with its end.
 [[nodiscard]] inline HttpAnswer http_refusal(int status, const std::string& why) {
   return {.status = status, .body = why + "\n"};
 }

@@ -9,26 +9,26 @@
 
 namespace terracut::cli {
 
-/// Whether the Host header of a request names this machine in a way that no foreign web page can:
-/// by an address in numbers, as localhost, or as `own_name`, with a port or without. A page whose
-/// own name was made to lead here (DNS rebinding) sends that name. An empty header is well:
+/// True if the Host header of a request names this machine in a way that no foreign web page can:
+/// by a numeric address, as localhost, or as `own_name`, with or without a port. A page whose own
+/// name was made to lead here (DNS rebinding) sends that name. An empty header is accepted:
 /// browsers always send one.
 [[nodiscard]] bool names_this_machine(std::string_view host_header, std::string_view own_name);
 
-/// As the system calls itself; empty when it does not say.
+/// Returns the system's own name; empty if unknown.
 [[nodiscard]] std::string own_host_name();
 
-/// Whether a browser's Origin header is that of a page which this server sent, as Host says; empty:
-/// no browser's, or a page that asks its own server.
+/// True if a browser's Origin header is that of a page from this server, as in Host; also if it is
+/// empty: not a browser's, or a page that asks its own server.
 [[nodiscard]] bool is_own_origin(std::string_view origin, std::string_view host);
 
-/// Whether a page that this server did not send has its browser ask. That a link leads here is no
-/// harm: whoever follows it sees a page of this server's.
+/// True if a page from another server makes its browser ask. A link that leads here is harmless:
+/// whoever follows it sees a page of this server.
 [[nodiscard]] bool is_asked_by_foreign_page(const HttpRequest& request);
 
-/// Whether it is this server's own page, or a program without pages. Browsers say where a request
-/// comes from to addresses that they trust alone, and Origin not with every request; but the header
-/// X-Terracut-Page is out of a foreign page's reach.
+/// True for this server's own page, or a program without pages. Browsers name the source of a
+/// request only to trusted addresses, and Origin not in every request; but a foreign page cannot
+/// send the header X-Terracut-Page.
 [[nodiscard]] bool is_asked_by_own_page_or_program(const HttpRequest& request);
 
 }  // namespace terracut::cli

@@ -3,7 +3,7 @@
 #include "http_server.hpp"
 
 #include "http_connection.hpp"
-// A line keeps them apart.
+// This line keeps the includes apart.
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/post.hpp>
 
@@ -31,7 +31,7 @@ using Clock = HttpPace::Clock;
 
 constexpr std::chrono::milliseconds kRound{100};
 constexpr int kBacklog = 64;
-/// Connections that may come at once, in seconds' worth.
+/// Connections that may come at once, as seconds of the allowed rate.
 constexpr int kBurst_s = 1;
 
 std::string_view field(const http::fields& fields, std::string_view name) {
@@ -40,7 +40,7 @@ std::string_view field(const http::fields& fields, std::string_view name) {
   return {found->value().data(), found->value().size()};
 }
 
-/// What decides on something, and so may come once.
+/// Headers that decide about a request, so each may occur only once.
 constexpr std::array<std::string_view, 5> kSaidOnce{"Host", "Origin", "Sec-Fetch-Site",
                                                     "Sec-Fetch-Mode", "X-Terracut-Page"};
 
@@ -65,7 +65,7 @@ HttpRequest told(const http::request<http::string_body>& request) {
           .page = field(request, "X-Terracut-Page")};
 }
 
-/// What all visits share; on the server's thread, but for the figures.
+/// State shared by all visits; used on the server's thread, except for the figures.
 struct Shared {
   HttpServer::Config config;
   HttpResponder respond;
@@ -115,7 +115,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
     if (error == http::error::header_limit || error == http::error::buffer_overflow) {
       return answer(http_refusal(431, "the headers are too long"));
     }
-    // Without a word it came to see whether somebody listens.
+    // A client that sends nothing only checked whether somebody listens.
     if (error == http::error::end_of_stream) is_accounted_ = true;
     if (error.category() == make_error_code(http::error::bad_method).category() &&
         error != http::error::end_of_stream && error != http::error::partial_message) {
@@ -156,7 +156,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
 
   void answer(HttpAnswer answer) {
     is_accounted_ = true;
-    // Browsers ask for what is nowhere by themselves.
+    // Browsers ask for missing files by themselves.
     if (answer.status >= 400 && answer.status != 404) ++shared_.figures.refused;
     response_.result(static_cast<unsigned>(answer.status));
     response_.version(11);
@@ -164,7 +164,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
     response_.set(http::field::cache_control, "no-store");
     response_.set(http::field::connection, "close");
     response_.set("X-Content-Type-Options", "nosniff");
-    // A page is complete in itself, and shows itself in no other.
+    // A page needs nothing from elsewhere and may not be embedded in another.
     response_.set("Content-Security-Policy",
                   "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'");
     response_.body() = std::move(answer.body);
@@ -176,8 +176,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
                       });
   }
 
-  /// What was not read of the request would take the answer from the client, were it closed at
-  /// once.
+  /// Reads the rest of the request: closing at once would take the answer from the client.
   void take_leave() {
     error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
@@ -242,7 +241,7 @@ struct HttpServer::State {
 
   void work_round() {
     const auto now = Clock::now();
-    // Not more often, though exceptions may end rounds early.
+    // Not more often, although exceptions may end rounds early.
     if (now - last_round < kRound / 2) return;
     last_round = now;
     const HttpBounds& bounds = shared.config.bounds;
@@ -266,8 +265,8 @@ struct HttpServer::State {
     }
   }
 
-  /// Not before the next round, where no more may come or none could be accepted: whoever waits
-  /// goes on waiting, and would keep this thread awake.
+  /// Waits for the next round if no more may come or none could be accepted: the pending connection
+  /// would keep this thread awake.
   void accept() {
     if (is_accepting || admissions == 0) return;
     acceptor.async_accept([this](error_code error, tcp::socket socket) {
@@ -298,12 +297,12 @@ struct HttpServer::State {
   asio::io_context context{1};
   asio::executor_work_guard<asio::io_context::executor_type> always{context.get_executor()};
   tcp::acceptor acceptor{context};
-  std::deque<std::weak_ptr<Visit>> visits;  ///< The oldest first.
+  std::deque<std::weak_ptr<Visit>> visits;  ///< Oldest first.
   int admissions = kBurst_s * shared.config.bounds.connections_a_second;
   bool is_accepting = false;
   Clock::time_point last_round{};
   std::atomic<bool> is_over{false};
-  std::jthread thread;  ///< Last: it uses all of the above.
+  std::jthread thread;  ///< Declared last, as it uses all of the above.
 };
 
 HttpServer::HttpServer(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}

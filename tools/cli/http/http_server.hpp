@@ -16,20 +16,20 @@
 
 namespace terracut::cli {
 
-/// What the clients of a server may take of the machine, all of them together.
+/// Limits of what all clients of a server together may use.
 struct HttpBounds {
-  /// Connections at once that have not been answered. One more ends the oldest of them: whoever
-  /// sends its request is answered before it is the oldest, whoever says nothing makes room.
+  /// Most unanswered connections at once. One more ends the oldest: a client that sends its request
+  /// is answered before that, a silent one makes room.
   std::size_t visits = 32;
-  /// From coming to having taken the answer.
+  /// From connecting to having taken the answer.
   std::chrono::milliseconds visit_time{5'000};
-  /// Connections at once that stay: streams of frames, viewers.
+  /// Most lasting connections at once: streams of frames, viewers.
   std::size_t guests = 8;
-  /// A guest that takes nothing for so long of what is being written is disconnected.
+  /// A guest that takes nothing of what is being written for so long is disconnected.
   std::chrono::milliseconds stall_time{10'000};
-  /// What comes faster waits in the system's queue of 64, or beyond it.
+  /// Faster ones wait in the system's queue of 64, or outside it.
   int connections_a_second = 250;
-  /// Read from one connection: what comes faster waits.
+  /// Read from one connection; more waits.
   std::size_t bytes_a_second = 8 << 10;
 
   static constexpr std::size_t kHeaderBytes = 8 << 10, kBodyBytes = 4 << 10;
@@ -40,26 +40,26 @@ struct HttpBounds {
 ///
 /// Clients take no more than HttpBounds, whatever they send: a request is headers of 8 KiB and a
 /// body of 4 KiB whose length is said before. Requests for another machine's name (http_host.hpp)
-/// get 403; a header that decides on something (Host, Origin, ...) and comes twice gets 400. What
-/// the thread throws, for want of memory for example, costs the connection that it was at.
+/// get 403; a duplicate of a header that decides something (Host, Origin and the like) gets 400. An
+/// exception on the thread, for lack of memory for example, costs only the connection being served.
 class HttpServer {
  public:
   struct Config {
-    net::Ipv4Endpoint at;  ///< Port 0: one the system chooses.
+    net::Ipv4Endpoint at;  ///< Port 0: chosen by the system.
     std::string what;      ///< For people: "the page".
     HttpBounds bounds{};
   };
-  /// Since the start. From any thread.
+  /// Counts since the start. From any thread.
   struct Figures {
-    /// Requests: answered by 400 and above, but for 404, or not at all.
+    /// Requests not answered, or with 400 and above except 404.
     std::atomic<std::uint64_t> refused{0};
     std::atomic<std::uint64_t> stalled{
         0};  ///< Guests that took nothing for HttpBounds::stall_time.
-    std::atomic<std::uint64_t> failures{0};  ///< Times that the system had no descriptor or memory.
+    std::atomic<std::uint64_t> failures{0};  ///< Times the system had no descriptor or memory.
   };
 
-  /// kInvalidArgument with the system's reason, such as a port in use; kCapacityExceeded: there is
-  /// no descriptor or thread left.
+  /// Errors: kInvalidArgument with the system's reason, such as a port in use; kCapacityExceeded:
+  /// no descriptor or thread is left.
   [[nodiscard]] static Expected<HttpServer> start(const Config& config, HttpResponder respond);
 
   HttpServer(HttpServer&&) noexcept;
@@ -70,7 +70,7 @@ class HttpServer {
   [[nodiscard]] std::uint16_t port() const noexcept;
   [[nodiscard]] const Figures& figures() const noexcept;
 
-  // From any thread; done on the server's, soon, in order.
+  // From any thread; executed on the server's thread, soon and in order.
 
   void post(std::function<void()> work);
   void for_each_guest(std::function<void(HttpGuest&)> work);

@@ -9,13 +9,13 @@
 
 namespace terracut::cli {
 
-/// What is known at the end of a run of an RS-Ruby128's clock against the clock of the capture.
+/// Compares an RS-Ruby128's clock with that of the capture, for the end of a run.
 class DeviceClock {
  public:
   /// `offset_s` is added to the device's stamps (--clock-offset).
   explicit DeviceClock(double offset_s) : offset_ns_(static_cast<std::int64_t>(offset_s * 1e9)) {}
 
-  /// After each decoded packet; another sensor's is not noted.
+  /// To be called after each decoded packet; ignores other sensors.
   void note(const decode::Decoder& decoder, std::int64_t host_stamp_ns) noexcept {
     const ruby128::RubyTimestampDetector* timestamp = decoder.ruby_timestamp();
     if (timestamp == nullptr) return;
@@ -26,9 +26,9 @@ class DeviceClock {
   }
 
   [[nodiscard]] bool noted() const noexcept { return noted_; }
-  /// "UTC seconds and microseconds (proven), 0.3 ms behind the capture".
+  /// Returns "UTC seconds and microseconds (proven), 0.3 ms behind the capture".
   [[nodiscard]] std::string text() const;
-  /// What to do about a clock that is 37 s off, as sensors under PTP may be; else empty.
+  /// Tells what to do about a clock that is 37 s off, as sensors under PTP may be; else empty.
   [[nodiscard]] std::string warning() const;
 
  private:

@@ -7,9 +7,9 @@
 
 namespace terracut::cli {
 
-/// That the files which a live run reads can be read, before it waits for its sensor: calibration,
-/// setup and DBC file. Of a calibration, where the model is not known yet, that some model takes
-/// it. The errors of the files, naming them.
+/// Checks that a live run's files can be read, before it waits for its sensor: calibration, setup
+/// and DBC file. If the model is not known yet, some model must accept the calibration. Errors name
+/// the file.
 [[nodiscard]] Status check_inputs(const Options& options);
 
 }  // namespace terracut::cli

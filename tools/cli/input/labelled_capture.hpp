@@ -24,55 +24,54 @@
 
 namespace terracut::cli {
 
-/// A capture's way to labels on one thread, a frame at a time, for whoever asks for the next:
-/// source, the vehicle's motion, decoder and method as the options say, the mount found where it is
-/// not stated, and the report of what came of it.
+/// Labels a capture on one thread, a frame at a time: source, vehicle's motion, decoder and method
+/// by the options, the mount found unless stated, and the report.
 class LabelledCapture {
  public:
-  /// Finds sensor, calibration and mount, which reads the capture's beginning. The errors of
+  /// Finds sensor, calibration and mount, which reads the capture's beginning. Errors of
   /// open_capture(), choose_mount(), ring_profile_of() and RecordedMotion::open().
   [[nodiscard]] static Expected<std::unique_ptr<LabelledCapture>> open(const Options& options,
                                                                        FramesAreFor purpose);
   LabelledCapture(const LabelledCapture&) = delete;
   LabelledCapture& operator=(const LabelledCapture&) = delete;
 
-  /// The next frame, labelled, valid until the next call; null at the end, where the capture breaks
-  /// off (report().input_warning says where), and when stop_wanted().
+  /// Returns the next labelled frame, valid until the next call; null at the end, where the capture
+  /// breaks off (report().input_warning says where), and when stop_wanted().
   [[nodiscard]] const run::Frame* next();
-  /// Of that frame, one a return, by return index.
+  /// Returns the labels of that frame, by return index.
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
     return pipeline_->labels();
   }
-  /// When its returns were measured.
+  /// Returns when its returns were measured.
   [[nodiscard]] points::FrameTiming timing(const run::Frame& frame) const noexcept {
     return points::FrameTiming::of(frame.record.info, decoder().beam_turns());
   }
 
-  /// From the beginning again, or from so many seconds behind it, where the first frame lacks what
-  /// was before. The errors of the sources.
+  /// Goes back to the beginning, or to so many seconds after it, where the first frame lacks its
+  /// earlier packets. Errors of the sources.
   [[nodiscard]] Status rewind(std::optional<double> start_s = {});
-  /// Called with the stamp of each datagram before it is decoded, to keep its pace.
+  /// Sets a function that is called with the stamp of each datagram before it is decoded, to keep
+  /// pace.
   void before_each(std::function<void(std::int64_t stamp_ns)> wait) { wait_ = std::move(wait); }
 
-  /// After the last frame: what is known at the end of the run goes into the report, warnings are
-  /// said. kNothingCameOut where there was no frame; kMalformed where there was motion to deskew
-  /// by, and no frame it was good for.
+  /// Ends the run after the last frame: completes the report and prints warnings. kNothingCameOut
+  /// if there was no frame; kMalformed if there was motion for deskewing but it fitted no frame.
   [[nodiscard]] Status conclude();
   [[nodiscard]] Report& report() noexcept { return report_; }
-  /// Datagrams given to the decoder.
+  /// Returns the datagrams given to the decoder.
   [[nodiscard]] std::uint64_t offered() const noexcept { return offered_; }
-  /// Of what was read so far, in all passes; it balances when next() has returned null.
+  /// Accounts for all that was read in all passes; balances once next() has returned null.
   [[nodiscard]] capture::CaptureAccount account() const;
-  /// How long the capture has been running at a stamp near the newest datagram's.
+  /// Returns the capture's running time at a stamp near the newest datagram's.
   [[nodiscard]] std::int64_t since_begin_ns(std::int64_t stamp_ns) const noexcept {
     return part_->clock().since_begin_ns(stamp_ns);
   }
 
   [[nodiscard]] const OpenCapture& capture() const noexcept { return *capture_; }
   [[nodiscard]] const decode::Decoder& decoder() const noexcept { return pipeline_->decoder(); }
-  /// The run's.
+  /// Returns the run's mount.
   [[nodiscard]] const mount::Mount& sensor_mount() const noexcept { return sensor_mount_; }
-  /// As stated, and as found.
+  /// Returns the mount as stated and as found.
   [[nodiscard]] const MountChoice& mount() const noexcept { return *mount_choice_; }
 
  private:
@@ -95,10 +94,10 @@ class LabelledCapture {
   std::optional<MountWatch> mount_;
   Report report_;
   std::function<void(std::int64_t)> wait_;
-  const packet::Datagram* pushed_ = nullptr;  ///< Whose frames are being handed out.
+  const packet::Datagram* pushed_ = nullptr;  ///< The datagram whose frames are being handed out.
   std::uint64_t offered_ = 0;
-  capture::CaptureAccount account_;  ///< What nobody else counts, of the passes before this one.
-  bool gives_frames_ = false;        ///< Something was pushed, whose frames are not all out.
+  capture::CaptureAccount account_;  ///< Counts of earlier passes that are kept only here.
+  bool gives_frames_ = false;        ///< Frames of the last datagram may remain.
   bool ended_ = false;
   bool warned_of_part_ = false;
 };

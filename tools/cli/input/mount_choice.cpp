@@ -21,13 +21,13 @@ constexpr const char* kHowToState =
     "state how the sensor stands (--mount-height, --mount-roll, --mount-pitch; --setup with what "
     "`terracut calibrate` measured where more of the ground is seen)";
 
-/// A figure of the mount as it is stated, metres or degrees, and as it is found.
+/// A figure of the mount as stated (metres or degrees) and as found.
 struct MountFigure {
   std::optional<double> MountOptions::* stated;
   double Mount::* found;
   bool is_angle;
 
-  /// The hundredths of a degree that a found angle is, as the command line would read them.
+  /// Returns a found angle in hundredths of a degree, as the command line would read it.
   [[nodiscard]] double as_stated(const Mount& mount) const {
     const double value = mount.*found;
     return is_angle ? std::round(100 * beams::rad_to_deg(value)) / 100 : value;
@@ -46,7 +46,8 @@ bool is_certain(const FoundMount& found, const MountFigure& figure) {
   return alone.is_certain();
 }
 
-/// As usual, but for what is stated and for what of `found` is certain by itself.
+/// Returns the default mount with stated figures, and with figures of `found` that are certain by
+/// themselves.
 MountChoice guessed(const MountOptions& stated, const std::optional<FoundMount>& found) {
   MountChoice choice{.options = stated, .is_guess = true};
   for (const MountFigure& figure : kMountFigures) {

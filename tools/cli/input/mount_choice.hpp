@@ -11,32 +11,33 @@
 
 namespace terracut::cli {
 
-/// Whether any figure of the mount is not stated, and so to be found.
+/// True if any figure of the mount is not stated and must be found.
 [[nodiscard]] bool is_mount_open(const MountOptions& stated) noexcept;
 
 /// The mount of a run.
 struct MountChoice {
-  MountOptions options;  ///< As stated, and what was open as it was found or guessed.
-  /// What the ground showed of what was open; figures that were stated have no uncertainty. None
-  /// where all was stated, or where it is a guess.
+  MountOptions options;  ///< Stated figures, and the others as found or guessed.
+  /// The result of the search; stated figures have no uncertainty. Empty if all were stated, or if
+  /// the mount is a guess.
   std::optional<mount::FoundMount> found{};
-  bool is_guess = false;  ///< The ground does not show what was open.
+  bool is_guess = false;  ///< The ground does not show the figures that were not stated.
 };
 
-/// What was found takes the place of what is open.
+/// Fills in figures that were not stated from those found.
 [[nodiscard]] MountChoice filled_in(const MountOptions& stated, const mount::FoundMount& found);
 
-/// What `finder` found takes the place of what is open, and is said. Where it found nothing that
-/// labels can be made by: kMountNotFound, or, with MountOptions::may_guess, level at 1.73 m but for
-/// what was found well enough, with a warning.
+/// Fills in figures that were not stated from `finder`, and prints them. If they are not certain
+/// enough for labels: kMountNotFound, or, with MountOptions::may_guess, level at 1.73 m except for
+/// certain figures, with a warning.
 [[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
                                                  const mount::MountFinder& finder);
-/// The same by frames of the recording, where anything is open. Also the errors of each_frame().
+/// Chooses the mount with frames of the recording, if anything is not stated. Also errors of
+/// each_frame().
 [[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
                                                  RecordedFrames& frames);
 
-/// Of a command whose work is not labels that others rely on, or that cannot wait for them: it goes
-/// on with a guess.
+/// Returns options that allow a guess, for a command whose labels nobody relies on, or that cannot
+/// wait.
 [[nodiscard]] MountOptions guessing(MountOptions stated);
 
 }  // namespace terracut::cli

@@ -9,11 +9,11 @@
 
 namespace terracut::cli {
 
-/// Says once that the near ground of a run contradicts the mount it has, and keeps what there
-/// is to show of it. One thread without a deadline: a frame that is looked at takes milliseconds.
+/// Reports once if the near ground of a run contradicts its mount, and keeps the figures about it.
+/// One thread without a deadline: checking a frame takes milliseconds.
 class MountWatch {
  public:
-  /// `mount`: that of the run; `choice`: what of it was found.
+  /// `mount` is the run's; `choice` tells which figures were found.
   MountWatch(const mount::Mount& mount, const MountChoice& choice);
 
   void add_frame(const ground::NearGround& ground);

@@ -40,7 +40,7 @@ std::string describe(const calib::SensorCalibration& calibration) {
   return text;
 }
 
-/// One unit alone: packets of another would end up in the same frames.
+/// Opens one unit only: packets of another would get into the same frames.
 Expected<PcapSource> open_unit(const CaptureOptions& options, const streams::SensorStream& unit) {
   capture::PcapFilter its_own = filter_of(options);
   its_own.source_address = unit.source_address;
@@ -50,7 +50,7 @@ Expected<PcapSource> open_unit(const CaptureOptions& options, const streams::Sen
   return PcapSource::open(options.file, std::move(its_own));
 }
 
-/// As sensor::unit_calibration(), and where the packets hold none, of a file beside the capture.
+/// Calls sensor::unit_calibration(), and if the packets hold none, uses a file beside the capture.
 Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
                                                   sensor::SensorModel model, PcapSource& unit) {
   sensor::CalibrationChoice choice{.file = options.calibration};
@@ -85,7 +85,7 @@ Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   if (!unit) return tl::unexpected(unit.error());
   auto calibration = calibration_of(options, sensor->model, *unit);
   if (!calibration) return tl::unexpected(calibration.error());
-  // Opened once more, so that nothing is counted twice.
+  // Opened again, so that nothing is counted twice.
   unit = open_unit(options, sensor->stream);
   if (!unit) return tl::unexpected(unit.error());
   std::string sensor_line = describe(*sensor), calibration_line = describe(*calibration);
@@ -111,7 +111,7 @@ void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounte
                     "out; `terracut info` lists who sends, --from chooses",
                     others, unit));
   }
-  // Where one of the stream's marks was asked for, others are to be left out.
+  // If the user asked for a part of the stream's source, others are meant to be left out.
   const bool is_asked_for = options.from.find(':') != std::string::npos || !options.to.empty() ||
                             !options.vlan.empty() || !options.mac.empty();
   if (const std::uint64_t others = pass.other_stream; others > 0 && !is_asked_for) {

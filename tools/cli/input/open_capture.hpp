@@ -16,7 +16,7 @@
 
 namespace terracut::cli {
 
-/// A capture ready to be read from its beginning, and what its packets are decoded with.
+/// A capture to be read from its beginning, with what is needed to decode its packets.
 struct OpenCapture {
   capture::PcapSource source;
   SensorChoice sensor;
@@ -25,46 +25,46 @@ struct OpenCapture {
   std::string calibration_line;  ///< Origin and fingerprint; a warning where it is not the unit's.
 };
 
-/// Opens the capture, of which one unit's datagrams alone are read, and chooses sensor and
-/// calibration (sensor_choice.hpp, unit_calibration.hpp, calibration_beside()).
+/// Opens the capture, with the datagrams of one unit only, and chooses sensor and calibration
+/// (sensor_choice.hpp, unit_calibration.hpp, calibration_beside()).
 [[nodiscard]] Expected<OpenCapture> open_capture(const CaptureOptions& options);
 
-/// On stderr, for who prints no report that has these lines.
+/// Prints these lines on stderr, for commands without a report that has them.
 void say_what_is_read(const OpenCapture& capture);
 
-/// The datagrams of that unit once more, from the beginning and with counters of their own.
+/// Opens the unit's datagrams again, from the beginning and with counters of their own.
 [[nodiscard]] Expected<capture::PcapSource> open_again(const OpenCapture& capture,
                                                        const CaptureOptions& options);
 
-/// Says how many datagrams of a pass were left out because others sent them, or sent them
-/// elsewhere, where no option asked for that.
+/// Reports how many datagrams of a pass were left out because of another sender or destination,
+/// unless an option asked for that.
 void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounters& pass,
                            const CaptureOptions& options);
 
-/// The datagrams of a capture between --start and --duration, which go by the time that it has been
-/// running (CaptureClock). Without either every datagram is among them, whatever its stamp. Those
-/// outside are counted, but for the rest of the file behind some that are past the end.
+/// The datagrams of a capture between --start and --duration, by the capture's running time
+/// (CaptureClock). Without these options all datagrams belong to it, whatever their stamps. Those
+/// outside are counted, except for the rest of the file after the end.
 class CapturePart {
  public:
-  /// `source` must outlive this; it is read from where it stands, its beginning.
+  /// Reads `source` from its present position, its beginning; `source` must outlive this.
   CapturePart(capture::PcapSource& source, const CaptureOptions& options);
 
-  /// The next one, valid until the next call. Null at the end, where the capture breaks off, and
-  /// when stop_wanted().
+  /// Returns the next datagram, valid until the next call. Null at the end, where the capture
+  /// breaks off, and when stop_wanted().
   [[nodiscard]] const packet::Datagram* next();
 
   [[nodiscard]] const capture::CaptureClock& clock() const noexcept { return clock_; }
   [[nodiscard]] std::uint64_t before_start() const noexcept { return before_start_; }
   [[nodiscard]] std::uint64_t behind_end() const noexcept { return behind_end_; }
-  /// Where it broke off; empty: it did not.
+  /// Says where it broke off; empty if it did not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
-  /// Whether it was left because of stop_wanted().
+  /// True if reading ended because of stop_wanted().
   [[nodiscard]] bool stopped() const noexcept { return stopped_; }
-  /// Warns of what is odd about what was read: where it broke off, and stamps that step back.
+  /// Warns of oddities in the input: where it broke off, and stamps that step back.
   void warn_of_oddities() const;
 
  private:
-  /// So many in a row are past the end before it is believed: a few may have odd stamps.
+  /// So many successive datagrams after the end confirm it: a few may have odd stamps.
   static constexpr int kSurelyPast_packets = 32;
 
   [[nodiscard]] bool is_inside(std::int64_t since_begin_ns) noexcept;
@@ -72,16 +72,16 @@ class CapturePart {
   capture::PcapSource& source_;
   std::int64_t start_ns_, end_ns_;
   capture::CaptureClock clock_;
-  bool has_begun_ = false;  ///< The part, not the capture.
-  int past_end_ = 0;        ///< In a row.
+  bool has_begun_ = false;  ///< The part has begun, not only the capture.
+  int past_end_ = 0;        ///< Successive ones.
   std::uint64_t before_start_ = 0, behind_end_ = 0;
   std::optional<packet::Datagram> datagram_;
   std::string fault_;
   bool stopped_ = false;
 };
 
-/// kNothingCameOut for a part of `source` that gave no frame, naming the checks its packets failed.
-/// `offered`: datagrams that the decoder was given.
+/// Returns kNothingCameOut for a part of `source` without frames, naming the checks its packets
+/// failed. `offered` is the number of datagrams given to the decoder.
 [[nodiscard]] Error nothing_came_out(const capture::PcapSource& source, const CapturePart& part,
                                      std::uint64_t offered, const decode::Decoder& decoder);
 

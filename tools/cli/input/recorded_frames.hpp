@@ -17,7 +17,7 @@
 
 namespace terracut::cli {
 
-/// The frames of a recording, whatever it is made of, for work that looks at them in advance.
+/// The frames of any recording, for work that looks at them in advance.
 class RecordedFrames {
  public:
   RecordedFrames() = default;
@@ -27,41 +27,40 @@ class RecordedFrames {
 
   using OnFrame = std::function<Status(const frame::RangeImage&)>;
 
-  /// Shows at most so many frames, as a sensor on `mount` sees them. An error of `on_frame` ends
-  /// it and is handed on; so is go_on()'s. kNothingCameOut where there is no frame.
+  /// Shows at most so many frames, decoded with `mount`. Ends with and returns the first error of
+  /// `on_frame` or go_on(). kNothingCameOut if there is no frame.
   [[nodiscard]] virtual Status each_frame(const mount::Mount& mount, std::size_t most,
                                           const OnFrame& on_frame) = 0;
   [[nodiscard]] virtual mount::RingProfile ring_profile(const mount::Mount& mount) const = 0;
 
-  /// Shows `finder` the near ground of at most so many frames. The errors of each_frame().
+  /// Shows `finder` the near ground of at most so many frames. Errors of each_frame().
   [[nodiscard]] virtual Status look_for_mount(std::size_t most, mount::MountFinder& finder);
 };
 
-/// Of a capture, the first frames between --start and --duration, without the vehicle's motion. The
-/// capture itself is left where it stands.
+/// The first frames of a capture between --start and --duration, without the vehicle's motion. The
+/// position of the capture itself does not change.
 class CaptureFrames : public RecordedFrames {
  public:
-  /// Both must outlive this.
+  /// Both arguments must outlive this.
   CaptureFrames(const OpenCapture& capture, const Options& options)
       : capture_(capture), options_(options) {}
 
   [[nodiscard]] Status each_frame(const mount::Mount& mount, std::size_t most,
                                   const OnFrame& on_frame) override;
   [[nodiscard]] mount::RingProfile ring_profile(const mount::Mount& mount) const override;
-  /// First by the objects that label the capture, so that it takes no more memory than the run
-  /// does: frames of points, which show a sensor that does not stand, take three times that of
-  /// frames as measured.
+  /// Looks first with the objects that label the capture, so that it takes no more memory than the
+  /// run. Only a sensor that is not upright needs frames of points, three times as large.
   [[nodiscard]] Status look_for_mount(std::size_t most, mount::MountFinder& finder) override;
 
-  /// Of the last pass.
+  /// Returns the last pass's counters.
   [[nodiscard]] const capture::PcapCounters& counters() const noexcept { return counters_; }
-  /// Where it broke off; empty: it did not.
+  /// Says where it broke off; empty if it did not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
 
  private:
   [[nodiscard]] Status look_for_standing_mount(std::size_t most, mount::MountFinder& finder);
-  /// Pushes the capture's datagrams into `frames`, a Decoder or what is made like it, until `take`
-  /// had so many of those that come out.
+  /// Pushes the capture's datagrams into `frames`, a Decoder or the like, until `take` has had so
+  /// many of the frames.
   template <class Frames, class Take>
   Status pass(Frames& frames, std::size_t most, Take take);
 
@@ -71,11 +70,11 @@ class CaptureFrames : public RecordedFrames {
   std::string fault_;
 };
 
-/// Of clouds, evenly taken ones. Those that cannot be read, and those of a covered sensor, which
-/// have no place, are passed over.
+/// Evenly spaced clouds of a folder. Skips clouds that cannot be read, or have no place because the
+/// sensor is covered.
 class CloudFrames : public RecordedFrames {
  public:
-  /// Both must outlive this.
+  /// Both arguments must outlive this.
   CloudFrames(CloudReader& clouds, const cloud::SensorRows& rows) : clouds_(clouds), rows_(rows) {}
 
   [[nodiscard]] Status each_frame(const mount::Mount& mount, std::size_t most,

@@ -13,10 +13,10 @@
 namespace terracut::cli {
 namespace {
 
-/// How long after one recording's stamps stepped back those of the other may.
+/// After one recording's stamps step back, the other's may do so up to this much later.
 constexpr std::int64_t kTogether_ns = 1'000'000'000;
 
-/// Whether there is a frame with one of the signals in it, or why there is not.
+/// Checks that the recording has a frame with one of the signals; says why not.
 Status find_signals(const std::filesystem::path& path, std::span<const can::CanId> ids) {
   auto recording = can::CanRecording::open(path);
   if (!recording) return tl::unexpected(recording.error());
@@ -75,7 +75,7 @@ void RecordedMotion::Steps::note(std::int64_t stamp_ns) noexcept {
 }
 
 bool RecordedMotion::next_is_due() noexcept {
-  if (frames_.count < packets_.count) {  // its clock is to be set back still
+  if (frames_.count < packets_.count) {  // its clock has yet to be set back
     if (next_->stamp_ns - packets_.left_off_ns <= kTogether_ns) return true;
     frames_.count = packets_.count;
   } else if (frames_.count > packets_.count) {
@@ -89,7 +89,7 @@ void RecordedMotion::hear_until(std::int64_t stamp_ns) {
   packets_.note(stamp_ns);
   for (; next_ && next_is_due(); read_on()) {
     if (const auto sample = signals_.take(*next_)) (void)motion_->add(*sample);
-    motion_->take_new();  // writer and reader are one here, so nothing ever waits
+    motion_->take_new();  // writer and reader are one thread here, so nothing ever waits
   }
 }
 

@@ -18,36 +18,36 @@
 
 namespace terracut::cli {
 
-/// Reads the vehicle's motion from a recording of its CAN bus, read along with the packets of a
-/// capture as it would have been heard beside them: by their stamps, on one clock.
+/// Reads the vehicle's motion from a recording of its CAN bus along with the packets of a capture,
+/// as if live: by their stamps, on one clock.
 ///
-/// Where that clock was set back, both recordings go back at one time. Whichever does so first
-/// waits for the other, so that frames from before and behind the step stay beside packets from
-/// before and behind it; but for no longer than a second of stamps, for it may be the step of one
-/// clock alone. One thread.
+/// If that clock was set back, both recordings step back at one time. The first to do so waits for
+/// the other, so that frames and packets from before the step stay together, as do those from after
+/// it; but at most for a second of stamps, because only one clock may have stepped. One thread.
 class RecordedMotion {
  public:
-  /// Errors as CanRecording::open() and motion_signals_of(); kMalformed, too, where no frame of the
-  /// whole recording holds the signals.
+  /// Errors of CanRecording::open() and motion_signals_of(); also kMalformed if no frame of the
+  /// whole recording has the signals.
   [[nodiscard]] static Expected<RecordedMotion> open(const Options& options,
                                                      memory::FixedMemory& memory);
 
-  /// Begins the recording again. The errors of CanRecording.
+  /// Starts the recording again. Errors of CanRecording.
   [[nodiscard]] Status restart();
-  /// Takes the frames up to the stamp of a packet, the next one of its capture. A recording that
-  /// breaks off is as one that ends; the fault is kept.
+  /// Takes the frames up to the stamp of the capture's next packet. A recording that breaks off
+  /// counts as ended; the fault is kept.
   void hear_until(std::int64_t stamp_ns);
 
   [[nodiscard]] vehicle::EgoMotion& motion() noexcept { return *motion_; }
   [[nodiscard]] std::uint64_t samples() const noexcept { return motion_->counters().accepted; }
-  /// What was not understood of the recording, one line a kind; empty: nothing of note.
+  /// Lists what was not understood in the recording, one line a kind; empty if nothing.
   [[nodiscard]] std::string warnings() const;
 
  private:
   RecordedMotion(std::filesystem::path path, can::CanRecording recording,
                  vehicle::MotionSignals signals, const vehicle::EgoMotion::Config& config,
                  memory::FixedMemory& memory);
-  /// Of one of the two recordings: how often its stamps stepped back, and from where they last did.
+  /// For one of the two recordings: how often its stamps stepped back, and from where they last
+  /// did.
   struct Steps {
     std::uint64_t count = 0;
     std::int64_t newest_ns = kNone, left_off_ns = kNone;
@@ -56,7 +56,7 @@ class RecordedMotion {
   static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
 
   void read_on();
-  /// Whether the next frame came before the newest packet.
+  /// True if the next frame came before the newest packet.
   [[nodiscard]] bool next_is_due() noexcept;
 
   std::filesystem::path path_;

@@ -22,13 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of folders that file servers and desktops keep for themselves: thumbnails, what was thrown
-/// away, earlier states.
+/// Folders that file servers and desktops keep for themselves: thumbnails, trash, snapshots.
 constexpr std::array kOthersFolders{"@eaDir",       "@Recycle",   "@Recently-Snapshot",
                                     "#recycle",     "#snapshot",  "System Volume Information",
                                     "$RECYCLE.BIN", "lost+found", "__MACOSX"};
 
-/// Endings of files that lie beside recordings, some of them by the million, and are not opened.
+/// Endings of files beside recordings, sometimes millions, which are not opened.
 constexpr std::array kNoRecordings{".label", ".txt", ".json", ".yaml", ".yml", ".xml",
                                    ".csv",   ".md",  ".log",  ".dbc",  ".png", ".jpg",
                                    ".jpeg",  ".svg", ".html", ".py",   ".sh",  ".parquet"};
@@ -41,7 +40,7 @@ bool is_named_as_recording(const fs::path& path) {
   return cloud::is_cloud_file(path) || !capture::capture_stem(path.filename().string()).empty();
 }
 
-/// Its first bytes, as many as there are; an error where it cannot be opened.
+/// Returns the file's first bytes; an error if it cannot be opened.
 Expected<std::vector<std::uint8_t>> first_bytes_of(const fs::path& path) {
   const auto file = files::open_plain_file(path);
   if (!file) return tl::unexpected(file.error());
@@ -68,7 +67,7 @@ class TreeSearch {
  private:
   bool is_first_visit(const fs::path& folder) {
     struct stat status {};
-    if (::stat(folder.c_str(), &status) != 0) return true;  // listing it says why
+    if (::stat(folder.c_str(), &status) != 0) return true;  // listing it gives the reason
     return visited_.emplace(status.st_dev, status.st_ino).second;
   }
 
@@ -131,7 +130,7 @@ class TreeSearch {
 
   RecordingTree found_;
   std::set<std::pair<::dev_t, ::ino_t>> visited_;
-  std::set<fs::path> links_;  ///< To folders, for when all that needs no link has been seen.
+  std::set<fs::path> links_;  ///< To folders; followed after all paths without links.
 };
 
 }  // namespace

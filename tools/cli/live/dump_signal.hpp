@@ -9,17 +9,17 @@ namespace terracut::cli {
 /// Takes SIGUSR1, which asks a running process for a dump, without a handler: the signal is blocked
 /// and read from a descriptor, so it interrupts no thread and no system call.
 ///
-/// Make it in main() before any other thread: threads inherit the block, and one without it would
-/// let the signal end the process.
+/// Construct it in main() before any other thread: threads inherit the block, and one without it
+/// would let the signal end the process.
 class DumpSignal {
  public:
-  /// std::system_error when the system has no descriptor left.
+  /// Throws std::system_error if the system has no descriptor left.
   DumpSignal();
 
-  /// The signal came since the last call. Never waits; any one thread.
+  /// True if the signal came since the last call. Never waits; any one thread.
   [[nodiscard]] bool take() noexcept;
 
-  /// Readable when take() would return true, for poll().
+  /// Returns a descriptor for poll(), readable when take() would return true.
   [[nodiscard]] int descriptor() const noexcept { return descriptor_.get(); }
 
  private:

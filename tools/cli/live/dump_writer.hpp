@@ -20,24 +20,24 @@
 
 namespace terracut::cli {
 
-/// Where a run's dumps go, under its name.
+/// Returns the folder and limits of a run's dumps, under the run's name.
 [[nodiscard]] recorder::DumpFolderLimits dump_folder_of(const Options& options);
 
-/// Writes the flight recorder's dumps on a thread of its own: however long the disk takes, nothing
-/// waits for it. What is wanted while a dump is being written is written after it, once.
+/// Writes the flight recorder's dumps on a thread of its own, so that no other thread waits for the
+/// disk. A dump requested while one is being written follows it, once.
 class DumpWriter {
  public:
-  /// `recorder`, `stage_names` and `answers`, which only this uses meanwhile, must outlive this.
-  /// `calibration`, in use, goes beside each dump.
+  /// `recorder`, `stage_names` and `answers` are used by this object alone and must outlive it.
+  /// `calibration`, the one in use, is written beside each dump.
   DumpWriter(const Options& options, calib::SensorCalibration calibration,
              recorder::FlightRecorder& recorder, std::span<const std::string_view> stage_names,
              DumpAnswers& answers);
   ~DumpWriter() { begin_to_finish(); }
 
-  /// `frames`: the times of the newest frames.
+  /// Requests a dump; `frames` are the times of the newest frames.
   void want(recorder::DumpReason reason, std::vector<status::FrameRecord> frames);
 
-  /// False when the disk does not answer; then the process must end without destroying this.
+  /// False if the disk does not answer; then the process must end without destroying this object.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
  private:
@@ -52,13 +52,13 @@ class DumpWriter {
   recorder::DumpPolicy policy_;
   DumpAnswers& answers_;
 
-  std::mutex mutex_;  ///< Between threads without a deadline.
+  std::mutex mutex_;  ///< Shared by threads without a deadline.
   std::condition_variable changed_;
   std::array<bool, recorder::kDumpReasons> wanted_{};
   std::vector<status::FrameRecord> frames_;
   bool finish_ = false;
 
-  threads::BackgroundThread thread_;  ///< Last: it uses all of the above.
+  threads::BackgroundThread thread_;  ///< Last: it uses all members above.
 };
 
 }  // namespace terracut::cli

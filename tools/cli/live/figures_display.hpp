@@ -15,15 +15,15 @@
 
 namespace terracut::cli {
 
-/// Keeps a run's figures where others can see them: the status page and /metrics. From the start
-/// on, so that who looks finds a run that waits for its sensor. One thread; touches no disk.
+/// Shows a run's figures on the status page and /metrics, from the start on, so that a run that
+/// waits for its sensor is visible too. One thread; touches no disk.
 class FiguresDisplay {
  public:
-  /// What cannot be opened is warned of and tried again, and the run goes on without it.
+  /// An output that cannot be opened is warned of and tried again; the run goes on without it.
   explicit FiguresDisplay(const WatchOptions& options);
 
   void show(const status::MonitorSnapshot& figures);
-  /// Requests that /metrics refused.
+  /// Adds the number of requests that /metrics refused.
   void add_losses(status::MonitorSnapshot& figures);
 
  private:
@@ -32,9 +32,9 @@ class FiguresDisplay {
 
   publish::Reopened<Page> page_;
   std::mutex
-      shown_mutex_;  ///< Between this thread and the metrics server's; neither has a deadline.
+      shown_mutex_;  ///< Shared by this thread and the metrics server's; neither has a deadline.
   std::unique_ptr<status::MonitorSnapshot> shown_ = std::make_unique<status::MonitorSnapshot>();
-  /// Last: it reads shown_ until it is gone.
+  /// Last: it reads shown_ until its end.
   std::optional<publish::Reopened<HttpServer>> metrics_;
 };
 

@@ -9,18 +9,18 @@
 
 namespace terracut::cli {
 
-/// The sensor that runs of a name heard last, so that another one at the port does not keep the
-/// next run from starting: the file NAME.terracut-sensor, with its address in numbers, in systemd's
-/// state folder of the service ($STATE_DIRECTORY), which outlives the machine's power, else beside
-/// the status page, which does not. A file that others could have written is not believed
-/// (files::check_trusted).
+/// Remembers the sensor that runs of a name heard last, so that another one at the port does not
+/// keep the next run from starting. The file NAME.terracut-sensor has its numeric address and lies
+/// in the state folder of the systemd service ($STATE_DIRECTORY), which survives a restart of the
+/// machine, otherwise beside the status page, which does not. Files that others could have written
+/// are ignored (files::check_trusted).
 class KnownSensor {
  public:
   explicit KnownSensor(std::string name);
 
-  /// Its port is known where there was another sensor at its address; none: none is known.
+  /// Returns the remembered sensor, with its port if several were at its address; none if unknown.
   [[nodiscard]] std::optional<net::Sender> sender() const;
-  /// Writes only where it was another one. Warns where it cannot.
+  /// Writes the file if the sensor has changed. Warns if it cannot.
   void remember(const net::Sender& sender) const;
 
  private:

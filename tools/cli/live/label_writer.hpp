@@ -16,10 +16,10 @@
 
 namespace terracut::cli {
 
-/// Writes the labels of every frame to a folder, on a thread of its own: however long the disk
-/// takes, nothing waits for it. Where it cannot, or others need the room that is left
-/// (files::check_room_left), that is said, and tried again every second. Frames that are not
-/// written are counted by FramePool.
+/// Writes the labels of every frame to a folder on a thread of its own, so that no other thread
+/// waits for the disk. If it cannot write, or others need the remaining room
+/// (files::check_room_left), it warns and tries again every second. FramePool counts the frames not
+/// written.
 class LabelWriter {
  public:
   using Slots = live::FramePool<frame::Label>;
@@ -28,10 +28,10 @@ class LabelWriter {
   LabelWriter(const OutputOptions& options, Slots& slots);
   ~LabelWriter() { finish_ = true; }
 
-  /// After LiveThreads::stop(): writes what is left. False when the disk does not answer; then the
-  /// process must end without destroying this.
+  /// Writes the remaining frames, after LiveThreads::stop(). False if the disk does not answer;
+  /// then the process must end without destroying this object.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
-  /// After finish(): the first file that could not be written.
+  /// Returns the error of the first file that could not be written, after finish().
   [[nodiscard]] const Status& outcome() const noexcept { return outcome_; }
 
  private:
@@ -44,8 +44,8 @@ class LabelWriter {
   Slots& slots_;
   std::atomic<bool> finish_{false};
   Status outcome_;
-  std::int64_t try_again_ns_ = 0;     ///< 0: the newest frame was written.
-  threads::BackgroundThread thread_;  ///< Last: it uses all of the above.
+  std::int64_t try_again_ns_ = 0;     ///< 0 if the newest frame was written.
+  threads::BackgroundThread thread_;  ///< Last: it uses all members above.
 };
 
 }  // namespace terracut::cli

@@ -15,7 +15,7 @@
 namespace terracut::cli {
 namespace {
 
-/// Who else listens at the device port shall go on doing so.
+/// Other listeners at the device port must keep receiving.
 std::optional<net::LiveSource> open_device_port(const Options& options,
                                                 memory::FixedMemory& memory) {
   net::ListenConfig listen = listen_config_of(options);

@@ -12,13 +12,12 @@
 
 namespace terracut::cli {
 
-/// What the options ask for.
+/// Returns the configuration for these options.
 [[nodiscard]] net::ListenConfig listen_config_of(const Options& options);
 
-/// Listens until a sensor is known and its calibration, too: as long as it takes, at most
-/// `options.patience_s` where there is such, or until stop_wanted(). `on_waiting` is told many
-/// times a second what is waited for. Of several sensors it is the one that the run before heard
-/// (KnownSensor). The errors of FirstSeconds::conclude().
+/// Listens until a sensor and its calibration are known, at most `options.patience_s` if given, or
+/// until stop_wanted(). Calls `on_waiting` many times a second with what it waits for. Of several
+/// sensors it takes the one of the previous run (KnownSensor). Errors of FirstSeconds::conclude().
 using OnWaiting = std::function<void(const std::string& what)>;
 [[nodiscard]] Expected<streams::SensorOnAir> listen_for_sensor(net::LiveSource& source,
                                                                const Options& options,

@@ -69,7 +69,7 @@ std::string describe(const streams::SensorOnAir& sensor) {
                      sensor.dual_return ? "dual" : "single");
 }
 
-/// The answer to whoever asks for a dump where no packets are kept.
+/// Returns the answer to dump requests when no packets are kept.
 recorder::RefusedDump nothing_to_dump(const Options& options) {
   if (keeps_packets(options)) {
     return {recorder::DumpRefusal::kNothingHeld,
@@ -86,7 +86,7 @@ void refuse_dump(const Options& options, DumpAnswers& answers) {
   if (!told) warn(told.error().message);
 }
 
-/// Shows whoever looks what a run waits for that has not heard its sensor yet.
+/// Shows what a run waits for before it has heard its sensor.
 class Waiting {
  public:
   Waiting(const Options& options, const net::LiveSource& source, FiguresDisplay& display,
@@ -109,7 +109,7 @@ class Waiting {
     show(what);
     service_.work_round(*figures_, measure::monotonic_ns());
     if (dump_wanted_.take()) refuse_dump(options_, answers_);
-    // What is heard soon need not be said to be waited for; counts in it change all the time.
+    // A short wait is not printed; counts in the text change all the time.
     const std::int64_t now_ns = measure::monotonic_ns();
     if (now_ns < say_at_ns_ || what == said_) return;
     say(what + " (Ctrl-C ends it)");
@@ -117,7 +117,7 @@ class Waiting {
     say_at_ns_ = now_ns + kSayEvery_ns;
   }
 
-  /// The run was stopped before labelling began.
+  /// Ends a run that was stopped before labelling began.
   [[nodiscard]] ExitCode end() const {
     fmt::print("{}", closing_lines(*figures_));
     const Status written = write_json(options_.output.json, live_summary(*figures_));
@@ -152,7 +152,7 @@ class Waiting {
   std::int64_t say_at_ns_ = measure::monotonic_ns() + kSayFirst_ns;
 };
 
-/// What the options ask of the run; the vehicle's bus may be null.
+/// Returns the configuration for these options; the vehicle's bus may be null.
 live::LiveConfig live_config_of(const Options& options, const streams::SensorOnAir& sensor,
                                 VehicleBus* bus) {
   const RealtimeOptions& realtime = options.realtime;
@@ -180,13 +180,13 @@ live::LiveConfig live_config_of(const Options& options, const streams::SensorOnA
   return config;
 }
 
-/// What leaves a run, on threads that nothing waits for.
+/// The outputs of a run, on threads that no other thread waits for.
 class Writers {
  public:
-  /// `answers`: to those who ask for dumps.
+  /// `answers` serves those who request dumps.
   explicit Writers(DumpAnswers& answers) noexcept : answers_(answers) {}
 
-  /// What cannot be had is tried again as long as the run goes on.
+  /// Opens the outputs. Those that fail are tried again as long as the run goes on.
   void open(const Options& options, const streams::SensorOnAir& sensor, const mount::Mount& mount,
             live::LiveParts& parts) {
     const auto deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6);
@@ -213,7 +213,7 @@ class Writers {
     }
   }
 
-  /// Null where only labels leave. After open().
+  /// Returns the outlet after open(); null if only labels are written.
   [[nodiscard]] const live::FrameOutlet* outlet() const { return outlet_ ? &*outlet_ : nullptr; }
   [[nodiscard]] publish::Publisher& publisher() { return *publisher_; }
 
@@ -225,7 +225,7 @@ class Writers {
     }
   }
 
-  /// False when the disk does not answer, or another output.
+  /// False if the disk or another output does not answer.
   [[nodiscard]] bool finish() {
     constexpr std::chrono::seconds kPatience{3};
     const bool frames_done = !outlet_ || outlet_->finish(kPatience);
@@ -234,7 +234,7 @@ class Writers {
     const bool dumps_done = !dumps_ || dumps_->finish(kPatience);
     return outputs_done && labels_done && dumps_done;
   }
-  /// After finish().
+  /// True if everything was written. After finish().
   [[nodiscard]] bool wrote_all() const {
     return publisher_->outcome() && (!labels_ || labels_->outcome());
   }
@@ -258,7 +258,7 @@ class Writers {
   }
 
   DumpAnswers& answers_;
-  /// Of the outlet's thread; not locked: no thread with a deadline touches it.
+  /// Used by the outlet's thread; not locked, as no thread with a deadline touches it.
   memory::FixedMemory stream_memory_;
   std::optional<publish::Publisher> publisher_;
   std::optional<live::FrameOutlet> outlet_;
@@ -303,7 +303,7 @@ ExitCode conclude(const Options& options, const LiveWatch& watch) {
 ExitCode run_live(const Options& options) {
   if (const Status ready = check_inputs(options); !ready) return refuse(ready.error());
   if (const Status sinks = check_sinks(options.output); !sinks) return refuse(sinks.error());
-  DumpSignal dump_wanted;  // before any thread: they inherit that the signal is blocked
+  DumpSignal dump_wanted;  // before any thread, because threads inherit the blocked signal
   write_in_background();
   catch_stop_signals();
   if (options.realtime.lock_memory) say_refusals(memory::hold_memory({}));
@@ -340,7 +340,7 @@ ExitCode run_live(const Options& options) {
   const auto profile = ring_profile_of(sensor->calibration, mount.options);
   if (!profile) return refuse(profile.error());
 
-  // After the first seconds, so that what the bus sent in them does not overflow the socket.
+  // Opened after the first seconds, so that frames received meanwhile do not overflow the socket.
   std::optional<VehicleBus> bus;
   if (signals) {
     auto opened = VehicleBus::open(options.can, *std::move(signals), socket_memory);
@@ -375,7 +375,7 @@ ExitCode run_live(const Options& options) {
   if (!ran) code = refuse(ran.error());
   if (disk_answers) return writers.wrote_all() ? code : kOutputFailed;
   warn("the disk does not answer: what was not written by now is lost");
-  std::_Exit(end_output(kOutputFailed));  // threads that wait for it cannot be ended otherwise
+  std::_Exit(end_output(kOutputFailed));  // threads that wait for it can only be ended so
 }
 
 }  // namespace terracut::cli

@@ -10,10 +10,9 @@
 
 namespace terracut::cli {
 
-/// The mount of a sensor that is heard: what is not stated as the first frames show it. Listens
-/// for a second, for ten where these do not show enough of the ground (three with --mount-guess),
-/// and until stop_wanted(). Says what it found, or that it goes on with a guess: a vehicle needs
-/// labels.
+/// Returns the mount of a sensor on air, with the missing figures estimated from the first frames.
+/// Listens for a second, for ten if these do not show enough ground (three with --mount-guess), and
+/// until stop_wanted(). Prints the result, or that it goes on with a guess: a vehicle needs labels.
 [[nodiscard]] MountChoice mount_on_air(net::LiveSource& source, const streams::SensorOnAir& sensor,
                                        const Options& options, const OnWaiting& on_waiting);
 

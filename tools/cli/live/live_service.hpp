@@ -10,22 +10,21 @@
 
 namespace terracut::cli {
 
-/// A live run as a systemd service: says when it is ready, how it does, and feeds the watchdog
-/// while frames are in time. Outside a service it does nothing. One thread, the main one; never
-/// blocks.
+/// A live run as a systemd service: reports readiness and status, and feeds the watchdog while
+/// frames are in time. Outside a service it does nothing. One thread, the main one; never blocks.
 class LiveService {
  public:
-  /// By the environment; a service manager that cannot be reached is warned of, and the run goes
+  /// Reads the environment; a service manager that cannot be reached is warned of, and the run goes
   /// on without it.
   [[nodiscard]] static LiveService from_environment();
   explicit LiveService(ServiceNotify notify) noexcept;
 
-  /// Once, when it listens. `now_ns`: measure::monotonic_ns(), as below.
+  /// Call once when listening. `now_ns` is measure::monotonic_ns(), here and below.
   void ready(const status::MonitorSnapshot& figures, std::int64_t now_ns);
-  /// As often as one likes: it looks at the figures four times within the watchdog's time, or
-  /// every five seconds where there is none.
+  /// Call at any rate: the figures are looked at four times within the watchdog's time, or every
+  /// five seconds without a watchdog.
   void work_round(const status::MonitorSnapshot& figures, std::int64_t now_ns);
-  /// Once, before the threads end.
+  /// Call once before the threads end.
   void stopping() const noexcept { notify_.stopping(); }
 
  private:

@@ -23,7 +23,7 @@ void show_thread(status::MonitorSnapshot& figures, std::string_view name,
   shown.major_faults = static_cast<std::uint64_t>(state.major_faults.load());
 }
 
-/// Of frames that their thread did not take: where nobody but viewers gets them, nothing is lost.
+/// Names frames that their thread did not take; if only viewers get frames, nothing is lost.
 std::string unpublished_name(const Options& options) {
   const OutputOptions& output = options.output;
   const bool are_kept =
@@ -138,7 +138,7 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   std::vector<status::NamedCount> more{{"let_go_packets", account.let_go},
                                        {"untimed_frames", parts_.threads.records_dropped()},
                                        {"lost_messages", lost_messages()}};
-  // At the end nothing waits any more that was not held up for good.
+  // At the end, frames that still wait were held up for good.
   const auto lost = [&](const auto* slots) {
     return slots->unused() + (over_ ? slots->waiting() : 0);
   };

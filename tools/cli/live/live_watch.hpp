@@ -20,36 +20,36 @@
 
 namespace terracut::cli {
 
-/// Judges the frames of a live run and shows its figures: on the display and, in short, on a CAN
-/// bus. Says when the sensor falls silent and when it is back. One thread, the main one; touches no
+/// Judges the frames of a live run and shows its figures on the display and, briefly, on a CAN bus.
+/// Reports when the sensor falls silent and when it is back. One thread, the main one; touches no
 /// disk.
 class LiveWatch {
  public:
-  /// All must outlive this.
+  /// All arguments must outlive this object.
   LiveWatch(const Options& options, const mount::Mount& mount, const MountChoice& choice,
             live::LiveParts& parts, FiguresDisplay& display);
 
-  /// Health on a CAN bus: where it fails that is said, and the run goes on without it. `outlet`,
-  /// which may be null, and `publisher`: whose losses are shown as well, and to whose outputs the
-  /// figures go every second; both must outlive this.
+  /// Opens health reports on a CAN bus; if that fails it warns, and the run goes on without them.
+  /// `outlet`, which may be null, and `publisher` have their losses shown and get the figures for
+  /// their outputs every second; both must outlive this object.
   void open(const std::string& sensor, const std::string& input, const live::FrameOutlet* outlet,
             publish::Publisher& publisher);
 
   struct Round {
-    int frames = 0;  ///< Judged.
-    int missed = 0;  ///< Of them, deadlines.
+    int frames = 0;  ///< Judged frames.
+    int missed = 0;  ///< Missed deadlines among them.
   };
-  /// Takes what has come since the last round.
+  /// Processes the results since the last round.
   Round work_round();
-  /// It is ended before the time it was asked for is over.
+  /// Notes that the run ended before the requested time.
   void note_interruption() { parts_.monitor.snapshot().interrupted = 1; }
-  /// After everything that takes results has ended, or will not.
+  /// After all threads that take results have ended, or will not end.
   void last_round();
 
   [[nodiscard]] const status::MonitorSnapshot& figures() const noexcept {
     return parts_.monitor.snapshot();
   }
-  /// The times of the newest frames, oldest first.
+  /// Returns the times of the newest frames, oldest first.
   [[nodiscard]] std::vector<status::FrameRecord> newest() const;
 
  private:

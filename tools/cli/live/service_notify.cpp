@@ -31,14 +31,14 @@ std::optional<std::int64_t> number_in(const char* name) {
 std::optional<std::int64_t> watchdog_of_environment() {
   const std::optional<std::int64_t> time_us = number_in("WATCHDOG_USEC");
   if (!time_us || *time_us <= 0 || *time_us > INT64_MAX / 1000) return std::nullopt;
-  // The variables are inherited by children, which are not meant.
+  // Children inherit the variables but are not meant.
   if (!environment("WATCHDOG_PID").empty() && number_in("WATCHDOG_PID") != ::getpid()) {
     return std::nullopt;
   }
   return *time_us * 1000;
 }
 
-/// "STATUS=..." on one line, as the protocol wants it; cut where it is too long to be read.
+/// "STATUS=..." as one line, as the protocol requires; a long text is cut.
 struct StatusLine {
   static constexpr std::string_view kKey = "STATUS=";
   static constexpr std::size_t kMost = 200;

@@ -11,22 +11,21 @@
 
 namespace terracut::cli {
 
-/// Tells systemd how the service does, by datagrams to $NOTIFY_SOCKET (the protocol of
+/// Reports the service's state to systemd by datagrams to $NOTIFY_SOCKET (the protocol of
 /// sd_notify(3)). Outside a service it does nothing. From normal threads only; never blocks.
 class ServiceNotify {
  public:
-  /// By $NOTIFY_SOCKET, $WATCHDOG_USEC and $WATCHDOG_PID. kInvalidArgument for a socket address of
-  /// another kind than a path or an abstract name, or one that is too long; kNotFound where nobody
-  /// listens.
+  /// Reads $NOTIFY_SOCKET, $WATCHDOG_USEC and $WATCHDOG_PID. kInvalidArgument if the socket address
+  /// is neither a path nor an abstract name, or is too long; kNotFound if nobody listens.
   [[nodiscard]] static Expected<ServiceNotify> from_environment();
 
   [[nodiscard]] bool connected() const noexcept { return static_cast<bool>(socket_); }
-  /// Within which time the watchdog has to be fed; none: nobody watches.
+  /// Returns the time within which the watchdog has to be fed; none without a watchdog.
   [[nodiscard]] std::optional<std::int64_t> watchdog_ns() const noexcept { return watchdog_ns_; }
 
-  /// Each returns whether the message was taken; one that was not is no reason to stop.
-  /// Start-up is done: the unit counts as started. `status` is what `systemctl status` shows, cut
-  /// after 200 bytes.
+  /// Reports the end of the start-up: the unit counts as started. `status` is shown by `systemctl
+  /// status`, cut after 200 bytes. This and the following return true if the message was taken; a
+  /// refused one is no reason to stop.
   bool ready(std::string_view status) const noexcept;
   bool status(std::string_view status) const noexcept;
   bool feed_watchdog() const noexcept;

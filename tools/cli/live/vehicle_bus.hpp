@@ -11,12 +11,12 @@
 
 namespace terracut::cli {
 
-/// The vehicle's CAN bus, heard for the signals of its motion.
+/// The vehicle's CAN bus, the source of its motion signals.
 struct VehicleBus {
   vehicle::MotionSignals signals;
   can::SocketCanSource source;
 
-  /// An interface that is not there is warned of and waited for. Otherwise the errors of
+  /// A missing interface is warned of and waited for. Other errors are those of
   /// SocketCanSource::open().
   [[nodiscard]] static Expected<VehicleBus> open(const std::string& interface,
                                                  vehicle::MotionSignals signals,

@@ -28,7 +28,7 @@ class CloudNode {
   CloudNode(const Options& options, dds::CloudReader reader, NodeAnswers answers, NodeNews& news);
   ~CloudNode();
 
-  /// As far as DDS, or gaps in the clouds' stamps, tell. From any thread.
+  /// Returns the number of lost clouds, by DDS or by gaps in stamps. From any thread.
   [[nodiscard]] std::uint64_t lost_clouds() const {
     return std::max(reader_.lost(), missing_.load(std::memory_order_relaxed));
   }
@@ -46,9 +46,9 @@ class CloudNode {
   void label_clouds();
   void write_answers();
 
-  /// False: it is refused, and counted.
+  /// False if the cloud is refused, which is counted.
   [[nodiscard]] bool read(const dds::RosCloud& cloud);
-  /// What the first clouds are for; they are answered when there is a labeller, whatever the time.
+  /// Keeps a first cloud to learn from; it is answered once there is a labeller, without deadline.
   void learn_from(Job job);
   void set_up();
   void label(Job job);
@@ -56,7 +56,7 @@ class CloudNode {
   void say_once(const std::string& what);
 
   NodeNews& news_;
-  dds::CloudReader reader_;  ///< Before the queues, whose clouds lie in it.
+  dds::CloudReader reader_;  ///< Before the queues, whose clouds lie in its memory.
   NodeAnswers answers_;
   NodeLabeller labeller_;
   std::vector<PointField> fields_;
@@ -66,7 +66,7 @@ class CloudNode {
   StampGaps gaps_;
   std::atomic<std::uint64_t> missing_{0};
   std::atomic<bool> finish_{false};
-  std::jthread taker_, labelling_, writer_;  ///< Last: they use all of the above.
+  std::jthread taker_, labelling_, writer_;  ///< Last: they use all members above.
 };
 
 }  // namespace terracut::cli

@@ -94,7 +94,7 @@ Status NodeLabeller::label(status::FrameRecord& record) {
   record.level = decltype(degradation_)::level_of(record.segmentation);
   if (!is_timed) return {};
   if (!degradation_.may_hand_on()) record.level = status::Level::kSkipped;
-  // Rows are found before the stages, and points get their labels after them.
+  // Rows are found before the stages run, points are labelled after them.
   degradation_.end(record.stages, record.segmentation,
                    record.segment_cpu_ns - record.stages.sum_ns());
   return {};

@@ -20,43 +20,44 @@
 
 namespace terracut::cli {
 
-/// Labels the clouds of a sensor that it knows nothing of before a deadline. The first clouds tell
-/// its rows and, unless that is stated, its mount. One thread, which allocates.
+/// Labels the clouds of an unknown sensor before a deadline. The first clouds show its rows and,
+/// unless that is stated, its mount. One thread, which allocates.
 class NodeLabeller {
  public:
   explicit NodeLabeller(const Options& options);
 
-  /// Reads a cloud, for learn_from_cloud() or label(). What it says is checked, nothing believed.
+  /// Reads a cloud for learn_from_cloud() or label(), checking all its fields.
   [[nodiscard]] tl::expected<void, RefusedBuffer> read(const PointBuffer& buffer) {
     return unpack(buffer, cloud_);
   }
-  /// Whether the cloud read last has any point that is a place.
+  /// True if the cloud read last has a point with valid coordinates.
   [[nodiscard]] bool has_places() const noexcept;
 
-  /// Whether rows and mount are known, as label() needs them.
+  /// True if rows and mount are known, as label() needs them.
   [[nodiscard]] bool is_ready() const noexcept { return pipeline_.has_value(); }
-  /// Keeps a copy of the cloud read last. True where as many are kept as set_up() can use.
+  /// Keeps a copy of the cloud read last. True once set_up() has as many as it can use.
   [[nodiscard]] bool learn_from_cloud();
-  /// From the clouds that were kept, which are forgotten. The errors of cloud::learn_rows(), and
-  /// of a setup file.
+  /// Learns rows and mount from the kept clouds, which are then dropped. Errors of
+  /// cloud::learn_rows() and of a setup file.
   [[nodiscard]] Status set_up();
 
-  /// Whether a cloud came to its turn after its deadline; then the record says that it is skipped.
+  /// True if a cloud's deadline passed before its labelling began; marks the record as skipped.
   [[nodiscard]] bool skip_if_late(status::FrameRecord& record) const noexcept;
-  /// Labels the cloud read last, as far as there is time until `record.info.last_packet_ns` and the
-  /// deadline; where that is 0, wholly. Fills in the record. The labels are point_labels(), unless
-  /// its level says that it was skipped. The errors of cloud::RowFinder::find().
+  /// Labels the cloud read last within the time until `record.info.last_packet_ns` plus the
+  /// deadline, or completely if that stamp is 0. Fills in the record. The labels are
+  /// point_labels(), unless the record's level says that it was skipped. Errors of
+  /// cloud::RowFinder::find().
   [[nodiscard]] Status label(status::FrameRecord& record);
-  /// One a point, in the cloud's order.
+  /// Returns one label per point, in the cloud's order.
   [[nodiscard]] const std::vector<frame::Label>& point_labels() const noexcept {
     return pipeline_->point_labels();
   }
 
-  /// Compares the mount with the ground of the cloud labelled last; milliseconds.
+  /// Compares the mount with the ground of the cloud labelled last; takes milliseconds.
   void watch_mount();
   [[nodiscard]] const status::MountFigures& mount() const noexcept { return watch_->figures(); }
   [[nodiscard]] const mount::Mount& mount_in_use() const noexcept { return mount_; }
-  /// For people: "64 rows by the field of the laser's number".
+  /// Describes the sensor: "64 rows by the field of the laser's number".
   [[nodiscard]] const std::string& sensor() const noexcept { return sensor_; }
 
  private:

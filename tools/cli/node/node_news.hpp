@@ -18,17 +18,17 @@
 
 namespace terracut::cli {
 
-/// What became of a cloud that has no answer, beyond the reasons of BufferFault.
+/// Why a cloud has no answer, beyond the reasons of BufferFault.
 enum class NoAnswer : std::uint8_t {
-  kNoPlace,     ///< None of its points is a place: NaN, null, beyond 10 km.
-  kNoRows,      ///< Nothing tells its lasers, or not what told them in the first clouds.
-  kPushedOut,   ///< Newer ones came before it was looked at.
-  kUnanswered,  ///< Labelled, but the answers before it were not written yet.
+  kNoPlace,     ///< None of its points has valid coordinates: NaN, null, beyond 10 km.
+  kNoRows,      ///< No field tells its lasers, or not the one of the first clouds.
+  kPushedOut,   ///< Newer ones came before it was processed.
+  kUnanswered,  ///< Labelled, but earlier answers were not written yet.
   kUnwritten,   ///< DDS refused an answer.
   kCount,
 };
 
-/// Carries what a node's threads did to the one that shows it. From any thread; locks.
+/// Carries news from a node's threads to the one that displays it. From any thread; locks.
 class NodeNews {
  public:
   void count(BufferFault fault) { count(static_cast<std::size_t>(fault)); }
@@ -38,7 +38,7 @@ class NodeNews {
     ++clouds_;
     last_cloud_ns_ = arrived_ns;
   }
-  /// A cloud that was labelled, or skipped for its deadline's sake.
+  /// Adds a cloud that was labelled, or skipped because of its deadline.
   void add(const status::FrameRecord& record) {
     const std::scoped_lock lock(mutex_);
     records_.push_back(record);
@@ -53,12 +53,12 @@ class NodeNews {
   }
 
   struct State {
-    std::uint64_t clouds = 0;        ///< That came.
-    std::int64_t last_cloud_ns = 0;  ///< Time of day; 0: none has come.
-    std::string sensor;              ///< Empty until it is known.
+    std::uint64_t clouds = 0;        ///< Received clouds.
+    std::int64_t last_cloud_ns = 0;  ///< Time of day; 0 before the first.
+    std::string sensor;              ///< Empty until known.
     status::MountFigures mount;
-    std::vector<status::FrameRecord> records;  ///< Since the last look.
-    std::vector<status::NamedCount> losses;    ///< Every reason by its name, those that are 0 too.
+    std::vector<status::FrameRecord> records;  ///< Since the previous call.
+    std::vector<status::NamedCount> losses;    ///< All reasons by name, also those with 0.
   };
   [[nodiscard]] State look() {
     constexpr std::array<std::string_view, static_cast<std::size_t>(NoAnswer::kCount)> kNames{

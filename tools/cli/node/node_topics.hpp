@@ -15,18 +15,18 @@
 
 namespace terracut::cli {
 
-/// Where the answers to clouds go. One thread.
+/// The topics for the answers to clouds. One thread.
 class NodeAnswers {
  public:
   [[nodiscard]] static Expected<NodeAnswers> open(const dds::Participant& participant,
                                                   const Options& options);
 
-  /// What the answer to one cloud took.
+  /// The times of the answer to one cloud.
   struct Times {
     double processing_ms = 0;  ///< From the cloud's arrival to its labels.
-    double cyclic_ms = 0;      ///< From the labels before to these.
+    double cyclic_ms = 0;      ///< From the previous labels to these.
   };
-  /// Nothing is made of a cloud for a topic that nobody reads. The first error.
+  /// Writes an answer; skips topics without readers. Returns the first error.
   [[nodiscard]] Status write(const dds::RosCloud& cloud, std::span<const frame::Label> labels,
                              const Times& times);
 
@@ -41,7 +41,7 @@ class NodeAnswers {
   dds::DerivedCloud derived_;
 };
 
-/// A writer of a topic that is to be published; none where its name is empty.
+/// Returns a topic's writer; none if its name is empty.
 [[nodiscard]] Expected<std::optional<dds::TopicWriter>> open_writer(
     const dds::Participant& participant, const std::string& name, const dds::MessageType& type,
     const DdsOptions& options);

@@ -18,23 +18,23 @@ namespace terracut::cli {
 /// Judges the clouds of a node and shows its figures. One thread, the main one.
 class NodeWatch {
  public:
-  /// `news` must outlive this.
+  /// `news` must outlive this object.
   NodeWatch(const Options& options, const std::string& input, NodeNews& news);
 
-  /// `lost`: clouds that were sent and did not come.
+  /// `lost` is the number of clouds that were sent but not received.
   void work_round(std::uint64_t lost);
   void note_interruption() { monitor_.snapshot().interrupted = 1; }
-  /// When the node's threads have ended.
+  /// After the node's threads have ended.
   void last_round() { work_round(lost_); }
 
   [[nodiscard]] const status::MonitorSnapshot& figures() const noexcept {
     return monitor_.snapshot();
   }
-  /// Of a node that has labelled nothing.
+  /// Explains why a node has labelled nothing.
   [[nodiscard]] std::string why_no_frames() const;
 
  private:
-  /// Says once how many clouds a second can be answered.
+  /// Reports once how many clouds a second it can answer.
   void look_at_pace(const status::FrameRecord& record);
   void show_input(const NodeNews::State& state, status::MonitorSnapshot& figures);
 

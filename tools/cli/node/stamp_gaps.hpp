@@ -8,27 +8,26 @@
 
 namespace terracut::cli {
 
-/// Tells by the stamps of the clouds that came how many did not: DDS says nothing of what a writer
-/// by best effort sent and the network, or a full buffer, lost. Of one writer, whose clouds are
-/// evenly apart. One thread.
+/// Counts clouds missing between received ones by their stamps: DDS does not report what a
+/// best-effort writer sent and the network, or a full buffer, lost. For a single writer with evenly
+/// spaced clouds. One thread.
 class StampGaps {
  public:
-  /// The next cloud's stamp. How many are missing before it: none as long as too few have come to
-  /// tell how far they are apart, after a second or more without any (the sensor was silent), and
-  /// where stamps do not grow (a recording that begins again).
+  /// Takes the next cloud's stamp and returns how many are missing before it. That is 0 while the
+  /// interval is unknown, after a second or more without clouds (the sensor was silent), and if
+  /// stamps do not grow (a recording that begins again).
   [[nodiscard]] std::uint64_t missing_before(std::int64_t stamp_ns) noexcept;
-  /// What came before does not count: there are several writers, say.
+  /// Forgets earlier clouds, for instance when there are several writers.
   void restart() noexcept { *this = {}; }
 
  private:
   static constexpr std::size_t kIntervals = 16, kFewest = 4;
 
-  /// As most clouds follow each other: of the intervals between those that came, which are several
-  /// periods long where some are missing, one of the short ones.
+  /// Estimates the period by a short one of the latest intervals, since some span missing clouds.
   [[nodiscard]] std::int64_t period_ns() const noexcept;
 
   std::array<std::int64_t, kIntervals> intervals_ns_{};
-  std::size_t came_ = 0;  ///< Intervals so far.
+  std::size_t came_ = 0;  ///< Number of intervals so far.
   std::int64_t before_ns_ = 0;
 };
 

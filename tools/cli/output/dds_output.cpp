@@ -19,7 +19,7 @@ DdsTopics dds_topics_of(const DdsOptions& options) {
   switch (options.preset) {
     case DdsPreset::kRos:
       break;
-    case DdsPreset::kAutoware:  // what its planner stops for
+    case DdsPreset::kAutoware:  // its planner stops for obstacles
       topics = {.obstacles = "/perception/obstacle_segmentation/pointcloud"};
       break;
     case DdsPreset::kNav2:  // the defaults of its GroundConsistencyLayer
@@ -78,7 +78,7 @@ Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& op
                           .raw = topic(topics.raw),
                           .diagnostics = topic(topics.diagnostics),
                           .tf_static = topic("/tf_static"),
-                          // Nothing of a recording is to be lost; a live run waits for nobody.
+                          // A recording must not lose a single frame; a live run waits for nobody.
                           .patience_ns = facts.deadline_ns == 0 ? kPatience_ns : 0},
                          facts);
   if (!sink) return tl::unexpected(sink.error());

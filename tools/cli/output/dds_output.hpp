@@ -12,15 +12,15 @@
 
 namespace terracut::cli {
 
-/// Names of topics, as stated or else by the preset; empty: not published.
+/// Names of topics, as stated or by the preset; empty: not published.
 struct DdsTopics {
   std::string points{}, ground{}, obstacles{}, road{}, diagnostics{}, raw{};
 };
 [[nodiscard]] DdsTopics dds_topics_of(const DdsOptions& options);
 
-/// kUnsupported in a program that was built without DDS, with what to install.
+/// Errors: kUnsupported if the program was built without DDS, with what to install.
 [[nodiscard]] Status check_dds();
-/// The output that --dds asks for; its topics are said. The errors of check_dds() and of
+/// Opens the output of --dds and prints its topics. Errors of check_dds() and of
 /// dds::DdsSink::open().
 [[nodiscard]] Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(
     const DdsOptions& options, const publish::RunFacts& facts);

@@ -11,10 +11,10 @@ namespace terracut::cli {
 
 [[nodiscard]] dds::Participant::Config participant_config_of(const DdsOptions& options);
 
-/// The DDS topic of a name that was checked as a setting; empty: of none.
+/// Returns the DDS topic of a name checked as a setting; empty for an empty name.
 [[nodiscard]] std::string dds_topic_of(const std::string& name, const DdsOptions& options);
 
-/// Of clouds, for people: "/terracut/points, /terracut/ground".
+/// Lists the topics of clouds for people: "/terracut/points, /terracut/ground".
 [[nodiscard]] std::string topic_list(const DdsOptions& options);
 
 }  // namespace terracut::cli

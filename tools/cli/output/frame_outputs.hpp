@@ -23,7 +23,7 @@
 
 namespace terracut::cli {
 
-/// Writes what OutputOptions asks for, frame by frame. `name` is a file name without extension.
+/// Writes the outputs of OutputOptions frame by frame. `name` is a file name without extension.
 class FrameOutputs {
  public:
   explicit FrameOutputs(const OutputOptions& options)
@@ -32,31 +32,32 @@ class FrameOutputs {
         pcd_(frame_folder_of(options, options.pcd, ".pcd")),
         png_(frame_folder_of(options, options.png, ".png")) {}
 
-  /// Whether any of them is made of points, not of labels alone.
+  /// True if any of them needs points, not only labels.
   [[nodiscard]] static bool need_points(const OutputOptions& options) {
     return !options.pcd.empty() || !options.png.empty() || wants_sinks(options);
   }
 
-  /// Before the first frame: the outputs that get frames as they come (export/output_sinks.hpp).
+  /// Opens the outputs that get frames as they come (export/output_sinks.hpp), before the first
+  /// frame.
   [[nodiscard]] Status open(const publish::RunFacts& facts);
 
-  /// NAME.label, in the order of `labels`.
+  /// Writes NAME.label, in the order of `labels`.
   [[nodiscard]] Status write_labels(const std::string& name, std::span<const frame::Label> labels);
 
-  /// NAME.pcd, and NAME.birdseye.png and NAME.range.png; with truth also NAME.mistakes.png.
-  /// `image` has points where need_points(); `labels` and `truth` (SemanticKITTI ids, or empty) go
-  /// by return index.
+  /// Writes NAME.pcd, NAME.birdseye.png and NAME.range.png; with truth also NAME.mistakes.png.
+  /// `image` has points if need_points(); `labels` and `truth` (SemanticKITTI ids, or empty) are by
+  /// return index.
   [[nodiscard]] Status write_frame(const std::string& name, const frame::RangeImage& image,
                                    std::span<const frame::Label> labels,
                                    std::span<const std::uint32_t> truth);
 
-  /// Hands the frame to the outputs that open() opened, and waits where one is slow. Their first
-  /// error. `timing`: when its returns were measured.
+  /// Hands the frame to the outputs that open() opened, and waits for slow ones. Returns their
+  /// first error. `timing` is that of its returns.
   [[nodiscard]] Status publish(const status::FrameRecord& record, const frame::RangeImage& image,
                                std::span<const frame::Label> labels,
                                const points::FrameTiming& timing = {});
 
-  /// After the last frame, completes the outputs that open() opened.
+  /// Completes the outputs that open() opened, after the last frame.
   [[nodiscard]] Status finish();
 
  private:
@@ -65,7 +66,7 @@ class FrameOutputs {
   OutputOptions options_;
   output::FrameFolder labels_, pcd_, png_;
   std::vector<pictures::Mistake> mistakes_;
-  std::optional<publish::Publisher> publisher_;  ///< Where any of its outputs is asked for.
+  std::optional<publish::Publisher> publisher_;  ///< Set if any of its outputs is requested.
 };
 
 }  // namespace terracut::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// In place of all that speaks DDS, in a program that is built without it.
+// Replaces the DDS parts in a program built without DDS.
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/output/dds_output.hpp"

@@ -55,7 +55,7 @@ Expected<Sink> open_view(const std::string& endpoint, const publish::RunFacts& f
   return *std::move(view);
 }
 
-/// The names of coordinate frames that the options say.
+/// Sets the names of coordinate frames from the options.
 void name_frames(const OutputOptions& options, publish::RunFacts& facts) {
   facts.frame_id = options.frame_id;
   facts.sensor_frame_id = options.sensor_frame_id == "off" ? "" : options.sensor_frame_id;
@@ -65,7 +65,7 @@ bool wants_view(const OutputOptions& options) {
   return !options.view.empty() && options.view != "off";
 }
 
-/// An output that is asked for, and how it is opened.
+/// A requested output, and how to open it.
 struct Output {
   std::string name;
   std::function<Expected<Sink>()> open;
@@ -106,7 +106,7 @@ Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(const OutputOptions&
   name_frames(options, facts);
   std::vector<bool> topics(ros_messages::kTopics.size(), true);
   for (std::size_t i = 0; i < topics.size(); ++i) {
-    // Without the road's surface all ground is road.
+    // Without the road surface all ground is road.
     if (ros_messages::kTopics[i].cloud == ros_messages::CloudOf::kRoad) {
       topics[i] = facts.has_road;
     }

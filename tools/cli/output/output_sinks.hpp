@@ -13,23 +13,23 @@
 
 namespace terracut::cli {
 
-/// Whether an output is asked for that gets every frame with its points, labels alone are not
-/// enough for.
+/// True if an output is requested that needs every frame with its points, not only labels.
 [[nodiscard]] bool wants_sinks(const OutputOptions& options);
 
-/// These outputs, open: files created, ports bound, which is said. The first one's error where one
-/// cannot be. `facts` gets its names of coordinate frames from `options`.
+/// Opens these outputs: creates files and binds ports, and prints them. Returns the first error.
+/// `facts` gets its names of coordinate frames from `options`.
 [[nodiscard]] Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
                                                              publish::RunFacts facts);
 
-/// The same for a run that goes on without them: each is opened on its own thread, and again where
-/// that fails, which is said (publish::RetriedSink).
+/// Makes outputs for a run that goes on without them: each is opened on its own thread, and again
+/// after a failure, with a message (publish::RetriedSink).
 [[nodiscard]] publish::Publisher::Sinks retried_sinks(const OutputOptions& options,
                                                       publish::RunFacts facts);
-/// What is wrong with them whatever becomes of ports and disks: kInvalidArgument, kUnsupported.
+/// Checks their options, whatever the state of ports and disks: kInvalidArgument, kUnsupported.
 [[nodiscard]] Status check_sinks(const OutputOptions& options);
 
-/// Foxglove's alone, of a capture that its viewers may play (null: nobody plays); the same errors.
+/// Opens only Foxglove's output, of a capture that viewers may play (null: they cannot); same
+/// errors.
 [[nodiscard]] Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(
     const OutputOptions& options, publish::RunFacts facts, ViewedCapture* capture);
 

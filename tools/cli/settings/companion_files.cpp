@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The one file of those names that is there; empty: none.
+/// Returns the only existing file of those names; empty if there is none.
 Expected<fs::path> only_one(const fs::path& folder, const std::vector<std::string>& names) {
   std::vector<fs::path> found;
   std::error_code none;
@@ -31,7 +31,7 @@ Expected<fs::path> only_one(const fs::path& folder, const std::vector<std::strin
   return found.empty() ? fs::path() : found.front();
 }
 
-/// Of the drive's own name, else of a folder's, the nearest.
+/// Finds the file by the drive's own name, otherwise by a usual name in the nearest folder.
 Expected<fs::path> find_beside(const Beside& recording, const std::vector<std::string>& suffixes,
                                const std::vector<std::string>& names) {
   std::vector<std::string> own;

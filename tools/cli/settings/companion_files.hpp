@@ -9,21 +9,20 @@
 
 namespace terracut::cli {
 
-/// Where to look for what goes with a recording: in its folder by its own name, else by a usual
-/// name there and in the folders above, up to the root.
+/// A recording's place, for the search of its companion files: in its folder by its own name,
+/// otherwise by a usual name there and in the folders above, up to the root.
 struct Beside {
   std::filesystem::path folder, root;
-  std::string stem;  ///< Its own name without its ending.
+  std::string stem;  ///< The name without its ending.
 };
 
-/// What stands before the ending of a capture's name; all of it, where that is none of a capture.
+/// Returns a capture's name without its ending; the whole name if that is not one of a capture.
 [[nodiscard]] std::string stem_of(const std::filesystem::path& capture);
 
-/// The file of that kind; empty: there is none. kMalformed: there are two, either of which might be
-/// meant.
+/// Returns the file of that kind; empty if there is none. kMalformed if two would do.
 [[nodiscard]] Expected<std::filesystem::path> setup_beside(const Beside& recording);
 [[nodiscard]] Expected<std::filesystem::path> calibration_beside(const Beside& recording);
-/// That of a capture's own folder, which is used where its packets hold none.
+/// Returns the calibration in a capture's own folder, used if its packets hold none.
 [[nodiscard]] Expected<std::filesystem::path> calibration_beside(
     const std::filesystem::path& capture);
 [[nodiscard]] Expected<std::filesystem::path> can_beside(const Beside& recording);

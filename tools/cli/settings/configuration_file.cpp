@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kMethod = "method.";
 
-/// Every key a file can have, in the file's order.
+/// Returns all keys of a file, in the file's order.
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys;
   for (const Setting& setting : settings()) {
@@ -42,7 +42,7 @@ class Reader {
       : name_(std::move(name)), base_(std::move(base)), keys_(all_keys()) {}
 
   Status read(const YAML::Node& root) {
-    if (root.IsNull()) return {};  // nothing but comments
+    if (root.IsNull()) return {};  // only comments
     if (!root.IsMap()) return refuse(root, "expected sections such as `sensor:` with keys below");
     return read_section(root, "");
   }
@@ -50,7 +50,7 @@ class Reader {
   [[nodiscard]] Options take() && { return std::move(options_); }
 
  private:
-  /// `section`: empty, or with the dot at its end.
+  /// `section` is empty or ends with the dot.
   Status read_section(const YAML::Node& map, const std::string& section) {
     std::map<std::string, int> line_of;
     for (const auto& entry : map) {
@@ -73,7 +73,7 @@ class Reader {
       return refuse(key_node, unknown(key));
     }
     if (is_section) {
-      if (value.IsNull()) return {};  // all of its keys are left out
+      if (value.IsNull()) return {};  // all its keys are left out
       if (!value.IsMap()) {
         return refuse(value, fmt::format("{}: expected keys below it, found {}", key, kind(value)));
       }
@@ -100,7 +100,7 @@ class Reader {
     return {};
   }
 
-  /// What could have been meant: of the keys, or the sections, beside the unknown one.
+  /// Suggests known keys or sections similar to the unknown one.
   [[nodiscard]] std::string unknown(const std::string& key) const {
     const std::size_t dot = key.rfind('.');
     const std::string section = dot == std::string::npos ? "" : key.substr(0, dot + 1);

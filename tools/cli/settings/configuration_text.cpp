@@ -21,7 +21,7 @@ constexpr std::string_view kHead =
     "# Relative paths are taken from the folder of this file.\n"
     "# `terracut config --print-default` prints this; `terracut --config FILE config` checks it.\n";
 
-/// Text that YAML reads back as it is.
+/// Returns a text that YAML reads back unchanged.
 std::string quoted_if_needed(std::string_view text) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./";
@@ -37,7 +37,7 @@ std::string quoted_if_needed(std::string_view text) {
   return quoted + "'";
 }
 
-/// "Description [unit, range]", and whose it is.
+/// Returns "Description [unit, range]" and the commands concerned.
 std::string comment(std::string_view indent, std::string_view help, std::string_view unit,
                     std::string_view allowed, std::string_view whose = {}) {
   return fmt::format("{}# {} [{}{}{}]{}\n", indent, help, unit, unit.empty() ? "" : ", ", allowed,

@@ -8,11 +8,11 @@
 
 namespace terracut::cli {
 
-/// A configuration file with every key under its description, unit and range. Keys that have their
-/// default are comments, so that the file says only what it changes.
+/// Returns a configuration file with every key under its description, unit and range. Keys with
+/// default values are commented out, so that the file sets only what it changes.
 [[nodiscard]] std::string configuration_yaml(const Options& options);
 
-/// The table of docs/reference/configuration.md, in Markdown.
+/// Returns the table of docs/reference/configuration.md, in Markdown.
 [[nodiscard]] std::string configuration_table();
 
 }  // namespace terracut::cli

@@ -9,11 +9,11 @@
 
 namespace terracut::cli {
 
-/// What its caller does with frames. For labels alone they may keep their returns as measured.
+/// The use of the frames. For labels alone they may keep their returns as measured.
 enum class FramesAreFor : std::uint8_t { kLabels, kPoints };
 
-/// The decoder that the options ask for. `columns`: of the range image, 0 for the sensor's default.
-/// `motion`: the vehicle's, by which frames are deskewed; null: they are not.
+/// Returns the decoder for the options. `columns` is the range image's width, 0 for the sensor's
+/// default. `motion` is the vehicle's, for deskewing; null: frames are not deskewed.
 [[nodiscard]] decode::Decoder::Config decoder_config_of(const Options& options, int columns,
                                                         FramesAreFor purpose,
                                                         vehicle::EgoMotion* motion = nullptr);

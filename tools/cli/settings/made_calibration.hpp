@@ -5,9 +5,9 @@
 #include "tools/cli/options.hpp"
 #include "tools/lab/packets/encoder_traits.hpp"
 
-/// The table of the unit whose packets are made: that of --calibration, else the nominal one. The
-/// errors are those of the file, and kInvalidArgument where a file is given for a sensor whose
-/// table is built in.
+/// Returns the table of the unit whose packets are made: that of --calibration, otherwise the
+/// nominal one. Errors of the file; kInvalidArgument if a file is given for a sensor with a
+/// built-in table.
 namespace terracut::cli {
 
 [[nodiscard]] Expected<hdl64e::Hdl64eCalibration> made_calibration(const CaptureOptions& options,

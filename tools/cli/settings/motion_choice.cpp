@@ -13,7 +13,7 @@
 namespace terracut::cli {
 namespace {
 
-/// "A.B, C" taken apart at the commas, without the space around.
+/// Splits "A.B, C" at the commas and trims the parts.
 std::vector<std::string> names_in(std::string_view text) {
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= text.size();) {

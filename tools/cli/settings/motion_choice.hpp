@@ -9,8 +9,8 @@
 
 namespace terracut::cli {
 
-/// The signals that the configuration names, in the DBC file that it names. kInvalidArgument when
-/// no file is given, else errors as read_dbc() and MotionSignals::make().
+/// Returns the configured signals of the configured DBC file. kInvalidArgument if no file is given;
+/// errors of read_dbc() and MotionSignals::make().
 [[nodiscard]] Expected<vehicle::MotionSignals> motion_signals_of(const MotionOptions& options);
 
 [[nodiscard]] vehicle::EgoMotion::Config ego_motion_config_of(const MotionOptions& options);

@@ -8,10 +8,10 @@
 
 namespace terracut::cli {
 
-/// "0.01 .. 2", "0 .. no limit", "auto, all, ground".
+/// Returns "0.01 .. 2", "0 .. no limit", "auto, all, ground".
 [[nodiscard]] std::string range_text(const ground::ParameterText& parameter);
 
-/// A value of a parameter for people: "0.15", "no limit".
+/// Returns a value of a parameter for people: "0.15", "no limit".
 [[nodiscard]] std::string shown_value(const ground::ParameterText& parameter, double value);
 
 }  // namespace terracut::cli

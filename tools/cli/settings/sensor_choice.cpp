@@ -24,11 +24,10 @@ namespace {
 
 using sensor::SensorModel;
 
-/// Enough for a stream that begins with other packets, and to measure the spin rate: about a
-/// second.
+/// About a second: enough to measure the spin rate of a stream that begins with other packets.
 constexpr std::uint64_t kDatagramsToProbe = 6'000;
 
-/// What there is instead of packets of the sensors that are wanted.
+/// Describes what was found instead of packets of the wanted sensors.
 std::string found_instead(const sensor::SensorProbe& probe, const capture::PcapSource& source,
                           const std::string& first_unknown) {
   std::string others = probe.foreign_models();
@@ -49,7 +48,7 @@ std::string found_instead(const sensor::SensorProbe& probe, const capture::PcapS
   return why_nothing_came(source.counters(), 0, 0, {});
 }
 
-/// What became of the frames of a capture of which no datagram was delivered.
+/// Explains a capture with frames but without a delivered datagram.
 std::string where_frames_went(const capture::PcapCounters& read) {
   std::string text = fmt::format("of {} captured frames", read.frames);
   const auto add = [&](std::uint64_t count, std::string_view what) {
@@ -65,7 +64,7 @@ std::string where_frames_went(const capture::PcapCounters& read) {
   return text + "; `terracut info` lists the streams";
 }
 
-/// What was heard at the beginning of a capture.
+/// The packets heard at the beginning of a capture.
 struct Heard {
   struct Sender {
     explicit Sender(const CaptureOptions& options) : probe(options.sensor) {}
@@ -77,7 +76,7 @@ struct Heard {
   sensor::SensorProbe all;
   std::map<std::uint32_t, Sender> by_address;
   std::optional<Error> broke_off;
-  std::string first_unknown;  ///< "1218 bytes to port 2368: ..."; empty: none.
+  std::string first_unknown;  ///< "1218 bytes to port 2368: ..."; empty if none.
 
   Heard(const CaptureOptions& options, capture::PcapSource& source) : all(options.sensor) {
     for (std::uint64_t i = 0; i < kDatagramsToProbe; ++i) {

@@ -15,35 +15,34 @@
 
 namespace terracut::cli {
 
-/// The sensor of a capture, and how it rotates.
+/// The sensor of a capture and its columns.
 struct SensorChoice {
-  streams::SensorStream stream;                              ///< Which datagrams are the unit's.
-  sensor::SensorModel model = sensor::SensorModel::kHdl64e;  ///< A decoded one.
-  int columns = 0;  ///< For the range image: firings a frame.
+  streams::SensorStream stream;                              ///< Selects the unit's datagrams.
+  sensor::SensorModel model = sensor::SensorModel::kHdl64e;  ///< One that can be decoded.
+  int columns = 0;  ///< Of the range image: firings per frame.
   double spin_hz = 0;
   bool dual_return = false;
 };
 
-/// The sensors of the model that --sensor wants, or of any, at the beginning of `source`: from
-/// different addresses, or told apart as streams::SenderStreams does. Who sends less than a
-/// hundredth of what the one heard most does is none, but stray packets. Leaves `source` anywhere.
+/// Returns the sensors of the model of --sensor, or of any, at the beginning of `source`, told
+/// apart by address or as in streams::SenderStreams. A sender of less than a hundredth of the
+/// busiest one's packets is ignored as stray. Leaves `source` at any position.
 [[nodiscard]] std::vector<streams::SensorStream> sensors_in(const CaptureOptions& options,
                                                             capture::PcapSource& source);
 
-/// Reads the beginning of `source` and tells which sensor it is of. Errors: kUnsupported, naming
-/// what is there instead; kInvalidArgument, naming them and what chooses one, when there are
-/// several sensors; those of `source` where it breaks off before a sensor shows. Leaves `source`
-/// anywhere; rewind it.
+/// Reads the beginning of `source` and identifies its sensor. Errors: kUnsupported, naming what was
+/// found instead; kInvalidArgument for several sensors, naming them and the options that choose
+/// one; those of `source` if it breaks off before a sensor shows. Leaves `source` at any position;
+/// rewind it.
 [[nodiscard]] Expected<SensorChoice> choose_sensor(const CaptureOptions& options,
                                                    capture::PcapSource& source);
 
-/// Why datagrams of a capture gave nothing: what its frames were, or the checks they failed.
-/// `offered`: those that a decoder was given; `empty`: those it decoded, where no return was in
-/// any.
+/// Explains why datagrams of a capture gave no frame: what they were, or the checks they failed.
+/// `offered` were given to a decoder; `empty` were decoded but held no return.
 [[nodiscard]] std::string why_nothing_came(const capture::PcapCounters& read, std::uint64_t offered,
                                            std::uint64_t empty, const frame::LossCounters& losses);
 
-/// Says which options have no effect on a sensor of that model.
+/// Warns of options that have no effect on a sensor of that model.
 void warn_of_unused(const CaptureOptions& options, sensor::SensorModel model);
 
 }  // namespace terracut::cli

@@ -18,73 +18,73 @@
 
 namespace terracut::cli {
 
-/// A value that is one of several, by their words.
+/// A value chosen from several words.
 struct ChoiceField {
   std::vector<std::string_view> words;
   std::string_view chosen;  ///< Empty: none.
   std::function<void(std::size_t)> choose;
 };
 
-/// Where a setting's value lives.
+/// The place of a setting's value in Options.
 using SettingField =
     std::variant<double*, std::optional<double>*, int*, std::optional<int>*, std::uint64_t*,
                  std::uint16_t*, std::optional<std::uint16_t>*, bool*, std::string*,
                  std::filesystem::path*, std::vector<std::string>*, ChoiceField>;
 
-/// What a text has to look like; setting_text.cpp says how.
+/// The form of a text; setting_text.cpp describes each.
 enum class TextForm : std::uint8_t {
   kAny,
   kAddress,
-  kSender,  ///< An address, or one with a port.
+  kSender,  ///< An address, with or without port.
   kVlan,
   kMac,
-  kEndpoint,      ///< To listen at; a port alone: at any address.
-  kServing,       ///< To serve others at; a port alone: this machine's programs.
-  kServingOrOff,  ///< The same, or off.
-  kStream,        ///< The same, or a socket's path.
+  kEndpoint,      ///< To listen at; a port alone means any address.
+  kServing,       ///< To serve at; a port alone means loopback.
+  kServingOrOff,  ///< Like kServing, or "off".
+  kStream,        ///< Like kServing, or the path of a socket.
   kName,
-  kList,       ///< Texts with commas between.
-  kParameter,  ///< KEY=VALUE, of the method.
-  kKeyValue,   ///< KEY=VALUE, of anything.
-  kTopic,      ///< Of ROS, or "off".
+  kList,       ///< Texts separated by commas.
+  kParameter,  ///< KEY=VALUE for the method.
+  kKeyValue,   ///< Any KEY=VALUE.
+  kTopic,      ///< A ROS topic, or "off".
 };
 
-/// One thing that a command can be told. From the table of them come the command line's options,
-/// the keys of the configuration file, what is said of wrong ones, and
-/// docs/reference/configuration.md. The parameters of the method are further keys, "method." before
-/// their name in pipeline/ground/parameter_table.hpp.
+/// A setting of commands. The table of settings defines the command line's options, the keys of the
+/// configuration file, messages about wrong ones, and docs/reference/configuration.md. The method's
+/// parameters are further keys, with "method." before their name in
+/// pipeline/ground/parameter_table.hpp.
 struct Setting {
-  std::string_view key{};     ///< Of the file, "section.name_unit"; empty: not in the file.
-  std::string_view option{};  ///< "--mount-height", "-o,--output", "FILE"; empty: only in the file.
-  CommandSet commands{};      ///< That look at it.
+  std::string_view key{};     ///< In the file, "section.name_unit"; empty: none.
+  std::string_view option{};  ///< "--mount-height", "-o,--output", "FILE"; empty: none.
+  CommandSet commands{};      ///< Commands that read it.
   CommandSet required_by{};
   std::string_view unit{};  ///< "m", "ms", ... or empty
   std::string_view help{};
   double least = 0, most = 0;  ///< Valid range of a number, ends included.
   TextForm form = TextForm::kAny;
-  std::string_view bare{};      ///< What the option alone means; empty: it needs a value.
-  std::string_view needs{};     ///< Option that has to have a value, where the command has it.
-  std::string_view excludes{};  ///< Option that is not given together with this one.
-  std::string_view reads{};     ///< Of a path: that it is read, and as what, "the calibration".
-  std::optional<RunFiles::Kind> writes{};  ///< Of a path: that it is written.
-  std::string_view ending{};               ///< Of the files in a folder of frames.
-  CommandSet denied_to{};                  ///< Where it is looked for, and is not to be had.
-  std::string_view denial{};               ///< Why, and what there is instead.
+  std::string_view bare{};      ///< Value of the option alone; empty: it needs one.
+  std::string_view needs{};     ///< Option that must have a value, if the command has it.
+  std::string_view excludes{};  ///< Option that must not be given together with this one.
+  std::string_view reads{};     ///< For a path to be read: its role, "the calibration".
+  std::optional<RunFiles::Kind> writes{};  ///< For a path to be written: its kind.
+  std::string_view ending{};               ///< Ending of files in a folder of frames.
+  CommandSet denied_to{};                  ///< Commands that refuse it with `denial`.
+  std::string_view denial{};               ///< Reason and alternative.
   SettingField (*field)(Options&) = nullptr;
 
-  /// Its option, as people name it: "--output", "FILE".
+  /// Returns the option as people name it: "--output", "FILE".
   [[nodiscard]] std::string_view name() const noexcept {
     return option.substr(option.find(',') + 1);
   }
 };
 
-/// Every setting; those of the file by section in the file's order.
+/// Returns all settings; those of the file by section in the file's order.
 [[nodiscard]] std::span<const Setting> settings() noexcept;
 
-/// The setting of that key; null: there is none.
+/// Returns the setting of that key; null if there is none.
 [[nodiscard]] const Setting* find_setting(std::string_view key) noexcept;
 
-/// The setting of that option, "--output" or "-o", of a command; null: it has none.
+/// Returns a command's setting of that option, "--output" or "-o"; null if it has none.
 [[nodiscard]] const Setting* find_option(Command command, std::string_view option) noexcept;
 
 }  // namespace terracut::cli

@@ -20,7 +20,7 @@ using O = Options;
 
 constexpr double kLongest_s = 1e9;
 constexpr double kMostLoops = std::numeric_limits<int>::max();
-constexpr double kMostSeed = 9007199254740992;  // whole numbers are exact up to here
+constexpr double kMostSeed = 9007199254740992;  // whole numbers up to here are exact
 
 constexpr CommandSet kPlayed = C::kReplay | C::kView;
 constexpr CommandSet kCaptures = kPlayed | C::kCalibrate | C::kBench;
@@ -68,7 +68,7 @@ ChoiceField dataset_choice(std::string& dataset) {
 
 // clang-format off: a table reads better with an entry on two lines than one word a line.
 constexpr std::array kSettings{
-    // What a run is about
+    // The input of a run
     Setting{.option = "FILE", .commands = kWholeCaptures, .required_by = kWholeCaptures, .help = "Capture, pcap or pcapng",
             .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
     Setting{.option = "FILE", .commands = C::kCalibrate | C::kView, .required_by = C::kCalibrate | C::kView, .help = "Capture, pcap or pcapng; or clouds, a folder or one file, as segment takes them",
@@ -349,7 +349,7 @@ constexpr std::array kSettings{
     Setting{.option = "--can-log", .commands = C::kEncode, .help = "Write that motion beside the capture, NAME.can.log and NAME.can.dbc; the sensor then looks backwards, for recorded frames begin behind",
             .bare = "yes", .excludes = "--keep-compensation", .field = [](O& o) -> F { return &o.can_log; }},
 
-    // Where a drive is sent to
+    // The destination of a drive
     Setting{.option = "--udp", .commands = C::kSimulate, .help = "ADDRESS[:PORT]: be the sensor, and send the drive in real time; until it is computed its beginning, over and over",
             .field = [](O& o) -> F { return &o.send.to; }},
     Setting{.option = "--to", .commands = C::kSend, .required_by = C::kSend, .help = "ADDRESS:PORT to send to; a multicast group and broadcast will do.\nADDRESS alone: every datagram to the port it was captured on",
@@ -394,7 +394,7 @@ constexpr std::array kSettings{
     Setting{.option = "--changes", .commands = C::kEval, .help = "Folder for pictures: of every method but the first the frame it labels most\ndifferently from the first, METHOD.png, and what they show, changes.json;\nevery frame is labelled, so there is no journal",
             .writes = Kind::kFolder, .field = [](O& o) -> F { return &o.eval.changes; }},
 
-    // A fleet's recordings
+    // Recordings of a fleet
     Setting{.option = "BEFORE", .commands = C::kCompare, .required_by = C::kCompare, .help = "Folder of label files, or of relabel (its newest job), or FOLDER/.relabel/JOB",
             .reads = "the labels before", .field = [](O& o) -> F { return &o.compare.before; }},
     Setting{.option = "AFTER", .commands = C::kCompare, .required_by = C::kCompare, .help = "The same, to be compared with it",
@@ -412,7 +412,7 @@ constexpr std::array kSettings{
     Setting{.option = "--status", .commands = C::kRelabel, .help = "Folder: say what is done there, missing and failed, and when it will end",
             .field = [](O& o) -> F { return &o.fleet.status; }},
 
-    // A run to look at, and what is printed
+    // Watched runs, and what is printed
     Setting{.option = "--wait", .commands = C::kDump, .unit = "s", .help = "For its answer",
             .least = 0, .most = 3600, .field = [](O& o) -> F { return &o.wait_s; }},
     Setting{.option = "--once", .commands = C::kTop, .help = "Print once and exit",

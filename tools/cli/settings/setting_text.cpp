@@ -57,8 +57,8 @@ bool is_name(std::string_view text) {
 }
 
 struct Form {
-  std::string_view name;         ///< In help.
-  std::string_view description;  ///< In messages.
+  std::string_view name;         ///< Shown in help.
+  std::string_view description;  ///< Shown in messages.
   bool (*fits)(std::string_view text);
 };
 
@@ -66,7 +66,7 @@ bool is_text(std::string_view text) {
   return !text.empty();
 }
 
-/// By TextForm.
+/// Indexed by TextForm.
 constexpr std::array kForms{
     Form{"TEXT", "text", is_text},
     Form{"ADDRESS", "an IPv4 address",
@@ -156,7 +156,7 @@ Status apply_text(const Setting& setting, std::string_view text, const std::file
           },
           [&](std::filesystem::path* value) -> Status {
             if (text.empty()) return wrong("a file or folder", text);
-            *value = base / text;  // an absolute text replaces the base
+            *value = base / text;  // an absolute path replaces the base
             return {};
           },
           [&](std::string* value) -> Status {

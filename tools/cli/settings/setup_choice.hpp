@@ -15,24 +15,24 @@
 
 namespace terracut::cli {
 
-/// Where the sensor stands as it is stated: --setup, then --mount-... on top, and for what is not
-/// a level mount at 1.73 m.
+/// Returns the stated mount: --setup, overridden by --mount-..., completed by a level mount at 1.73
+/// m.
 [[nodiscard]] Expected<mount::Mount> mount_of(const MountOptions& options);
 
-/// The ring profile of a unit so mounted. The measured ring distances of a setup count only as long
-/// as no --mount-... option moves the sensor away from where they were measured.
+/// Returns the ring profile of a unit so mounted. The ring distances measured for a setup count
+/// only if no --mount-... option moves the sensor away from there.
 [[nodiscard]] Expected<mount::RingProfile> ring_profile_of(
     const calib::SensorCalibration& calibration, const MountOptions& options);
 [[nodiscard]] Expected<mount::RingProfile> ring_profile_of(const scan::RingTable& rings,
                                                            const MountOptions& options);
 
-/// That each setting, checked, is of a method among `kinds`: one that nothing looks at would be
-/// silently without effect. kInvalidArgument, naming it and whose it is.
+/// Checks that each setting, itself checked, belongs to a method among `kinds`: otherwise it would
+/// silently have no effect. kInvalidArgument, naming the setting and its method.
 [[nodiscard]] Status check_used(std::span<const std::string> settings,
                                 std::span<const baselines::MethodKind> kinds);
 
-/// The method for --method, or --profile and --stages, and --set; names and settings must have been
-/// checked.
+/// Returns the method for --method, or --profile and --stages, and --set, whose names and settings
+/// must have been checked.
 [[nodiscard]] baselines::MethodConfig method_config_of(const MethodOptions& options);
 [[nodiscard]] inline ground::MethodMaker method_of(const MethodOptions& options) {
   return baselines::maker_of(method_config_of(options));

@@ -18,11 +18,11 @@ namespace {
 
 using streams::SensorStream;
 
-/// By which sensors are told apart; the first ones rather than the later ones.
+/// The marks that distinguish sensors, preferred ones first.
 enum class Mark : unsigned { kAddress, kPort, kTo, kVlan, kModel, kSourcePort, kMac, kCount };
 constexpr unsigned kMarks = static_cast<unsigned>(Mark::kCount);
 
-/// A set of marks, by their bits.
+/// A set of marks as bits.
 using Marks = unsigned;
 constexpr bool has(Marks marks, Mark mark) {
   return (marks >> static_cast<unsigned>(mark) & 1U) != 0;
@@ -51,7 +51,7 @@ bool tell_apart(Marks marks, std::span<const SensorStream> sensors) {
   return true;
 }
 
-/// The fewest that do.
+/// Returns the smallest set of marks that distinguishes all sensors.
 Marks telling_marks(std::span<const SensorStream> sensors) {
   constexpr Marks kAll = (1U << kMarks) - 1;
   Marks best = kAll;

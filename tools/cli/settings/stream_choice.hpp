@@ -12,18 +12,18 @@
 
 namespace terracut::cli {
 
-/// What one of several sensors is called, and the options that choose it from the others.
+/// The name of one of several sensors, and the options that choose it.
 struct StreamName {
   std::string name;     ///< "Velodyne VLP-16 at 192.168.1.201 to port 2369"
   std::string options;  ///< "--port 2369"
 };
-/// Of each sensor, by as few of its marks as tell them all apart.
+/// Names each sensor by as few marks as distinguish them all.
 [[nodiscard]] std::vector<StreamName> names_of(std::span<const streams::SensorStream> sensors);
 
-/// Of several sensors: "A, B; choose one with --port 2368 or --port 2369".
+/// Returns "A, B; choose one with --port 2368 or --port 2369" for several sensors.
 [[nodiscard]] std::string choice_text(std::span<const streams::SensorStream> sensors);
 
-/// --from, --port, --to, --vlan and --mac.
+/// Returns the filter for --from, --port, --to, --vlan and --mac.
 [[nodiscard]] capture::PcapFilter filter_of(const CaptureOptions& options);
 
 }  // namespace terracut::cli

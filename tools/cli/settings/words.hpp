@@ -9,7 +9,7 @@
 
 #include "tools/cli/options.hpp"
 
-/// What people type for the values of settings that are one of several.
+/// The words for values of settings that have a few.
 namespace terracut::cli {
 
 template <class Value>
@@ -68,14 +68,14 @@ inline constexpr std::array kDdsPresetWords{Word{"ros", DdsPreset::kRos},
 inline constexpr std::array kThroughWords{Word<std::optional<bool>>{"image", false},
                                           Word<std::optional<bool>>{"packets", true}};
 
-// Words that stay words below, too.
+// Words that stay texts in Options.
 using TextWord = Word<std::string_view>;
 inline constexpr std::array kSpeedUnitWords{TextWord{"file", ""}, TextWord{"m/s", "m/s"},
                                             TextWord{"km/h", "km/h"}, TextWord{"mph", "mph"}};
 inline constexpr std::array kYawRateUnitWords{TextWord{"file", ""}, TextWord{"rad/s", "rad/s"},
                                               TextWord{"deg/s", "deg/s"}};
 
-/// The word for a value; empty: there is none.
+/// Returns the word for a value; empty if there is none.
 template <class Words, class Value>
 [[nodiscard]] constexpr std::string_view word_of(const Words& words, const Value& value) {
   const auto found = std::ranges::find_if(words, [&](const auto& w) { return w.value == value; });

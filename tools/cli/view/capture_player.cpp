@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kMoment{50};
 constexpr std::chrono::seconds kMeasuredAhead{1};
-/// Where a capture shows nothing for longer, its clock was set.
+/// After a longer gap in a capture its clock was set.
 constexpr std::int64_t kLongestPause_ns = 60'000'000'000;
 
 double seconds(std::int64_t ns) {
@@ -26,10 +26,10 @@ CapturePlayer::CapturePlayer(PlayedRecording& recording) : recording_(recording)
   state_.frame_s = recording.frame_s();
   try {
     measuring_ = std::jthread([this] { measure(); });
-  } catch (const std::system_error&) {  // no thread is left for what can do without
+  } catch (const std::system_error&) {  // no thread is available; the length is optional
     is_measured_ = true;
   }
-  // How long a short one is, whoever looks at it knows from the first.
+  // The length of a short recording is known before the first look.
   std::unique_lock lock(mutex_);
   told_.wait_for(lock, kMeasuredAhead, [&] { return is_measured_; });
 }
@@ -81,7 +81,7 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
         return seek_s_ || steps_ > 0 || (state_.playing && !state_.at_end);
       };
       if (!told_.wait_for(lock, kMoment, has_work)) continue;
-      // Where a place in the capture is, is known from its first frame on.
+      // A seek needs the first frame, from which places in the capture are known.
       if (has_frames_) seek_s = std::exchange(seek_s_, std::nullopt);
     }
     if (seek_s) {
@@ -107,8 +107,7 @@ Status CapturePlayer::go_to(double seek_s) {
   return {};
 }
 
-/// The next frame once its time has come; none: something else is wanted meanwhile, or it is the
-/// end.
+/// Waits for the next frame and returns it; none if a command came meanwhile, or at the end.
 std::optional<PlayedRecording::Span> CapturePlayer::next_due() {
   auto span = recording_.next();
   has_frames_ = has_frames_ || span;
@@ -125,7 +124,7 @@ std::optional<PlayedRecording::Span> CapturePlayer::next_due() {
 void CapturePlayer::end_or_begin_anew() {
   const auto frame_ns = static_cast<std::int64_t>(recording_.frame_s() * 1e9);
   std::unique_lock lock(mutex_);
-  if (seek_s_ || stop_wanted()) return;  // told meanwhile, and no end for it
+  if (seek_s_ || stop_wanted()) return;  // a seek came meanwhile: not the end
   const bool is_stepped = steps_ > 0;
   if (state_.loop && has_frames_) {
     lock.unlock();
@@ -149,7 +148,7 @@ bool CapturePlayer::wait_until_due(std::int64_t since_begin_ns) {
     if (seek_s_) return false;
     if (since_begin_ns - shown_ns_ > kLongestPause_ns) pace_.reset();
     if (steps_ > 0) {
-      --steps_;  // here, where no later command's step is meant
+      --steps_;  // unless a later command set the steps
       pace_.reset();
       shown_ns_ = since_begin_ns;
       return true;
@@ -167,12 +166,12 @@ bool CapturePlayer::wait_until_due(std::int64_t since_begin_ns) {
         pace_->first + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
                            seconds(since_begin_ns - pace_->second) / state_.rate));
     if (due <= now) {
-      // Where labels come more slowly than frames did, the capture takes its time.
+      // If labels come more slowly than the frames did, play more slowly.
       if (now - due > std::chrono::seconds(1)) pace_ = {now, since_begin_ns};
       return true;
     }
     told_.wait_until(lock, std::min(due, now + kMoment));
-    if (commands != commands_) pace_.reset();  // another rate perhaps: it holds from here on
+    if (commands != commands_) pace_.reset();  // after a change of rate, time anew
   }
   return false;
 }

@@ -17,18 +17,18 @@
 
 namespace terracut::cli {
 
-/// Plays a recording at its own speed, or as it is told: stands, steps, goes elsewhere. At the end
-/// it begins anew or, where it is told to, stands.
+/// Plays a recording at its own speed, or as commanded: pause, step, seek. At the end it starts
+/// anew or, if told, pauses.
 class CapturePlayer : public ViewedCapture {
  public:
   using OnFrame = std::function<Status(const publish::LabelledFrame& frame)>;
 
-  /// `recording` must outlive it; a thread measures it meanwhile.
+  /// `recording` must outlive this object; a thread measures it meanwhile.
   explicit CapturePlayer(PlayedRecording& recording);
   ~CapturePlayer() override;
 
-  /// Until stop_wanted(); each frame when its time has come. The errors of the recording and
-  /// of on_frame; kNothingCameOut where it has no frame.
+  /// Plays until stop_wanted(), each frame at its time. Errors of the recording and of on_frame;
+  /// kNothingCameOut if it has no frame.
   [[nodiscard]] Status run(const OnFrame& on_frame);
 
   void obey(const PlayerCommand& command) override;
@@ -46,20 +46,20 @@ class CapturePlayer : public ViewedCapture {
   PlayedRecording& recording_;
   mutable std::mutex mutex_;
   std::condition_variable told_;
-  PlayerState state_;             ///< Guarded by mutex_, as what follows.
-  std::optional<double> seek_s_;  ///< Where it is to go.
-  int steps_ = 0;                 ///< Frames to show though it stands.
+  PlayerState state_;             ///< Guarded by mutex_, with the following.
+  std::optional<double> seek_s_;  ///< Target of a seek.
+  int steps_ = 0;                 ///< Frames to show while paused.
   std::uint64_t commands_ = 0;
   bool is_measured_ = false;
 
   bool has_frames_ = false;
-  /// Frames that end before that time are not shown.
+  /// Frames that end earlier are not shown.
   std::int64_t skip_to_ns_ = std::numeric_limits<std::int64_t>::min();
-  /// When which frame was due, by its time in the capture.
+  /// When a frame was due, with its time in the capture.
   std::optional<std::pair<Clock::time_point, std::int64_t>> pace_;
-  std::int64_t shown_ns_ = 0;  ///< Of the frame that was waited for last.
+  std::int64_t shown_ns_ = 0;  ///< Time of the frame waited for last.
   std::atomic<bool> stop_measuring_{false};
-  std::jthread measuring_;  ///< Last: it uses all of the above.
+  std::jthread measuring_;  ///< Last: it uses all members above.
 };
 
 }  // namespace terracut::cli

@@ -11,15 +11,15 @@
 
 namespace terracut::cli {
 
-/// One browser's way through the frames: the labelled stream as the body of an answer, until either
-/// side ends. A frame that comes while one is being sent waits, and gives way to a newer one.
+/// The labelled stream for one browser as the body of an answer, until either side ends. A frame
+/// that comes while one is being sent waits, and gives way to a newer one.
 class FrameStream final : public HttpGuest, public std::enable_shared_from_this<FrameStream> {
  public:
   FrameStream(HttpStream stream, ViewSource& source);
   ~FrameStream() override;
 
   void begin();
-  /// What is newer than what it was sent, if it is ready for it.
+  /// Sends the newest frame, if the browser has not got it and is ready.
   void send_newest();
 
   [[nodiscard]] HttpStream& stream() noexcept override { return stream_; }
@@ -31,7 +31,7 @@ class FrameStream final : public HttpGuest, public std::enable_shared_from_this<
   ViewSource& source_;
   std::uint64_t seen_ = 0;
   stream::FrameWireHeader header_{};
-  std::shared_ptr<const ViewFrames::Kept> frame_;  ///< While it is being sent.
+  std::shared_ptr<const ViewFrames::Kept> frame_;  ///< The frame being sent.
   bool is_sending_ = false;
   std::array<char, 256> heard_{};
 };

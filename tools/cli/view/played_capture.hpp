@@ -12,11 +12,11 @@
 
 namespace terracut::cli {
 
-/// A capture, played. Frames have the numbers that `replay` gives them without --start; behind a
-/// place that was gone to these are found by decoding what lies before it, once.
+/// A played capture. Frames are numbered as by `replay` without --start; after a seek the numbers
+/// are found by decoding the part before it, once.
 class PlayedCapture : public PlayedRecording {
  public:
-  /// Both must outlive this.
+  /// Both must outlive this object.
   PlayedCapture(LabelledCapture& capture, const Options& options);
   ~PlayedCapture() override;
 
@@ -36,11 +36,11 @@ class PlayedCapture : public PlayedRecording {
   const Options& options_;
   const run::Frame* frame_ = nullptr;
   Span span_{};
-  /// The decoder's number of a frame, which never begins anew, less that of its files.
+  /// The decoder's frame number, which never restarts, less that of its files.
   std::optional<std::uint32_t> ahead_;
   bool begins_ = false;                ///< The next frame is the capture's first.
-  std::vector<std::int64_t> ends_ns_;  ///< Of the first frames, by their number.
-  std::unique_ptr<Counter> counter_;   ///< Where that did not suffice.
+  std::vector<std::int64_t> ends_ns_;  ///< Ends of the first frames, by number.
+  std::unique_ptr<Counter> counter_;   ///< If those did not suffice.
 };
 
 }  // namespace terracut::cli

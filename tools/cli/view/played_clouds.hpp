@@ -13,11 +13,11 @@
 
 namespace terracut::cli {
 
-/// A folder of clouds or one alone, played at ten a second: files have no stamps.
+/// A folder of clouds, or one cloud, played at ten a second: files have no stamps.
 class PlayedClouds : public PlayedRecording {
  public:
-  /// Finds the lasers' rows and the mount. The errors of CloudReader::open(), rows_of(),
-  /// choose_mount() and ring_profile_of().
+  /// Finds the lasers' rows and the mount. Errors of CloudReader::open(), rows_of(), choose_mount()
+  /// and ring_profile_of().
   [[nodiscard]] static Expected<std::unique_ptr<PlayedClouds>> open(
       const std::filesystem::path& clouds, const Options& options);
 
@@ -26,7 +26,7 @@ class PlayedClouds : public PlayedRecording {
   [[nodiscard]] const mount::Mount& sensor_mount() const noexcept { return mount_; }
 
   [[nodiscard]] double frame_s() const override;
-  /// One that cannot be labelled is warned of and left out.
+  /// A cloud that cannot be labelled is warned of and left out.
   [[nodiscard]] std::optional<Span> next() override;
   void take(publish::LabelledFrame& frame) override;
   [[nodiscard]] Status go_to(double seek_s) override;
@@ -43,7 +43,7 @@ class PlayedClouds : public PlayedRecording {
   std::unique_ptr<run::CloudPipeline> pipeline_;
   status::FrameRecord record_;
   std::size_t next_ = 0;
-  std::string trouble_;  ///< Of the newest cloud that could not be labelled.
+  std::string trouble_;  ///< The reason why the newest cloud could not be labelled.
 };
 
 }  // namespace terracut::cli

@@ -11,8 +11,8 @@
 
 namespace terracut::cli {
 
-/// A recording as CapturePlayer shows it. Times are since the recording's beginning. One thread,
-/// but for measure().
+/// A recording for CapturePlayer. Times count from the recording's beginning. One thread, except
+/// measure().
 class PlayedRecording {
  public:
   PlayedRecording() = default;
@@ -20,24 +20,23 @@ class PlayedRecording {
   PlayedRecording& operator=(const PlayedRecording&) = delete;
   virtual ~PlayedRecording() = default;
 
-  /// From one frame to the next.
+  /// Returns the interval between frames.
   [[nodiscard]] virtual double frame_s() const = 0;
 
   struct Span {
     std::int64_t begin_ns, end_ns;
   };
-  /// Labels the next frame; none at the end, where the recording breaks off, and when
-  /// stop_wanted().
+  /// Labels the next frame; none at the end, if the recording breaks off, and when stop_wanted().
   [[nodiscard]] virtual std::optional<Span> next() = 0;
-  /// That frame. Its number is the one in the names of its files, wherever it was come from.
+  /// Copies that frame. Its number is the one in the names of its files, also after a seek.
   virtual void take(publish::LabelledFrame& frame) = 0;
-  /// From here on next() gives the frame of that time, and before it perhaps some earlier ones.
+  /// Seeks: next() then gives the frame of that time, perhaps after some earlier ones.
   [[nodiscard]] virtual Status go_to(double seek_s) = 0;
-  /// Where not one frame came out: why.
+  /// Returns the reason if there was no frame at all.
   [[nodiscard]] virtual Status conclude() = 0;
 
-  /// Finds out when the recording begins, by its stamps, and how long it is, and tells as far as it
-  /// is known, until it is or the answer is false. From any thread.
+  /// Measures when the recording begins, by its stamps, and how long it is. Reports what is known
+  /// so far, until all is known or `on_length` returns false. From any thread.
   using OnLength = std::function<bool(std::int64_t begin_stamp_ns, std::int64_t length_ns)>;
   virtual void measure(const OnLength& on_length) const = 0;
 };

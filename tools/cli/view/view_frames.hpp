@@ -19,9 +19,8 @@
 
 namespace terracut::cli {
 
-/// The newest frame for any number of browsers, and what is said of the last 300. A browser that is
-/// slow gets the newest one when it is ready for it; nothing waits for it. Any thread without a
-/// deadline.
+/// The newest frame for any number of browsers, and figures on the last 300. A slow browser gets
+/// the newest frame once it is ready for it; no thread waits for it. Any thread without a deadline.
 class ViewFrames {
  public:
   struct Kept {
@@ -29,7 +28,7 @@ class ViewFrames {
     std::vector<stream::WirePoint> points;
   };
   struct Turn {
-    std::uint64_t number = 0;           ///< 1.. of the frames that were put; 0: none yet.
+    std::uint64_t number = 0;           ///< Counts frames that were put, from 1; 0: none yet.
     std::shared_ptr<const Kept> frame;  ///< Null: none yet.
   };
   static constexpr std::size_t kFramesShown = 300;
@@ -41,9 +40,9 @@ class ViewFrames {
   void put_figures(const status::MonitorSnapshot& figures);
 
   [[nodiscard]] Turn newest() const;
-  /// For the page: sensor, rows, deadline_ms or null, frames[] as [ms, level, missed], losses[] and
-  /// onlookers[] as [cause, count] (status::is_of_onlookers()); of a sensor that sends nothing
-  /// silent_s.
+  /// Returns the figures for the page: sensor, rows, deadline_ms or null, frames[] as [ms, level,
+  /// missed], losses[] and onlookers[] as [cause, count] (status::is_of_onlookers()); silent_s if
+  /// the sensor is silent.
   [[nodiscard]] nlohmann::ordered_json figures() const;
 
  private:
@@ -55,10 +54,10 @@ class ViewFrames {
   [[nodiscard]] Shown shown(const status::FrameRecord& record) const noexcept;
 
   publish::RunFacts facts_;
-  /// As many as browsers, one for the newest and one for the next.
+  /// One per browser, one for the newest frame and one for the next.
   memory::UsedAgain<Kept> rooms_;
   mutable std::mutex mutex_;
-  std::shared_ptr<const Kept> newest_;  ///< Guarded by mutex_, as what follows.
+  std::shared_ptr<const Kept> newest_;  ///< Guarded by mutex_, with the following.
   std::uint64_t turns_ = 0;
   std::deque<Shown> shown_;
   frame::LossCounters losses_;

@@ -7,7 +7,7 @@
 
 namespace terracut::cli {
 
-/// A file of the page, as the program carries it (page/, joined by CMake).
+/// A file of the page, built into the program (page/, joined by CMake).
 struct PageFile {
   std::string_view path;  ///< "/view.js"
   std::string_view type;  ///< "text/javascript; charset=utf-8"

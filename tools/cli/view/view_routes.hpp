@@ -11,12 +11,12 @@
 
 namespace terracut::cli {
 
-/// What the page is answered from; outlives its server.
+/// The sources of the page's answers; must outlive its server.
 struct ViewSource {
   ViewFrames& frames;
-  ViewedCapture* capture = nullptr;                ///< Null: a live run, which nobody plays.
-  std::atomic<int> streams{0};                     ///< Browsers that get frames.
-  std::atomic<std::uint64_t> sent{0}, skipped{0};  ///< Frames times browsers.
+  ViewedCapture* capture = nullptr;                ///< Null: a live run, which has no player.
+  std::atomic<int> streams{0};                     ///< Browsers that receive frames.
+  std::atomic<std::uint64_t> sent{0}, skipped{0};  ///< Counted for each browser.
 };
 
 /// Answers:
@@ -26,7 +26,7 @@ struct ViewSource {
 ///   GET  /figures           ViewFrames::figures(), and of a capture its PlayerState
 ///   POST /control           a PlayerCommand as JSON; answered as /figures
 ///
-/// What pages of other origins have a browser ask gets 403. Nothing that is sent here is kept.
+/// Requests by pages of other origins get 403. No request is stored.
 [[nodiscard]] HttpReply answer_view(ViewSource& source, const HttpRequest& asked);
 
 }  // namespace terracut::cli

@@ -17,13 +17,12 @@
 namespace terracut::cli {
 
 /// The page that shows frames in a browser (view_routes.hpp), as an output of a run, within
-/// HttpBounds: each browser that is slow holds a frame of its own. What browsers do never shows
-/// here but in losses(): frames that one of them left out. Listen on loopback unless the network
-/// is trusted.
+/// HttpBounds: each slow browser holds a frame of its own. Browsers affect a run only in losses():
+/// frames that one of them skipped. Listen on loopback unless the network is trusted.
 class ViewSink : public publish::FrameSink {
  public:
-  /// `endpoint`: "127.0.0.1:8480". `capture`: its player, which outlives this; null where nobody
-  /// plays. The errors of HttpServer::start().
+  /// `endpoint` is like "127.0.0.1:8480". `capture` is its player, which outlives this object; null
+  /// in live runs. Errors of HttpServer::start().
   [[nodiscard]] static Expected<std::unique_ptr<ViewSink>> open(const std::string& endpoint,
                                                                 const publish::RunFacts& facts,
                                                                 ViewedCapture* capture,
@@ -34,7 +33,7 @@ class ViewSink : public publish::FrameSink {
   [[nodiscard]] Status put_figures(const status::MonitorSnapshot& figures) override;
   [[nodiscard]] std::vector<status::NamedCount> losses() const override;
 
-  /// "http://127.0.0.1:8480/"
+  /// Returns "http://127.0.0.1:8480/".
   [[nodiscard]] const std::string& url() const noexcept { return url_; }
 
  private:
@@ -43,7 +42,7 @@ class ViewSink : public publish::FrameSink {
   ViewFrames frames_;
   ViewSource source_;
   std::string url_;
-  std::optional<HttpServer> server_;  ///< Last: it uses all of the above.
+  std::optional<HttpServer> server_;  ///< Last: it uses all members above.
 };
 
 }  // namespace terracut::cli

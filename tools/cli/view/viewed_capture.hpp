@@ -6,7 +6,7 @@
 
 namespace terracut::cli {
 
-/// Plays a recording for whoever looks at it. Any thread.
+/// The controls of a played recording, for its viewers. Any thread.
 class ViewedCapture {
  public:
   ViewedCapture() = default;

@@ -9,39 +9,39 @@
 #include "finding.hpp"
 #include "system_view.hpp"
 
-/// The checks of `terracut doctor`. Each looks at one thing and returns one finding; they only
-/// read. What is not found out is said so, and is no problem.
+/// The checks of `terracut doctor`. Each checks one thing and returns one finding; they only read.
+/// A check that finds nothing out says so and is no problem.
 namespace terracut::doctor {
 
-/// What the program will want of the machine.
+/// The program's future needs.
 struct Requests {
-  std::string interface {};  ///< Of the sensor; empty: every one that is up, except loopback.
+  std::string interface {};  ///< The sensor's interface; empty: all that are up, except loopback.
   std::uint16_t port = 2368;
-  std::int64_t buffer_bytes = 8 << 20;  ///< Receive buffer it asks for.
+  std::int64_t buffer_bytes = 8 << 20;  ///< Requested receive buffer.
   std::optional<int> receive_core{}, segment_core{};
 };
 
-// checks_kernel.cpp: what runs the threads.
+// checks_kernel.cpp: the system under the threads.
 [[nodiscard]] Finding check_kernel(const SystemView& system);
 [[nodiscard]] Finding check_machine(const SystemView& system);  ///< Real or virtual.
 [[nodiscard]] Finding check_stolen_time(const SystemView& system);
 [[nodiscard]] Finding check_clock_source(const SystemView& system);
 [[nodiscard]] Finding check_time_sync(const SystemView& system);
 
-// checks_rights.cpp: what this user may ask for.
+// checks_rights.cpp: the user's rights.
 [[nodiscard]] Finding check_priority(const SystemView& system);
 [[nodiscard]] Finding check_locked_memory(const SystemView& system);
 [[nodiscard]] Finding check_raw_capture(const SystemView& system);
 [[nodiscard]] Finding check_realtime_share(const SystemView& system);
 
-// checks_processor.cpp: what disturbs the threads.
+// checks_processor.cpp: disturbances of the threads.
 [[nodiscard]] Finding check_governor(const SystemView& system);
 [[nodiscard]] Finding check_isolated_cores(const SystemView& system, const Requests& requests);
 [[nodiscard]] Finding check_tickless_cores(const SystemView& system, const Requests& requests);
 [[nodiscard]] Finding check_swap(const SystemView& system);
 [[nodiscard]] Finding check_huge_pages(const SystemView& system);
 
-// checks_network.cpp: what packets meet on their way in.
+// checks_network.cpp: the path of received packets.
 [[nodiscard]] Finding check_interface(const SystemView& system, const Requests& requests);
 [[nodiscard]] Finding check_receive_buffer(const SystemView& system, const Requests& requests);
 [[nodiscard]] Finding check_interrupts(const SystemView& system, const Requests& requests);
@@ -51,10 +51,10 @@ struct Requests {
 [[nodiscard]] Finding check_return_path(const SystemView& system, const Requests& requests);
 [[nodiscard]] Finding check_firewall(const SystemView& system, const Requests& requests);
 
-/// All of them, in the order of docs/guide/real_time.md.
+/// Runs all checks, in the order of docs/guide/real_time.md.
 [[nodiscard]] Findings examine(const SystemView& system, const Requests& requests);
 
-/// Whether this process has a capability, by its number in <linux/capability.h>.
+/// True if this process has a capability, by its number in <linux/capability.h>.
 [[nodiscard]] bool has_capability(const SystemView& system, int capability);
 
 }  // namespace terracut::doctor

@@ -56,7 +56,7 @@ Finding check_stolen_time(const SystemView& system) {
   const std::optional<std::string> stat = system.text("proc/stat");
   const std::vector<std::string> ticks =
       words_of(stat ? line_after(*stat, "cpu ").value_or("") : "");
-  constexpr std::size_t kSteal = 7;  // user nice system idle iowait irq softirq steal
+  constexpr std::size_t kSteal = 7;  // columns: user nice system idle iowait irq softirq steal
   double all = 0;
   double stolen = 0;
   for (std::size_t i = 0; i <= kSteal && i < ticks.size(); ++i) {

@@ -14,11 +14,11 @@ namespace terracut::doctor {
 namespace {
 
 constexpr const char* kInterfaces = "sys/class/net/";
-/// What the faster sensor, an RS-Ruby128 with one return, sends; and what the kernel books for one
-/// of its packets of 1248 bytes. It grants twice what is asked for.
+/// The packet rate of the fastest sensor, an RS-Ruby128 with one return, and the bytes that the
+/// kernel books for one of its packets of 1248 bytes. The kernel grants twice the requested buffer.
 constexpr double kPacketsPerSecond = 5833;
 constexpr double kBookedBytes = 2304;
-constexpr double kLeastBuffered_ms = 100;  // one frame
+constexpr double kLeastBuffered_ms = 100;  // the packets of one frame
 
 std::string in_interface(const std::string& interface, std::string_view rest) {
   return fmt::format("{}{}/{}", kInterfaces, interface, rest);
@@ -28,7 +28,7 @@ bool is_up(const SystemView& system, const std::string& interface) {
   return system.text(in_interface(interface, "operstate")) == "up";
 }
 
-/// The sensor's interface, else all that are up.
+/// Returns the sensor's interface, otherwise all that are up.
 std::vector<std::string> interfaces_of(const SystemView& system, const Requests& requests) {
   if (!requests.interface.empty()) return {requests.interface};
   std::vector<std::string> names = system.names_in(kInterfaces);
@@ -37,7 +37,7 @@ std::vector<std::string> interfaces_of(const SystemView& system, const Requests&
   return names;
 }
 
-/// The numbers of an interface's interrupts: what its device lists, else those of its name.
+/// Returns an interface's interrupt numbers: those its device lists, otherwise by its name.
 std::set<int> interrupts_of(const SystemView& system, const std::string& interface) {
   std::set<int> numbers;
   for (const std::string& name : system.names_in(in_interface(interface, "device/msi_irqs"))) {
@@ -55,7 +55,8 @@ std::set<int> interrupts_of(const SystemView& system, const std::string& interfa
   return numbers;
 }
 
-/// A counter of one line of names and one of numbers under a protocol's head, as in proc/net/snmp.
+/// Returns a counter from a line of names and one of numbers that begin with a protocol, as in
+/// proc/net/snmp.
 std::optional<std::int64_t> protocol_counter(const SystemView& system, std::string_view protocol,
                                              std::string_view name) {
   std::vector<std::string> names;
@@ -73,7 +74,7 @@ std::optional<std::int64_t> protocol_counter(const SystemView& system, std::stri
   return std::nullopt;
 }
 
-/// Whether some socket is bound to the UDP port, by proc/net/udp.
+/// True if some socket is bound to the UDP port, by proc/net/udp.
 bool port_taken(const SystemView& system, std::uint16_t port) {
   const std::string ending = fmt::format(":{:04X}", port);
   for (const std::string& line : lines_of(system.text("proc/net/udp").value_or(""))) {
@@ -101,7 +102,7 @@ Finding check_interface(const SystemView& system, const Requests& requests) {
   }
   const std::string state =
       system.text(in_interface(requests.interface, "operstate")).value_or("unknown");
-  // Loopback and tunnels have no link that could be down, and say "unknown".
+  // Loopback and tunnels have no link that could be down, and report "unknown".
   if (state == "up" || state == "unknown") {
     return ok("interface", fmt::format("{} is {}", requests.interface, state));
   }
@@ -120,7 +121,7 @@ Finding check_receive_buffer(const SystemView& system, const Requests& requests)
   const std::string found = fmt::format("{} KiB (rmem_max {}) hold {:.0f} ms of packets",
                                         granted >> 10, *most, milliseconds(granted));
   if (*most >= requests.buffer_bytes) return ok("receive buffer", found);
-  // Who asks the doctor is often root; the service is not.
+  // The doctor is often run by root; the service is not.
   const bool passes = has_capability(system, CAP_NET_ADMIN);
   const bool too_little = milliseconds(granted) < kLeastBuffered_ms;
   return {"receive buffer", too_little && !passes ? Verdict::kProblem : Verdict::kWarning,

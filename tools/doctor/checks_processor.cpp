@@ -17,7 +17,7 @@ std::set<int> list_in(const SystemView& system, std::string_view file) {
   return numbers_of_list(system.text(std::string(kProcessors) + std::string(file)).value_or(""));
 }
 
-/// The cores asked for that are not among `cores`.
+/// Returns the requested cores that are not among `cores`.
 std::set<int> missing_of(const Requests& requests, const std::set<int>& cores) {
   std::set<int> missing;
   for (const std::optional<int>& core : {requests.receive_core, requests.segment_core}) {
@@ -31,7 +31,7 @@ std::string cores_text(const std::set<int>& cores, const std::set<int>& missing)
   return fmt::format("{}, but not {}", fmt::join(cores, ","), fmt::join(missing, ","));
 }
 
-/// The cores to set apart: those asked for, else the last two.
+/// Returns the cores to isolate: the requested ones, otherwise the last two.
 std::string cores_to_free(const SystemView& system, const Requests& requests) {
   std::set<int> cores = missing_of(requests, {});
   if (cores.empty()) {
@@ -95,7 +95,7 @@ Finding check_tickless_cores(const SystemView& system, const Requests& requests)
   if (!tickless.empty() && missing.empty()) {
     return ok("tickless cores", fmt::format("{}", fmt::join(tickless, ",")));
   }
-  // Only worth a word where cores are set apart at all; the check before asks for that.
+  // Matters only with isolated cores, which the previous check asks for.
   if (list_in(system, "isolated").empty()) return ok("tickless cores", "none");
   return {"tickless cores", Verdict::kWarning, cores_text(tickless, missing),
           "the kernel's tick and RCU interrupt the isolated cores up to a thousand times a second",
@@ -105,7 +105,7 @@ Finding check_tickless_cores(const SystemView& system, const Requests& requests)
 
 Finding check_swap(const SystemView& system) {
   const std::vector<std::string> lines = lines_of(system.text("proc/swaps").value_or(""));
-  if (lines.size() < 2) return ok("swap", "none");  // a head line only
+  if (lines.size() < 2) return ok("swap", "none");  // only the header line
   const bool lockable = check_locked_memory(system).verdict == Verdict::kOk;
   if (lockable) return ok("swap", "in use; locked memory stays out");
   return {"swap", Verdict::kProblem, "in use, and memory cannot be locked",

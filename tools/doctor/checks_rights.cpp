@@ -14,12 +14,12 @@ namespace terracut::doctor {
 namespace {
 
 constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
-constexpr int kHighestPriority = 80;  // of the thread that receives, by default
-/// `terracut plan` of both sensors, and what a process has besides.
+constexpr int kHighestPriority = 80;  // of the receive thread, by default
+/// An upper bound of `terracut plan` and the rest of a process.
 constexpr std::int64_t kMemoryToLock = std::int64_t{512} << 20;
 constexpr double kLeastShare = 0.9;
 
-/// The soft limit in /proc/self/limits.
+/// Returns the soft limit in /proc/self/limits.
 std::optional<std::int64_t> soft_limit(const SystemView& system, std::string_view name) {
   const std::optional<std::string> limits = system.text("proc/self/limits");
   if (!limits) return std::nullopt;

@@ -10,11 +10,11 @@ namespace terracut::doctor {
 
 enum class Verdict : std::uint8_t {
   kOk,
-  kWarning,  ///< Frames may be late or lost because of it, on a busy machine.
-  kProblem,  ///< Frames will be late or lost because of it, or cannot come in at all.
+  kWarning,  ///< May cause late or lost frames on a busy machine.
+  kProblem,  ///< Will cause late or lost frames, or keeps them from coming in at all.
 };
 
-/// "ok", "warning", "problem".
+/// Returns "ok", "warning", "problem".
 [[nodiscard]] constexpr const char* to_string(Verdict verdict) noexcept {
   switch (verdict) {
     case Verdict::kOk:
@@ -27,13 +27,13 @@ enum class Verdict : std::uint8_t {
   return "problem";
 }
 
-/// What one check says.
+/// The result of one check.
 struct Finding {
   std::string check;  ///< Its name in docs/guide/real_time.md: "kernel".
   Verdict verdict = Verdict::kOk;
   std::string found;
-  std::string why{};   ///< Why it matters; empty when all is well.
-  std::string mend{};  ///< The command that mends it, or what to do; empty when all is well.
+  std::string why{};   ///< Why it matters; empty if all is well.
+  std::string mend{};  ///< The command that mends it, or the remedy; empty if all is well.
 };
 
 using Findings = std::vector<Finding>;

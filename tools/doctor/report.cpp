@@ -43,7 +43,7 @@ std::string json_of(const Findings& findings) {
     }
     json["findings"].push_back(std::move(one));
   }
-  // Names of devices and programs are bytes of others: what is not UTF-8 is replaced.
+  // Names of devices and programs may not be UTF-8: invalid bytes are replaced.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

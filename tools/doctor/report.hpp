@@ -8,14 +8,14 @@
 
 namespace terracut::doctor {
 
-/// How many findings have that verdict.
+/// Returns the number of findings with that verdict.
 [[nodiscard]] int count_of(const Findings& findings, Verdict verdict);
 
-/// For people: a line a finding, with why and what mends it below those that are not ok.
+/// Returns the report for people: a line per finding; those not ok also with reason and remedy.
 [[nodiscard]] std::string text_of(const Findings& findings);
 
-/// For programs: {"problems", "warnings", "findings": [{"check", "verdict", "found", "why",
-/// "mend"}]}; `why` and `mend` only where something is amiss.
+/// Returns the report for programs: {"problems", "warnings", "findings": [{"check", "verdict",
+/// "found", "why", "mend"}]}; `why` and `mend` only if not ok.
 [[nodiscard]] std::string json_of(const Findings& findings);
 
 }  // namespace terracut::doctor

@@ -20,7 +20,7 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 constexpr int kMostCores = 8192;  // the kernel's own limit
 
 std::optional<ClockState> clock_of_this_machine() {
-  timex state{};  // modes 0: only asks
+  timex state{};  // modes 0 only reads the clock
   const int answer = ::adjtimex(&state);
   if (answer < 0) return std::nullopt;
   return ClockState{.synchronised = answer != TIME_ERROR && (state.status & STA_UNSYNC) == 0,

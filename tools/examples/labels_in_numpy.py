@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""A capture in numpy, cell by cell, as a notebook would have it (docs/guide/python.md).
+"""Labels a capture with numpy in cells, as in a notebook (docs/guide/python.md).
 
 labels_in_numpy.py CAPTURE [PICTURE.png]: the picture needs matplotlib.
 """
@@ -23,18 +23,18 @@ for frame in replay:
     nearest_m = distance_m[ahead].min(initial=np.inf)
     print(f"frame {frame.number}: {len(frame)} returns, {obstacles.mean():.1%} obstacle, nearest ahead {nearest_m:.1f} m")
 
-# %% What the run says of itself, as `terracut replay --json` does.
+# %% The run's report, as of `terracut replay --json`.
 summary = replay.report()["summary"]
 print(f"{summary['frames']} frames, p99 of all work {summary['ms']['total']['p99']:.1f} ms, losses {summary['losses']}")
 
-# %% The same points as a cloud, from wherever: here with the laser of each, in the sensor's frame.
+# %% The same points as a cloud of any source: here with each point's laser, in the sensor's frame.
 height_m = summary["mount"]["height_m"]
 cloud = frame.points - np.float32([0, 0, height_m])
 segmenter = terracut.Segmenter(mount_height=height_m)
 labels = segmenter(cloud, laser=frame.ring)
 print(f"as a cloud: {np.mean(labels == frame.labels):.2%} of the labels are the same")
 
-# %% From above.
+# %% The points seen from above.
 if len(sys.argv) > 2:
     import matplotlib
 

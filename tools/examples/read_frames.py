@@ -28,11 +28,11 @@ GROUND, OTHER_GROUND, OBSTACLE = 40, 49, 99
 
 
 class StreamError(Exception):
-    """What came is no stream of labelled frames, or it ended within one."""
+    """Raised if the data are no stream of labelled frames, or end within one."""
 
 
 def connect(address):
-    """A connected socket. ADDRESS:PORT, a port on this machine, or the path of a Unix socket."""
+    """Returns a connected socket. ADDRESS:PORT, a port on this machine, or the path of a Unix socket."""
     if "/" in address:
         connection = socket.socket(socket.AF_UNIX)
         connection.connect(address)
@@ -42,7 +42,7 @@ def connect(address):
 
 
 def receive(connection, count):
-    """`count` bytes, or fewer where the stream ends."""
+    """Returns `count` bytes, or fewer if the stream ends."""
     buffer = bytearray(count)
     view, got = memoryview(buffer), 0
     while got < count:
@@ -61,7 +61,7 @@ def receive_all(connection, count):
 
 
 def decode_header(data):
-    """The header as a dictionary; `data` is at least as long as it says itself."""
+    """Returns the header as a dictionary; `data` is at least as long as the header says."""
     header = dict(zip(HEADER_FIELDS, HEADER.unpack_from(data)))
     if header["point_bytes"] < POINT.size or header["points"] > MOST_POINTS:
         raise StreamError("a header that cannot be: %s" % header)
@@ -85,13 +85,13 @@ def receive_frames(connection):
         header = decode_header(preamble + receive_all(connection, header_bytes - 8))
         stride = header["point_bytes"]
         points = receive_all(connection, header["points"] * stride)
-        if stride > POINT.size:  # a later sender's: what this reader does not know is left out
+        if stride > POINT.size:  # a newer sender's points: fields unknown here are skipped
             points = b"".join(points[n:n + POINT.size] for n in range(0, len(points), stride))
         yield header, points
 
 
 def describe(header, points):
-    """One line for people."""
+    """Returns one line for people."""
     labels = points[13::POINT.size]
     obstacles = labels.count(OBSTACLE)
     ground = labels.count(GROUND) + labels.count(OTHER_GROUND)
@@ -113,7 +113,7 @@ def describe(header, points):
 
 
 def write_pcd(path, points):
-    """Binary PCD v0.7 with the fields x y z intensity label ring time; whole or not at all."""
+    """Writes binary PCD v0.7 with the fields x y z intensity label ring time; whole or not at all."""
     count = len(points) // POINT.size
     header = ("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
               "FIELDS x y z intensity label ring time\nSIZE 4 4 4 1 1 2 4\nTYPE F F F U U U F\n"

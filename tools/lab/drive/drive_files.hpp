@@ -11,9 +11,9 @@
 
 namespace terracut::drive {
 
-/// The names a drive's parts have beside "<folder>/<name>.pcap".
+/// Return the names of a drive's parts beside "<folder>/<name>.pcap".
 [[nodiscard]] std::filesystem::path truth_folder_of(const std::filesystem::path& pcap_path);
-/// Empty for a sensor whose table is built in.
+/// Empty for a sensor with a built-in table.
 template <class EncoderTraits>
 [[nodiscard]] std::filesystem::path calibration_path_of(const std::filesystem::path& pcap_path) {
   if (EncoderTraits::kCalibrationSuffix.empty()) return {};
@@ -22,26 +22,26 @@ template <class EncoderTraits>
   return pcap_path.parent_path() / name;
 }
 
-/// The truth and the table of a drive under way: in a folder beside their places, on the same file
-/// system, until put_in_place(); without it nothing is left. One thread.
+/// The truth and the table of an unfinished drive, in a folder beside their final places on the
+/// same file system, until put_in_place(); without it nothing is left. One thread.
 class DriveFiles {
  public:
-  /// kInvalidArgument when a truth folder that stands in the way holds anything but NNNNNN.label
-  /// files: only one that is surely a drive's may be replaced. kWriteFailed.
+  /// Errors: kInvalidArgument if an existing truth folder holds anything but NNNNNN.label files:
+  /// only one that is surely a drive's may be replaced. kWriteFailed.
   [[nodiscard]] static Expected<DriveFiles> create(const std::filesystem::path& pcap_path);
 
   DriveFiles(DriveFiles&&) noexcept;
   DriveFiles& operator=(DriveFiles&&) noexcept;
   ~DriveFiles();
 
-  /// Where the table is to be written.
+  /// Returns the path at which the table is to be written.
   [[nodiscard]] std::filesystem::path staged_calibration() const;
-  /// NNNNNN.label of the truth: little-endian. kWriteFailed.
+  /// Writes NNNNNN.label of the truth, little-endian. kWriteFailed.
   [[nodiscard]] Status write_truth(std::uint64_t frame, std::span<const std::uint32_t> labels);
 
-  /// Once more what create() checks, for the folder may have changed since.
+  /// Repeats the check of create(), as the folder may have changed since.
   [[nodiscard]] Status check_replaceable() const;
-  /// `calibration_path`: empty where there is no table.
+  /// `calibration_path` is empty if there is no table.
   [[nodiscard]] Status put_in_place(const std::filesystem::path& calibration_path);
 
  private:

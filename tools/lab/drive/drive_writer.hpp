@@ -17,15 +17,15 @@
 
 namespace terracut::drive {
 
-/// What a drive holds.
+/// The size of a drive.
 struct DriveSummary {
-  std::uint64_t frames = 0;   ///< Frames with at least one return = truth files.
-  std::uint64_t returns = 0;  ///< = entries of all truth files.
+  std::uint64_t frames = 0;   ///< Frames with at least one return, each with a truth file.
+  std::uint64_t returns = 0;  ///< The number of entries of all truth files.
   std::uint64_t columns = 0;
-  std::uint64_t packets = 0;  ///< Of data.
+  std::uint64_t packets = 0;  ///< Data packets.
 };
 
-/// Writes a labelled drive of a sensor: three things that belong together.
+/// Writes a labelled drive of a sensor, which has three parts:
 ///
 ///   drive.pcap                the sensor's packets, its calibration in them (HDL-64E: in the
 ///                             status bytes; RS-Ruby128: in a device packet every second)
@@ -35,13 +35,13 @@ struct DriveSummary {
 ///                             arrival (packet, block, laser), SemanticKITTI ids
 ///
 /// The n-th entry of NNNNNN.label is the n-th return that the decoder places into its frame NNNNNN
-/// (RangeImage::return_index()). A frame without a single return is no frame, on either side.
-/// Frames are those of the beams, not of the head: lasers point up to 10 degrees before or behind
-/// the head, so start about 11 degrees before a seam and end about 11 degrees after one, and leave
-/// returns of frames that are not wanted out (raw = 0).
+/// (RangeImage::return_index()). A frame without returns does not exist on either side. Frames are
+/// cut by the beams' azimuths, not the head's: lasers point up to 10 degrees before or behind the
+/// head. So start about 11 degrees before a seam, end about 11 degrees after one, and omit returns
+/// of other frames (raw = 0).
 ///
-/// Everything is written under temporary names and appears, whole, at finish(); a DriveWriter that
-/// goes without it leaves nothing behind. File work: not real-time safe. One thread.
+/// All files have temporary names and appear, whole, at finish(); without it nothing is left. File
+/// work: not real-time safe. One thread.
 ///
 /// `EncoderTraits`: encoder_traits.hpp.
 template <class EncoderTraits>
@@ -49,23 +49,23 @@ class DriveWriter {
  public:
   static constexpr auto kLasers = static_cast<std::size_t>(EncoderTraits::kLasers);
 
-  /// `pcap_path` is "<folder>/<name>.pcap"; the other two names follow from it. An existing
-  /// capture, calibration and truth folder of that name are replaced at finish(); a truth folder
-  /// that holds anything but NNNNNN.label files, and a calibration without a truth folder beside
-  /// it, are refused here.
+  /// `pcap_path` is "<folder>/<name>.pcap"; the names of the other parts follow from it. An
+  /// existing capture, calibration and truth folder of that name are replaced at finish(). Refused
+  /// are a truth folder with anything but NNNNNN.label files, and a calibration without a truth
+  /// folder.
   [[nodiscard]] static Expected<DriveWriter> create(
       const std::filesystem::path& pcap_path,
       const typename EncoderTraits::Calibration& calibration,
       const typename EncoderTraits::Config& config = {});
 
-  /// The next firing of all lasers; `stamp_ns` is that of its first laser. In dual return two calls
-  /// a firing, with the same stamp and azimuth: HDL-64E strongest, then last; others last, then
-  /// strongest. Firings must be those of a rotating head, which a decoder will follow.
+  /// Adds the next firing of all lasers; `stamp_ns` is that of its first laser. Dual return takes
+  /// two calls per firing, with the same stamp and azimuth: HDL-64E strongest, then last; others
+  /// last, then strongest. Firings must be those of a rotating head that a decoder can follow.
   /// kWriteFailed.
   [[nodiscard]] Status add_column(std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
                                   std::span<const frame::LabelledReturn, kLasers> by_laser);
 
-  /// Puts all files in their places. kInvalidArgument when the columns do not fill whole packets.
+  /// Moves all files to their places. kInvalidArgument if the columns do not fill whole packets.
   [[nodiscard]] Expected<DriveSummary> finish();
 
  private:
@@ -84,7 +84,7 @@ class DriveWriter {
   TruthFrames<EncoderTraits> truth_;
   Sender sender_;
   std::size_t columns_per_packet_;
-  std::vector<Column> group_;  ///< Columns that fill whole packets.
+  std::vector<Column> group_;  ///< Columns of whole packets.
   std::size_t filled_ = 0;
   DriveSummary summary_;
 };

@@ -12,13 +12,13 @@ namespace terracut::drive {
 /// One firing of all lasers.
 struct Firing {
   std::int64_t index = 0;
-  std::int64_t azimuth_cdeg = 0;  ///< Of the head as the wire has it, unwrapped.
-  std::int32_t step_ticks = 0;    ///< The step by which a decoder computes its beams.
-  double time_s = 0;              ///< 0 when the head passes straight ahead for the first time.
+  std::int64_t azimuth_cdeg = 0;  ///< Of the head as sent, unwrapped.
+  std::int32_t step_ticks = 0;    ///< The step with which a decoder computes its beams.
+  double time_s = 0;              ///< 0 when the head first points straight ahead.
 };
 
-/// When and where the head fires during a drive of whole frames, with the run-up and run-out that
-/// let every laser see them whole. Whole packets.
+/// The times and azimuths of the head's firings in a drive of whole frames, with a run-up and
+/// run-out so that every laser covers them. Whole packets.
 template <class EncoderTraits>
 class FiringPlan {
  public:
@@ -28,11 +28,11 @@ class FiringPlan {
   [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }
   [[nodiscard]] std::int64_t firings() const noexcept { return firings_; }
   [[nodiscard]] Firing firing(std::int64_t index) const noexcept;
-  /// From the first firing to this one.
+  /// Returns the time from the first firing to this one.
   [[nodiscard]] std::int64_t after_ns(std::int64_t index) const noexcept {
     return index * EncoderTraits::firing_ns(returns_);
   }
-  /// Frames that are not wanted lie before the first seam or after the last one.
+  /// True unless the frame lies before the first seam or after the last one.
   [[nodiscard]] bool wants(std::int64_t frame) const noexcept {
     return frame >= 0 && frame < frames_;
   }
@@ -42,7 +42,7 @@ class FiringPlan {
 
   packets::ReturnMode returns_;
   std::int64_t frames_;
-  std::int64_t group_;  ///< Firings that fill whole packets.
+  std::int64_t group_;  ///< Firings of whole packets.
   double start_cdeg_;   ///< < 0
   double cdeg_per_s_;
   double firing_s_;

@@ -12,9 +12,9 @@
 
 namespace terracut::drive {
 
-/// Sorts the truth of a drive's returns into frames as the decoder sorts the returns: by each
-/// beam's own azimuth, in order of arrival. `EncoderTraits`: see encoder_traits.hpp. Not real-time
-/// safe (allocates).
+/// Sorts the truth of a drive's returns into frames as the decoder does: by each beam's own
+/// azimuth, in order of arrival. `EncoderTraits`: see encoder_traits.hpp. Not real-time safe
+/// (allocates).
 template <class EncoderTraits>
 class TruthFrames {
  public:
@@ -23,13 +23,13 @@ class TruthFrames {
   TruthFrames(const typename EncoderTraits::Offsets& offsets, packets::ReturnMode returns)
       : offsets_(offsets), returns_(returns) {}
 
-  /// The columns of one group of firings.
+  /// Adds the columns of one group of firings.
   void add(std::span<const Column> columns);
 
-  /// The oldest frame that no further beam can reach, if any; its labels move to `labels`, which
-  /// has at least one. Empty frames are dropped.
+  /// Moves the labels of the oldest frame to `labels` if no further beam can reach it; they are at
+  /// least one. Empty frames are dropped.
   [[nodiscard]] bool take_finished(std::vector<std::uint32_t>& labels);
-  /// The same for the oldest frame of all, at the end of the drive.
+  /// Moves the labels of the oldest frame of all, at the end of the drive.
   [[nodiscard]] bool take_any(std::vector<std::uint32_t>& labels);
 
  private:
@@ -37,7 +37,7 @@ class TruthFrames {
   packets::ReturnMode returns_;
   std::map<std::int64_t, std::vector<std::uint32_t>> by_frame_;
   std::int64_t oldest_reachable_ = 0;
-  std::optional<std::int32_t> last_cdeg_;  ///< Where the head stood at the last firing.
+  std::optional<std::int32_t> last_cdeg_;  ///< Azimuth of the head at the last firing.
 };
 
 }  // namespace terracut::drive

@@ -33,7 +33,7 @@ constexpr std::string_view kDbc =
     "CM_ SG_ 416 YAW_RATE \"To the left is positive\";\n";
 constexpr can::CanId kMotionId{416, false};
 
-/// Hundredths as the two's complement that is on the bus, high byte first.
+/// Writes hundredths as two's complement, high byte first, as on the bus.
 void put_hundredths(double value, std::span<std::uint8_t, 2> bytes) {
   const auto whole = static_cast<std::uint16_t>(
       static_cast<std::int16_t>(std::lround(std::clamp(100 * value, -32767.0, 32767.0))));

@@ -11,21 +11,21 @@
 
 namespace terracut::drive {
 
-/// The CAN bus of the vehicle that drives are made for: one message, VEHICLE_MOTION (0x1A0, 8
-/// bytes), with SPEED (km/h, backwards negative) and YAW_RATE (deg/s, to the left positive), each
-/// 16 bits in hundredths, high byte first, and COUNTER in the last byte.
+/// The CAN bus of the vehicle in made drives has one message, VEHICLE_MOTION (0x1A0, 8 bytes), with
+/// SPEED (km/h, backwards negative) and YAW_RATE (deg/s, to the left positive), each 16 bits in
+/// hundredths, high byte first, and COUNTER in the last byte.
 ///
-/// The same as a DBC file.
+/// Returns its DBC file.
 [[nodiscard]] std::string vehicle_dbc();
-/// A line of a candump log, "(seconds.microseconds) can0 1A0#DATA\n", for each sample. Speeds and
-/// yaw rates beyond 327.67 km/h or deg/s are written as that.
+/// Returns a line of a candump log, "(seconds.microseconds) can0 1A0#DATA\n", for each sample.
+/// Speeds and yaw rates are clipped to 327.67 km/h or deg/s.
 [[nodiscard]] std::string vehicle_log(std::span<const vehicle::MotionSample> samples);
 
-/// The names both have beside "<folder>/<name>.pcap": "<name>.can.log", "<name>.can.dbc".
+/// Return the files' names beside "<folder>/<name>.pcap": "<name>.can.log", "<name>.can.dbc".
 [[nodiscard]] std::filesystem::path can_log_path_of(const std::filesystem::path& pcap_path);
 [[nodiscard]] std::filesystem::path can_dbc_path_of(const std::filesystem::path& pcap_path);
 
-/// Writes both, each whole or not at all. kWriteFailed. Not real-time safe.
+/// Writes both files, each whole or not at all. kWriteFailed. Not real-time safe.
 [[nodiscard]] Status write_vehicle_log(const std::filesystem::path& pcap_path,
                                        std::span<const vehicle::MotionSample> samples);
 

@@ -7,11 +7,11 @@ namespace {
 
 constexpr std::size_t kNone = SIZE_MAX;
 
-/// A return at a firing, and the pair before it.
+/// A return with its firing, and the previous pair.
 struct Pair {
   std::size_t wanted, fired, before;
 };
-/// The best way that uses only firings before some firing: what it is worth, and its last pair.
+/// The best assignment to firings before some firing: its worth and its last pair.
 struct Way {
   std::int64_t worth = 0;
   std::size_t last = kNone;
@@ -22,19 +22,19 @@ struct Way {
 std::vector<std::size_t> assign_firings(std::span<const std::int64_t> wanted_ticks,
                                         std::span<const std::int64_t> fired_ticks,
                                         std::int64_t farthest_ticks) {
-  // One return more is worth more than all shifts together may cost.
+  // One more return outweighs all shifts together.
   const std::int64_t worth_of_return =
       farthest_ticks * farthest_ticks * (std::ssize(wanted_ticks) + 1);
   std::vector<Pair> pairs;
   std::vector<Way> best(fired_ticks.size() + 1);  // best[n]: with the first n firings
-  std::size_t first = 0, end = 0;                 // firings that are near enough
+  std::size_t first = 0, end = 0;                 // firings near enough
   for (std::size_t i = 0; i < wanted_ticks.size(); ++i) {
     const std::int64_t wanted = wanted_ticks[i];
     while (first < fired_ticks.size() && fired_ticks[first] < wanted - farthest_ticks) ++first;
     for (; end < fired_ticks.size() && fired_ticks[end] <= wanted + farthest_ticks; ++end) {
       best[end + 1] = best[end];
     }
-    // Backwards: what comes before a firing must not know of this return yet.
+    // Backwards, so that entries of earlier firings do not contain this return yet.
     for (std::size_t firing = end; firing-- > first;) {
       const std::int64_t shift = fired_ticks[firing] - wanted;
       const std::int64_t worth = best[firing].worth + worth_of_return - shift * shift;

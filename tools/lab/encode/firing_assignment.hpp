@@ -11,8 +11,8 @@ namespace terracut::encode {
 
 inline constexpr std::size_t kNoFiring = SIZE_MAX;
 
-/// Gives the returns of one laser firings of their own, in order, each at most `farthest_ticks`
-/// from its azimuth: as many returns as can have one, and among the ways to do that one with the
+/// Assigns the returns of one laser to firings in order, one each, at most `farthest_ticks` from
+/// its azimuth. It places as many returns as possible and among such assignments takes one with the
 /// least sum of squared shifts (an alignment of two sorted lists, by dynamic programming).
 ///
 /// `wanted_ticks` (of the returns) and `fired_ticks` (of the laser's firings) are sorted azimuths

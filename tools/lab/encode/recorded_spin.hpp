@@ -14,13 +14,13 @@
 
 namespace terracut::encode {
 
-/// How fast the head of an HDL-64E rotated while it recorded scans. A laser fires every 48 us and
+/// Estimates the spin rate of an HDL-64E from its recorded scans. A laser fires every 48 us and
 /// returns at most once each time, so the ring with most points has about as many as there were
-/// firings in the frame. (Of the KITTI recordings that is 2114 to 2172, and the 103.4 to 104.2 ms
-/// from scan to scan in their times.txt are 2154 to 2171 times 48 us.)
+/// firings in the frame. (In the KITTI recordings these are 2114 to 2172; the scan intervals of
+/// 103.4 to 104.2 ms in their times.txt are 2154 to 2171 times 48 us.)
 class RecordedSpin {
  public:
-  /// Another scan: the ring of every point, or kNoRing.
+  /// Adds a scan: the ring of every point, or kNoRing.
   void add(std::span<const std::int16_t> ring_of_point) {
     std::vector<std::int64_t> points(1);
     for (const std::int16_t ring : ring_of_point) {
@@ -32,15 +32,15 @@ class RecordedSpin {
     longest_ring_ = std::max(longest_ring_, *std::ranges::max_element(points));
   }
 
-  /// At least the slowest that a head may rotate, 5 Hz, and at most 10: where every ring is short,
-  /// the view may be cropped or open to the sky.
+  /// Returns at least 5 Hz, the head's slowest, and at most 10 Hz: if every ring is short, the view
+  /// may be cropped or open to the sky.
   [[nodiscard]] double spin_hz() const noexcept {
     constexpr double kSlowest_hz = 5, kFastest_hz = 10;
     if (longest_ring_ == 0) return kFastest_hz;
     return std::clamp(1 / (kFiring_s * static_cast<double>(longest_ring_)), kSlowest_hz,
                       kFastest_hz);
   }
-  /// In a frame, to the nearest.
+  /// Returns the firings per frame, rounded.
   [[nodiscard]] int firings() const noexcept {
     return static_cast<int>(std::lround(1 / (kFiring_s * spin_hz())));
   }
@@ -48,7 +48,7 @@ class RecordedSpin {
  private:
   static constexpr double kFiring_s = hdl64e::kFiringTimesSingle48.column_ns * 1e-9;
 
-  std::int64_t longest_ring_ = 0;  ///< Points.
+  std::int64_t longest_ring_ = 0;  ///< Number of points.
 };
 
 }  // namespace terracut::encode

@@ -16,7 +16,7 @@
 namespace terracut::encode {
 namespace {
 
-/// Half a revolution about the sensor's axis.
+/// Rotates points by half a revolution about the sensor's axis.
 void work_round(std::span<scan::ScanPoint> points) {
   for (scan::ScanPoint& point : points) {
     point.x_m = -point.x_m;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kRevolution_rad = 2 * std::numbers::pi;
 constexpr packets::ReturnMode kEncoded = packets::ReturnMode::kSingle;
 
-/// `radians` brought into [-pi, pi).
+/// Returns `radians` normalised to [-pi, pi).
 double wrapped(double radians) {
   return radians - kRevolution_rad * std::floor(radians / kRevolution_rad + 0.5);
 }
@@ -119,7 +119,7 @@ ScanEncoder::Planned& ScanEncoder::planned(std::int64_t firing) {
     Planned& next = planned_.emplace_back();
     next.when = plan_.firing(index);
     next.what.column.stamp_ns = first_stamp_ns_ + plan_.after_ns(index);
-    // A revolution on, so that no azimuth is negative.
+    // One revolution is added, so that no azimuth is negative.
     next.what.column.unwrapped_azimuth_cdeg = next.when.azimuth_cdeg + beams::kRevolution_cdeg;
   }
   return planned_[static_cast<std::size_t>(firing - sent_)];
@@ -135,7 +135,7 @@ void ScanEncoder::assign(std::int32_t frame, int laser) {
         packet::beam_azimuth(firing.azimuth_cdeg, offsets_.offset_ticks(firing.step_ticks, laser));
     if (beam.frame > frame) break;
     if (beam.frame < frame) {
-      first = next + 1;  // of the run-up
+      first = next + 1;  // it belongs to the run-up
     } else {
       fired_ticks.push_back(beam.in_revolution_ticks);
     }
@@ -159,7 +159,7 @@ void ScanEncoder::encode(std::int32_t frame, int laser, const Wanted& wanted, Pl
       planned.when.azimuth_cdeg, hdl64e::firing_advance_ticks(planned.when.step_ticks, laser));
   const auto exact = geometry_.raw_for_range(laser, rotor_rad, wanted.range_m);
   const double raw = std::round(exact.value_or(0.0));
-  if (raw < 1 || raw > beams::kMaxRawCounts) {  // possible only at the very ends of the wire's span
+  if (raw < 1 || raw > beams::kMaxRawCounts) {  // possible only at the ends of the wire's range
     count(wanted.range_m < 10.0 ? NotEncoded::kTooNear : NotEncoded::kTooFar);
     return;
   }

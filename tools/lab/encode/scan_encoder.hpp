@@ -27,35 +27,35 @@ namespace terracut::encode {
 /// Why a point of a scan is not among the encoded returns.
 enum class NotEncoded : std::uint8_t {
   kNoPlace,      ///< is_place() is false: null, NaN, infinite or absurdly far.
-  kUnknownRing,  ///< No laser could be told for it.
-  kTooNear,      ///< Its distance is below what the calibration can say (raw count < 1).
+  kUnknownRing,  ///< Its laser could not be determined.
+  kTooNear,      ///< Its distance is below the calibration's range (raw count < 1).
   kTooFar,       ///< Its distance is beyond the wire's 65535 counts.
-  kSeam,         ///< The beam that hits it belongs to the frame before or after.
-  kCollision,    ///< Its laser has no firing left near enough: its neighbours took them. A laser
-                 ///< measures once a firing, so no sensor would have sent it so.
+  kSeam,         ///< The beam that hits it belongs to the previous or next frame.
+  kCollision,    ///< No firing of its laser near enough is left: a laser measures once
+                 /// per firing, so a sensor would not have sent it.
   kCount,
 };
 inline constexpr std::size_t kNotEncodedReasons = static_cast<std::size_t>(NotEncoded::kCount);
 
-/// Stable lower_snake_case name, as in reports.
+/// Returns a stable lower_snake_case name for reports.
 [[nodiscard]] std::string_view to_string(NotEncoded reason) noexcept;
 
 /// One encoded frame.
 struct EncodedFrame {
-  std::size_t points = 0;            ///< Of the scan.
-  std::size_t encoded = 0;           ///< = returns of this frame's truth.
-  double max_azimuth_shift_deg = 0;  ///< Decoded against the scan's.
+  std::size_t points = 0;            ///< Points of the scan.
+  std::size_t encoded = 0;           ///< Number of returns in the frame's truth.
+  double max_azimuth_shift_deg = 0;  ///< Decoded azimuth less the scan's.
 };
 
-/// What became of the points.
+/// Counts and errors of the encoded points.
 struct EncodeSummary {
   std::vector<EncodedFrame> frames;
-  std::size_t points = 0;  ///< = encoded + the sum of not_encoded.
+  std::size_t points = 0;  ///< The sum of encoded and not_encoded.
   std::size_t encoded = 0;
   std::array<std::size_t, kNotEncodedReasons> not_encoded{};
-  double median_azimuth_shift_deg = 0, max_azimuth_shift_deg = 0;  ///< Decoded against the scan's.
-  double max_range_error_m = 0;  ///< Of the range decoded from the wire against the scan's.
-  scan::HeightResidual height;   ///< Decoded height against the scan's.
+  double median_azimuth_shift_deg = 0, max_azimuth_shift_deg = 0;  ///< Decoded less the scan's.
+  double max_range_error_m = 0;  ///< Range decoded from the wire less the scan's.
+  scan::HeightResidual height;   ///< Decoded height less the scan's.
 };
 
 /// A firing and the points it came from.
@@ -68,16 +68,16 @@ struct EncodedFiring {
   std::array<Source, hdl64e::kHdl64eLasers> sources{};
 };
 
-/// Takes recorded scans back to what an HDL-64E with a given calibration would have sent: one scan
-/// is one frame, consecutive scans are consecutive frames.
+/// Encodes recorded scans as the packets of an HDL-64E with a given calibration: one scan is one
+/// frame, consecutive scans are consecutive frames.
 ///
-/// The head rotates steadily and all lasers fire every 48 us, as a sensor's do
-/// (drive/firing_plan.hpp); that the recording's head did so, at `spin_hz` (recorded_spin.hpp), is
-/// what makes one firing of its laser for nearly every point. A point becomes a return of its
-/// ring's laser (rings by elevation) at a firing of its own, moved by at most kFarthest_steps of
-/// the steps from firing to firing (firing_assignment.hpp); what finds none is counted. Its raw
-/// distance is the one whose decoded range (from the sensor's origin) equals the point's, to the
-/// wire's 2 mm. The height follows from the calibration alone; how far off it is, is reported.
+/// The head rotates steadily and all lasers fire every 48 us (drive/firing_plan.hpp). The
+/// recording's head did so too, at `spin_hz` (recorded_spin.hpp), so nearly every point has a
+/// firing of its own. A point becomes a return of its ring's laser (rings by elevation) at one
+/// firing, moved by at most kFarthest_steps steps from firing to firing (firing_assignment.hpp);
+/// points without a firing are counted. Its raw distance is the one whose decoded range (from the
+/// sensor's origin) equals the point's, to the wire's 2 mm. The height follows from the calibration
+/// alone; its error is reported.
 ///
 /// Firings start 11 degrees before the first seam and end as far after the last one. The head's
 /// azimuth of the first frame starts at 36000.  Allocates; one thread; deterministic.
@@ -86,13 +86,13 @@ class ScanEncoder {
   static constexpr double kFarthest_steps = 4;
 
   struct Config {
-    std::int64_t frames = 1;          ///< Calls of add_frame() to come.
-    double spin_hz = 10;              ///< 5 to 20.
+    std::int64_t frames = 1;          ///< Number of future add_frame() calls.
+    double spin_hz = 10;              ///< [5, 20].
     std::int64_t first_stamp_ns = 0;  ///< Of the first firing.
   };
 
   /// Receives the firings in order, whole packets of six in all; an error ends the encoding and is
-  /// handed on.
+  /// returned.
   using Sink = std::function<Status(const EncodedFiring&)>;
 
   ScanEncoder(const hdl64e::Hdl64eCalibration& calibration, const Config& config, Sink sink);
@@ -103,7 +103,7 @@ class ScanEncoder {
                                  std::span<const std::int16_t> ring_of_point,
                                  std::span<const std::uint32_t> labels);
 
-  /// Sends all that is left. Nothing may be added afterwards.
+  /// Sends all remaining firings. Nothing may be added afterwards.
   [[nodiscard]] Expected<EncodeSummary> finish();
 
  private:
@@ -132,9 +132,9 @@ class ScanEncoder {
   drive::FiringPlan<packets::Hdl64eEncoderTraits> plan_;
   std::int64_t first_stamp_ns_, farthest_ticks_;
   Sink sink_;
-  std::deque<Planned> planned_;  ///< Firings that were looked at and are not sent yet.
-  std::int64_t sent_ = 0;        ///< Firings.
-  /// Of each laser: its first firing behind the frames that were added.
+  std::deque<Planned> planned_;  ///< Prepared firings that are not sent yet.
+  std::int64_t sent_ = 0;        ///< Number of sent firings.
+  /// First firing after the added frames, for each laser.
   std::array<std::int64_t, hdl64e::kHdl64eLasers> next_firing_{};
   std::array<std::vector<Wanted>, hdl64e::kHdl64eLasers> wanted_;
   EncodeSummary summary_;

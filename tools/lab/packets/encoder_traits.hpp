@@ -12,9 +12,9 @@
 #include "tools/lab/packets/ruby128_encoder_traits.hpp"
 #include "tools/lab/packets/velodyne_encoder_traits.hpp"
 
-/// An `EncoderTraits` is a trait: all that makers of packets (DriveWriter, the simulator) need
-/// to know of a sensor, the counterpart of a decoder's `Sensor`. Those templates are instantiated
-/// for all that TERRACUT_FOR_ENCODER_TRAITS lists. It has
+/// An `EncoderTraits` describes a sensor to the makers of packets (DriveWriter, the simulator), as
+/// `Sensor` does to a decoder. The templates are instantiated for those in
+/// TERRACUT_FOR_ENCODER_TRAITS. It has
 /// - `Calibration`, `Geometry`, `Offsets` (of the beams), `Config` with `returns`, and `Column`, a
 ///   LabelledColumn of its `kLasers`;
 /// - `columns_per_packet(returns)`; `firings_per_group(returns)`, the fewest that fill whole
@@ -33,7 +33,7 @@
 /// capture
 ///   (hdl64e/packet_sender.hpp).
 
-/// INSTANTIATE(EncoderTraits) for each sensor whose packets are made.
+/// Expands INSTANTIATE(EncoderTraits) for each sensor whose packets are made.
 #define TERRACUT_FOR_ENCODER_TRAITS(INSTANTIATE)       \
   INSTANTIATE(terracut::packets::Hdl64eEncoderTraits)  \
   INSTANTIATE(terracut::packets::Ruby128EncoderTraits) \
@@ -41,15 +41,15 @@
 
 namespace terracut::packets {
 
-/// Columns of a frame's image, by how often a laser fires.
+/// Returns the columns of a frame's image, by how often a laser fires.
 template <class EncoderTraits>
 [[nodiscard]] int image_columns(double spin_hz, ReturnMode returns) {
   const auto period_ns = static_cast<double>(EncoderTraits::laser_period_ns(returns));
   return static_cast<int>(std::lround(1e9 / (spin_hz * period_ns)));
 }
 
-/// Calls `work` with the (empty) trait of a sensor whose packets are made; of an HDL-64E for every
-/// other model.
+/// Calls `work` with the (empty) trait of the model; with that of an HDL-64E for a model whose
+/// packets are not made.
 template <class Work>
 decltype(auto) with_encoder_traits(sensor::SensorModel model, const Work& work) {
   if (velodyne::layout_of(model) != nullptr) {

@@ -20,8 +20,8 @@
 
 namespace terracut::packets {
 
-/// The HDL-64E as makers of packets see it (packets/encoder_traits.hpp): six firings a packet, or
-/// in dual return three with two returns each.
+/// The HDL-64E for makers of packets (packets/encoder_traits.hpp): six firings per packet, or in
+/// dual return three with two returns each.
 struct Hdl64eEncoderTraits {
   using Calibration = hdl64e::Hdl64eCalibration;
   using Geometry = hdl64e::Hdl64eGeometry;
@@ -36,7 +36,7 @@ struct Hdl64eEncoderTraits {
 
   static constexpr int kLasers = hdl64e::kHdl64eLasers;
   static constexpr bool kStrongestFirst = true;
-  static constexpr double kBeamHalfWidth_rad = 1.0e-3;  ///< The manual gives 2 mrad in all.
+  static constexpr double kBeamHalfWidth_rad = 1.0e-3;  ///< The manual: 2 mrad for the whole beam.
   static constexpr std::string_view kCalibrationSuffix = ".calibration.xml";
 
   [[nodiscard]] static constexpr const hdl64e::FiringTimes& times(

@@ -13,14 +13,14 @@
 namespace terracut::packets {
 
 /// Writes six columns as one data packet: six firings, or in dual return three firings with their
-/// strongest and their last return, each pair of one azimuth. The device stamp marks the packet's
-/// end (docs/reference/sensors.md): `end_stamp_ns` (since 1970), as microseconds of its hour.
+/// strongest and last return, each pair with one azimuth. The device stamp marks the packet's end
+/// (docs/reference/sensors.md): `end_stamp_ns` (since 1970), as microseconds of its hour.
 void encode_hdl64e_packet(
     std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
     std::int64_t end_stamp_ns, hdl64e::StatusPair status, hdl64e::wire::Packet& packet) noexcept;
 
-/// When the packet of these columns ends: one firing period, taken from the columns themselves,
-/// after the last one. Two columns of one azimuth at the start mean dual return.
+/// Returns the end of the packet of these columns: one firing period, computed from the columns,
+/// after the last one. Two columns with one azimuth at the start mean dual return.
 [[nodiscard]] std::int64_t packet_end_ns(
     std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns) noexcept;
 

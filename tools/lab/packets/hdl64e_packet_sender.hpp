@@ -15,16 +15,16 @@
 
 namespace terracut::packets {
 
-/// Sends an HDL-64E's data packets into a capture: UDP port 2368, factory addresses, the unit's
+/// Writes an HDL-64E's data packets into a capture: UDP port 2368, factory addresses, the unit's
 /// calibration in the status bytes. Not real-time safe (the file). One thread.
 class Hdl64ePacketSender {
  public:
-  /// The error is that of a calibration which does not fit into the status stream.
+  /// Fails if a calibration does not fit into the status stream.
   [[nodiscard]] static Expected<Hdl64ePacketSender> create(
       const hdl64e::Hdl64eCalibration& calibration, packets::ReturnMode returns);
 
-  /// The next packet, of a packet's columns. `first_column`: which of its group's columns it begins
-  /// with.
+  /// Writes the next packet from its columns. `first_column` is the index of its first column in
+  /// the group.
   [[nodiscard]] Status send(std::span<const frame::FiringColumn> columns, int first_column,
                             capture::PcapWriter& capture);
 

@@ -8,8 +8,8 @@ namespace terracut::packets {
 
 /// How many returns of a pulse a sensor sends.
 enum class ReturnMode : std::uint8_t {
-  kSingle,  ///< The strongest.
-  kDual,    ///< The strongest and the last; twice the same where there is but one.
+  kSingle,  ///< The strongest return.
+  kDual,    ///< The strongest and the last; the same one twice if there is only one.
 };
 
 [[nodiscard]] constexpr int returns_per_firing(ReturnMode mode) noexcept {

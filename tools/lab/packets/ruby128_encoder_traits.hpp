@@ -19,8 +19,8 @@
 
 namespace terracut::packets {
 
-/// The RS-Ruby128 as makers of packets see it (packets/encoder_traits.hpp): three firings a packet,
-/// or in dual return three firings in two packets, A A B and B C C.
+/// The RS-Ruby128 for makers of packets (packets/encoder_traits.hpp): three firings per packet, or
+/// in dual return three firings in two packets, A A B and B C C.
 struct Ruby128EncoderTraits {
   using Calibration = ruby128::Ruby128Calibration;
   using Geometry = beams::StraightGeometry;
@@ -31,7 +31,7 @@ struct Ruby128EncoderTraits {
   struct Config {
     packets::ReturnMode returns = packets::ReturnMode::kSingle;
     ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
-    /// 0 lets decoders find out by the stamps themselves which encoding they are in.
+    /// 0 lets decoders detect the stamps' encoding.
     std::uint16_t protocol_version = 0;
     Ruby128Unit unit{};
   };
@@ -53,7 +53,7 @@ struct Ruby128EncoderTraits {
     return ruby128::kRubyBlocksPerPacket;
   }
 
-  /// In dual return A and B stand in one packet and C beside B in the next, where B keeps its step.
+  /// In dual return the packets hold A A B and B C C; B keeps its step from the first.
   [[nodiscard]] static constexpr std::int32_t step_ticks(const packets::GroupAzimuths& rotor,
                                                          int place,
                                                          packets::ReturnMode returns) noexcept {

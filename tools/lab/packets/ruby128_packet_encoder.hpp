@@ -12,18 +12,18 @@
 
 namespace terracut::packets {
 
-/// What is the same in every data packet of one drive.
+/// Facts common to all data packets of one drive.
 struct Ruby128PacketFacts {
   packets::ReturnMode returns = packets::ReturnMode::kSingle;
   ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
   std::uint16_t protocol_version = 0;
-  double temperature_deg_c = 0;  ///< (-128, 128)
+  double temperature_deg_c = 0;  ///< In (-128, 128).
 };
 
-/// Writes three columns as one data packet: three firings, or in dual return, where both returns of
-/// a firing (the last, then the strongest) are blocks of their own, one and a half. `first_column`
-/// is the first column's number in the group of firings that fills whole packets: even for the
-/// first return of a firing. The device stamp is the first column's.
+/// Writes three columns as one data packet: three firings, or one and a half in dual return, where
+/// both returns of a firing (the last, then the strongest) are blocks of their own. `first_column`
+/// is the first column's index in the group of firings of whole packets: even for the first return
+/// of a firing. The device stamp is the first column's.
 void encode_ruby128_packet(
     std::span<const frame::Ruby128Column, ruby128::kRubyBlocksPerPacket> columns, int first_column,
     const Ruby128PacketFacts& facts, ruby128::ruby128_wire::Packet& packet) noexcept;

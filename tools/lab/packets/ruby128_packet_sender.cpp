@@ -14,7 +14,7 @@ constexpr std::array<std::uint8_t, 4> kHost{192, 168, 1, 102};
 constexpr std::int64_t kDifopPeriod_ns = 1'000'000'000;
 
 /// Return modes of the DIFOP. All sources agree on dual; single is what a unit set to "strongest"
-/// was seen to send (docs/reference/sensors.md).
+/// sent (docs/reference/sensors.md).
 constexpr std::uint8_t kStrongestMode = 1, kDualMode = 3;
 
 constexpr std::uint32_t number_of(const std::array<std::uint8_t, 4>& address) {

@@ -17,23 +17,23 @@
 
 namespace terracut::packets {
 
-/// What a unit says of itself beside its measurements.
+/// The facts that a unit reports beside its measurements.
 struct Ruby128Unit {
   std::uint16_t rpm = 600;
   std::array<std::uint8_t, 6> serial{};
   double temperature_deg_c = 41.5;
 };
 
-/// Sends an RS-Ruby128's packets into a capture, with the factory's addresses and ports: the data
-/// packets (MSOP) as they are given, and the device packet (DIFOP) with the unit's angles before
-/// the first of them and then once a second. Not real-time safe (the file). One thread.
+/// Writes an RS-Ruby128's packets into a capture, with the factory's addresses and ports: the given
+/// data packets (MSOP), and the device packet (DIFOP) with the unit's angles before the first of
+/// them and then once a second. Not real-time safe (the file). One thread.
 class Ruby128PacketSender {
  public:
   Ruby128PacketSender(const ruby128::Ruby128Calibration& calibration, const Ruby128Unit& unit,
                       Ruby128PacketFacts facts);
 
-  /// The next packet, of a packet's columns. `first_column`: which of its group's columns it begins
-  /// with.
+  /// Writes the next packet from its columns. `first_column` is the index of its first column in
+  /// the group.
   [[nodiscard]] Status send(std::span<const frame::Ruby128Column> columns, int first_column,
                             capture::PcapWriter& capture);
 

@@ -23,8 +23,7 @@ std::array<std::uint8_t, 6> time_bytes_of(std::int64_t stamp_ns) noexcept {
           byte(static_cast<int>(date.year()) - 2000)};
 }
 
-/// The type byte of a table byte (HDL-64E S3 manual Rev K pp. 36-38 for the ones that are no
-/// digit).
+/// Returns the type byte of a table byte (for non-digits: HDL-64E S3 manual Rev K pp. 36-38).
 std::uint8_t table_type(hdl64e::StatusFlavour flavour, std::size_t group,
                         std::size_t place) noexcept {
   constexpr std::size_t kFirstTailGroup = 256;

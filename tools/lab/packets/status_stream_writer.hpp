@@ -11,23 +11,23 @@
 
 namespace terracut::packets {
 
-/// What a unit says of itself beside its table.
+/// The values that a unit reports beside its table.
 struct StatusValues {
   std::uint8_t gps = 0;  ///< 'A' PPS and NMEA, 'V' NMEA only, 'P' PPS only, 0 none.
   std::int8_t temperature_deg_c = 35;
   std::uint8_t firmware = 0x40;
 };
 
-/// Makes the status bytes of successive packets, as a unit would send them, for the encoder, the
-/// simulator and tests. Allocates nothing; may be used from the packet path.
+/// Makes the status bytes of successive packets like a unit, for the encoder, the simulator and
+/// tests. Allocates nothing; may be used from the packet path.
 class StatusStreamWriter {
  public:
-  /// `table` as hdl64e::make_stream_table() makes it (kCrc for S3, kLengthMarker for S2); copied.
+  /// `table` is made by hdl64e::make_stream_table() (kCrc for S3, kLengthMarker for S2); copied.
   StatusStreamWriter(std::span<const std::uint8_t, hdl64e::kStreamTableBytes> table,
                      hdl64e::StatusFlavour flavour, StatusValues values = {}) noexcept;
 
-  /// The pair of the next packet. `stamp_ns` (since 1970, UTC) is told as date and time; it is
-  /// taken over at the start of a cycle, so that the six bytes belong together. Years 2000..2255.
+  /// Returns the pair of the next packet. `stamp_ns` (since 1970, UTC) is sent as date and time; it
+  /// is taken at the start of a cycle, so that the six bytes belong together. Years 2000..2255.
   [[nodiscard]] hdl64e::StatusPair next(std::int64_t stamp_ns) noexcept;
 
  private:

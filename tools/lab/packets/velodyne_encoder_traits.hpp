@@ -17,8 +17,8 @@
 
 namespace terracut::packets {
 
-/// A Velodyne with a built-in table as makers of packets see it (packets/encoder_traits.hpp). What
-/// is a firing there is a column here, which of a VLP-16 is two firings of its lasers.
+/// A Velodyne with a built-in table for makers of packets (packets/encoder_traits.hpp). Its firing
+/// is a column here; a column of a VLP-16 is two firings of its lasers.
 template <class Model>
 struct VelodyneEncoderTraits {
   using Calibration = velodyne::VelodyneCalibration;
@@ -33,7 +33,7 @@ struct VelodyneEncoderTraits {
 
   static constexpr int kLasers = Model::kChannels;
   static constexpr bool kStrongestFirst = false;
-  static constexpr double kBeamHalfWidth_rad = 1.5e-3;  ///< The manuals give 3 mrad in all.
+  static constexpr double kBeamHalfWidth_rad = 1.5e-3;  ///< The manuals: 3 mrad in all.
   static constexpr std::string_view kCalibrationSuffix = "";
 
   [[nodiscard]] static constexpr bool is_dual(ReturnMode returns) noexcept {
@@ -52,7 +52,7 @@ struct VelodyneEncoderTraits {
     return Model::kLayout.columns(is_dual(returns));
   }
 
-  /// One firing a packet tells no step: it is the way from the packet before.
+  /// A packet with one firing has no step of its own: it is the one from the previous packet.
   [[nodiscard]] static constexpr std::int32_t step_ticks(const packets::GroupAzimuths& rotor, int,
                                                          ReturnMode returns) noexcept {
     const int firings = firings_per_group(returns);

@@ -15,9 +15,9 @@
 
 namespace terracut::packets {
 
-/// Sends the data packets of a Velodyne with a built-in table into a capture, with the factory's
+/// Writes the data packets of a Velodyne with a built-in table into a capture, with the factory's
 /// addresses and ports. In dual return the blocks of a pair are the last return, then the
-/// strongest. Position packets are not sent. Not real-time safe (the file). One thread.
+/// strongest. Position packets are not written. Not real-time safe (the file). One thread.
 template <class Model>
 class VelodynePacketSender {
  public:
@@ -26,7 +26,7 @@ class VelodynePacketSender {
   explicit VelodynePacketSender(ReturnMode returns) noexcept
       : is_dual_(returns == ReturnMode::kDual) {}
 
-  /// The next packet: as many columns as it holds.
+  /// Writes the next packet, of as many columns as it holds.
   [[nodiscard]] Status send(std::span<const Column> columns, int /*first_column*/,
                             capture::PcapWriter& capture) const {
     const std::int64_t stamp_ns = columns.front().stamp_ns;
@@ -43,7 +43,7 @@ class VelodynePacketSender {
     return capture.write({.payload = hdl64e::payload_of(packet),
                           .stamp_ns = columns.back().stamp_ns + Model::kLayout.column_ns,
                           .source_address = 0xC0A801C9,       // 192.168.1.201
-                          .destination_address = 0xFFFFFFFF,  // to all
+                          .destination_address = 0xFFFFFFFF,  // broadcast
                           .source_port = hdl64e::kHdl64eDataPort,
                           .destination_port = hdl64e::kHdl64eDataPort});
   }

@@ -10,10 +10,10 @@
 
 namespace terracut::quality {
 
-/// How large errors are, whatever their sign, from as many counts as the longest drive may need.
+/// Percentiles of absolute errors, from a fixed number of counts for any length of drive.
 class ErrorCounts {
  public:
-  /// Known to `width`; what is beyond `bins` of them counts as that much.
+  /// Resolution is `width`; errors beyond `bins` widths count as that limit.
   ErrorCounts(double width, std::size_t bins) : width_(width), counts_(bins + 1) {}
 
   void add(double error) {
@@ -26,7 +26,7 @@ class ErrorCounts {
   [[nodiscard]] double rms() const {
     return count_ == 0 ? 0 : std::sqrt(squares_ / static_cast<double>(count_));
   }
-  /// No more than 100 - `percent` of the errors exceed it; 0 without any.
+  /// Returns the error exceeded by at most 100 - `percent` of the errors; 0 without any.
   [[nodiscard]] double percentile(std::uint64_t percent) const {
     std::uint64_t not_above = 0;
     for (std::size_t bin = 0; count_ != 0 && bin < counts_.size(); ++bin) {

@@ -9,7 +9,7 @@
 
 namespace terracut::quality {
 
-/// What a class, by its SemanticKITTI id or another dataset's, means for the measures (peers.md
+/// The role of a class, by its SemanticKITTI id or another dataset's, in the measures (peers.md
 /// conventions; docs/reference/method.md).
 enum class TruthClass : std::uint8_t {
   kIgnored,  ///< Unlabelled or outlier (0, 1): counts nowhere.
@@ -18,10 +18,10 @@ enum class TruthClass : std::uint8_t {
   kKeyObstacle,       ///< Motor vehicles, bicycles, persons, moving or not.
 };
 
-/// `semantic_kitti_id`: a label file's entry; the instance in the upper 16 bits is ignored.
+/// Returns the class of a label file's entry; the instance in its upper 16 bits is ignored.
 [[nodiscard]] TruthClass truth_class(std::uint32_t semantic_kitti_id) noexcept;
 
-/// Counts of returns by truth and label, and the paper's measures of them. Add frames, then read.
+/// Counts of returns by truth and label, and the paper's measures. Add frames, then read.
 struct Quality {
   std::uint64_t ground_as_ground = 0;
   std::uint64_t ground_as_obstacle = 0;
@@ -34,15 +34,13 @@ struct Quality {
   void add(TruthClass truth, std::uint64_t as_ground, std::uint64_t as_obstacle) noexcept;
   Quality& operator+=(const Quality& other) noexcept;
 
-  [[nodiscard]] double iou_ground()
-      const noexcept;  ///< IoU_g, Eq. 16; [0, 1]; 1 when nothing to find.
-  [[nodiscard]] double recall_key_obstacles()
-      const noexcept;  ///< Recall_o, Eq. 17; [0, 1]; 1 without any.
+  [[nodiscard]] double iou_ground() const noexcept;  ///< IoU_g, Eq. 16; [0, 1]; 1 without ground.
+  [[nodiscard]] double recall_key_obstacles() const noexcept;  ///< Recall_o, Eq. 17; 1 without any.
   [[nodiscard]] double precision_ground() const noexcept;
   [[nodiscard]] double recall_ground() const noexcept;
 };
 
-/// Quality of one frame: labels[i] against truth[i], over the shorter of the two.
+/// Returns the quality of one frame: labels[i] against truth[i], over the shorter of the two.
 [[nodiscard]] Quality measure(std::span<const frame::Label> labels,
                               std::span<const std::uint32_t> truth) noexcept;
 

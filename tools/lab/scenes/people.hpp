@@ -7,10 +7,10 @@
 
 namespace terracut::scenes {
 
-/// Standing or walking, 1.1 to 1.95 m tall, about 0.5 m wide; two legs.
+/// Makes a person, standing or walking, 1.1 to 1.95 m tall, about 0.5 m wide; two legs.
 [[nodiscard]] world::SceneObject make_pedestrian(world::Random& random);
 
-/// A person on a bicycle, 1.75 m long, heading along x; all of it one class.
+/// Makes a person on a bicycle, 1.75 m long, heading along x; all of one class.
 [[nodiscard]] world::SceneObject make_cyclist(world::Random& random);
 
 }  // namespace terracut::scenes

@@ -7,36 +7,36 @@
 
 namespace terracut::scenes {
 
-/// Things that stand beside a road. Origin on the ground in their middle; long ones along x, and
-/// reaching some way below the origin so that nothing gapes on slopes.
+/// Makers of things beside a road. The origin is on the ground in their middle; long ones lie along
+/// x and reach below the origin, so that no gap shows on slopes.
 
-/// `length_m` along the road, `depth_m` across, `height_m` high, with a plinth.
+/// Makes one `length_m` along the road, `depth_m` across, `height_m` high, with a plinth.
 [[nodiscard]] world::SceneObject make_building(double length_m, double depth_m, double height_m);
 
-/// Trunk of 0.1 to 0.25 m radius, crown of leaves from 2.2 m or higher up.
+/// Makes a trunk of 0.1 to 0.25 m radius, with a crown of leaves from 2.2 m or higher up.
 [[nodiscard]] world::SceneObject make_tree(world::Random& random);
 
-/// A bush of leaves down to the ground, 0.5 to 1.6 m across.
+/// Makes a bush of leaves down to the ground, 0.5 to 1.6 m across.
 [[nodiscard]] world::SceneObject make_bush(world::Random& random);
 
-/// Lamp post, sign post with its plate, or bollard.
+/// Make a lamp post, a sign post with its plate, or a bollard.
 [[nodiscard]] world::SceneObject make_lamp_post(world::Random& random);
 [[nodiscard]] world::SceneObject make_sign_post(world::Random& random);
 [[nodiscard]] world::SceneObject make_bollard();
 
-/// Leaves from the ground up, 0.8 m thick.
+/// Makes leaves from the ground up, 0.8 m thick.
 [[nodiscard]] world::SceneObject make_hedge(double length_m, double height_m);
 
-/// Posts and wire mesh that lets 6 beams of 10 through, 1.2 m high.
+/// Makes posts and wire mesh that lets 6 of 10 beams through, 1.2 m high.
 [[nodiscard]] world::SceneObject make_mesh_fence(double length_m);
 
-/// Steel rail at 0.45 to 0.76 m on posts every 2 m.
+/// Makes a steel rail at 0.45 to 0.76 m on posts every 2 m.
 [[nodiscard]] world::SceneObject make_guard_rail(double length_m);
 
-/// Concrete barrier, 0.9 m high, broader at its foot.
+/// Makes a concrete barrier, 0.9 m high, broader at its foot.
 [[nodiscard]] world::SceneObject make_concrete_barrier(double length_m);
 
-/// A bridge over the road, deck from 5.2 m up, on two walls `clear_width_m` apart.
+/// Makes a bridge over the road, deck from 5.2 m up, on two walls `clear_width_m` apart.
 [[nodiscard]] world::SceneObject make_overpass(double clear_width_m);
 
 }  // namespace terracut::scenes

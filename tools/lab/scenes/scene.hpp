@@ -16,14 +16,14 @@
 
 namespace terracut::scenes {
 
-/// An arc that touches the road's direction at one moment of a drive.
+/// An arc that is tangent to the road at one moment of a drive.
 struct EgoArc {
-  double yaw_rate_radps = 0;  ///< To the left is positive.
+  double yaw_rate_radps = 0;  ///< Positive to the left.
   double touches_s = 0;       ///< Since the start of the drive.
 };
 
-/// A world and the way of the sensor's vehicle through it: from s = 0 at time 0 along the road, or
-/// along an arc, which leaves the road in the end.
+/// A world and the path of the sensor's vehicle: from s = 0 at time 0 along the road, or along an
+/// arc, which leaves the road in the end.
 struct Scene {
   world::Terrain terrain;
   std::vector<world::SceneObject> objects;
@@ -32,21 +32,20 @@ struct Scene {
   std::optional<EgoArc> ego_arc = std::nullopt;
 };
 
-/// How much of the world a drive will see.
+/// The extent of the world that a drive sees.
 struct SceneExtent {
   std::uint64_t seed = 1;
   double duration_s = 5;
-  double speed_mps = -1;  ///< < 0: what is usual in the scene.
+  double speed_mps = -1;  ///< < 0: the scene's usual speed.
 };
 
-/// The same name and seed give the same world, in which a longer drive sees the same things as a
-/// shorter one, and then more. kInvalidArgument for a name not in scene_names(), saying which there
-/// are.
+/// Makes a scene. The same name and seed give the same world; a longer drive sees what a shorter
+/// one sees, and more. kInvalidArgument for a name not in scene_names(), which it lists.
 [[nodiscard]] Expected<Scene> make_scene(std::string_view name, const SceneExtent& extent);
 
 /// A box of the scene "flat", standing on the plane.
 struct FlatSceneBox {
-  double x_m = 0, y_m = 0;                         ///< Middle.
+  double x_m = 0, y_m = 0;                         ///< Position of the middle.
   double length_m = 0, width_m = 0, height_m = 0;  ///< Along x, y, z.
   world::Truth truth = world::Truth::kBuilding;
 };

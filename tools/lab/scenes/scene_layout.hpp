@@ -16,14 +16,14 @@ namespace terracut::scenes {
 /// Fills a scene with things in rows along the road.
 class SceneLayout {
  public:
-  /// Things are placed this far ahead of and behind the vehicle: just beyond the sensor's range.
+  /// Things are placed up to this far from the vehicle: just beyond the sensor's range.
   static constexpr double kSight_m = 135.0;
 
   SceneLayout(Scene& scene, const SceneExtent& extent) noexcept : scene_(scene), extent_(extent) {}
 
-  /// Calls place(random, s_m) for every multiple s_m of `pitch_m` from which something that moves
-  /// with `along_mps` ever comes into sight. What a slot gets depends on the seed, on `row` (a name
-  /// of its own for each use) and on the slot, on nothing else.
+  /// Calls place(random, s_m) for every multiple s_m of `pitch_m` from which a thing moving with
+  /// `along_mps` ever comes into sight. The thing depends only on the seed, on `row` (a distinct
+  /// number for each use) and on the slot.
   template <class Place>
   void row(std::uint64_t row, double pitch_m, double along_mps, Place&& place) {
     const double gained_m = (scene_.ego_speed_mps - along_mps) * extent_.duration_s;
@@ -47,7 +47,7 @@ class SceneLayout {
     scene_.objects.push_back(std::move(object));
   }
 
-  /// Something long that lies along the road and follows its slope.
+  /// Adds a long thing that lies along the road and follows its slope.
   void add_along(world::SceneObject object, const world::RoadPoint& place, double length_m) {
     object.stance = world::Stance::kOnWheels;
     object.half_base_m = length_m / 2;

@@ -14,7 +14,7 @@ constexpr bool counts_packets(FaultKind kind) noexcept {
   return kind != FaultKind::kPause && kind != FaultKind::kBurst && kind != FaultKind::kClock;
 }
 
-/// Whether a fault of this kind has something to do with a packet of this time.
+/// True if a fault of this kind affects a packet of this time.
 bool is_due(const FaultOutcome& outcome, FaultKind kind, std::int64_t time_ns) noexcept {
   const Fault& fault = outcome.fault;
   if (fault.kind != kind || time_ns < fault.at_ns) return false;
@@ -22,7 +22,7 @@ bool is_due(const FaultOutcome& outcome, FaultKind kind, std::int64_t time_ns) n
   return kind == FaultKind::kClock || time_ns - fault.at_ns < fault.span_ns;
 }
 
-/// Packets come in order; one that is noted twice (its duplicate) counts once.
+/// Packets come in order; a packet noted twice (its duplicate) counts once.
 void note(FaultOutcome& outcome, std::uint64_t index) {
   if (!outcome.runs.empty()) {
     Run& last = outcome.runs.back();
@@ -116,7 +116,7 @@ bool FaultInjector::take_away(std::int64_t time_ns) {
   return false;
 }
 
-/// Clocks first: a packet's stamp may lie in the half that a truncation takes.
+/// Clocks first: a truncation may remove the packet's stamp.
 void FaultInjector::edit(packet::Datagram& datagram) {
   const std::int64_t time_ns = time_of(datagram);
   std::int64_t shift_ns = 0;
@@ -167,8 +167,8 @@ bool FaultInjector::is_duplicated(std::int64_t time_ns) {
   return false;
 }
 
-/// On to the sink, or held back by a burst: of several at once, by the one that ends last, which
-/// keeps the order.
+/// Passes a datagram to the sink, or holds it back for a burst: of several bursts, for the one that
+/// ends last, which keeps the order.
 void FaultInjector::pass(const packet::Datagram& datagram, Origin origin, std::uint64_t index) {
   const std::int64_t time_ns = time_of(datagram);
   FaultOutcome* holding = nullptr;

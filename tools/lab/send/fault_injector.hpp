@@ -14,60 +14,60 @@
 
 namespace terracut::send {
 
-/// What one fault of a script has done so far, to the packet.
+/// The effects of one fault of a script so far, by packet.
 struct FaultOutcome {
-  /// Packets next to each other in the stream that was fed in, counted from 0.
+  /// Consecutive packets of the input stream, counted from 0.
   struct Run {
     std::uint64_t first = 0, count = 0;
     friend bool operator==(const Run&, const Run&) = default;
   };
 
   Fault fault;
-  /// Lost, repeated, held back, cut, restamped or inserted; of a reordered packet, how many went
-  /// before it that came after it.
+  /// Packets lost, repeated, held back, cut, restamped or inserted; for a reordered packet, the
+  /// number of later packets sent before it.
   std::uint64_t packets = 0;
-  std::vector<Run> runs{};  ///< Which packets; for foreign ones, the packet they came before.
+  std::vector<Run> runs{};  ///< The affected packets; for foreign ones, the packet after them.
 
-  /// It came to its time and, where it was given a number of packets, did all of them.
+  /// True if its time came and, for a given number of packets, all were affected.
   [[nodiscard]] bool complete() const noexcept;
 };
 
-/// Plays a fault script on a stream of datagrams on its way from a generator to a sender. The same
+/// Applies a fault script to a stream of datagrams between a generator and a sender. The same
 /// stream and script always give the same result. For tests and simulation: allocates. One thread.
 class FaultInjector {
  public:
   enum class Origin : std::uint8_t { kSensor, kForeign };
 
-  /// Gets what is to be sent, in order; the stamp is the time to send it at, never less than that
-  /// of the datagram before it unless the stream's own stamps go back. The payload is valid only
-  /// during the call.
+  /// Receives the datagrams to be sent, in order; the stamp is the time to send, never less than
+  /// that of the previous datagram unless the stream's own stamps go back. The payload is valid
+  /// only during the call.
   using Sink = std::function<void(const packet::Datagram&, Origin)>;
-  /// Adds `shift_ns` to the device's stamp in a packet; false where it knows none. Where the script
-  /// has a clock fault, it sees every packet that is not taken away, before the jump with 0.
+  /// Adds `shift_ns` to the device's stamp in a packet; false if it finds none. If the script has a
+  /// clock fault, it is called for every remaining packet, before the jump with 0.
   using ShiftStamp = std::function<bool(std::span<std::uint8_t> packet, std::int64_t shift_ns)>;
 
-  static constexpr std::size_t kForeignBytes = 512;  ///< Of no sensor's data packet.
+  static constexpr std::size_t kForeignBytes = 512;  ///< No data packet of a sensor has this size.
 
   FaultInjector(FaultScript script, Sink sink, ShiftStamp shift_stamp);
 
   void feed(const packet::Datagram& datagram);
-  /// The stream is over: sends what is still held back.
+  /// Ends the stream: sends all datagrams still held back.
   void finish();
 
-  /// One for each fault, in the script's order.
+  /// Returns one outcome for each fault, in the script's order.
   [[nodiscard]] std::span<const FaultOutcome> outcomes() const noexcept { return outcomes_; }
-  /// Packets whose stamp a clock fault could not shift.
+  /// Returns the number of packets whose stamp a clock fault could not shift.
   [[nodiscard]] std::uint64_t unshifted() const noexcept { return unshifted_; }
   [[nodiscard]] std::uint64_t fed() const noexcept { return fed_; }
 
  private:
-  /// A datagram that waits for its frame, with its bytes.
+  /// A datagram that waits for its time, with its bytes.
   struct Held {
     packet::Datagram datagram;
     std::vector<std::uint8_t> bytes;
     Origin origin = Origin::kSensor;
     std::uint64_t index = 0;
-    std::size_t fault = 0;  ///< Of a moved packet: which outcome moves it.
+    std::size_t fault = 0;  ///< For a moved packet: index of the outcome that moves it.
   };
 
   [[nodiscard]] std::int64_t time_of(const packet::Datagram& datagram) const noexcept;
@@ -88,10 +88,10 @@ class FaultInjector {
   std::optional<std::int64_t> first_ns_;
   bool has_clock_fault_ = false;
   std::uint64_t fed_ = 0, unshifted_ = 0;
-  std::uint64_t index_ = 0;  ///< Of the packet being fed.
+  std::uint64_t index_ = 0;  ///< Of the current packet.
   std::vector<std::uint8_t> edited_;
   std::vector<Held> moved_;
-  std::vector<Held> bursts_;  ///< In order of release, which is the datagram's stamp.
+  std::vector<Held> bursts_;  ///< In order of release, by the datagrams' stamps.
 };
 
 }  // namespace terracut::send

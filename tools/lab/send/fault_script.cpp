@@ -53,7 +53,7 @@ bool drop_suffix(std::string_view& text, std::string_view suffix) {
   return true;
 }
 
-/// "2.5s", "400ms", "3" (seconds).
+/// Parses "2.5s", "400ms", "3" (seconds).
 std::optional<std::int64_t> nanoseconds_of(std::string_view text) {
   double unit_s = 1;
   if (drop_suffix(text, "ms")) {
@@ -66,7 +66,7 @@ std::optional<std::int64_t> nanoseconds_of(std::string_view text) {
   return std::llround(*number * unit_s * 1e9);
 }
 
-/// "+2.0s", "-150ms".
+/// Parses "+2.0s", "-150ms".
 std::optional<std::int64_t> shift_of(std::string_view text) {
   if (text.empty() || (text.front() != '+' && text.front() != '-')) return std::nullopt;
   const auto size_ns = nanoseconds_of(text.substr(1));

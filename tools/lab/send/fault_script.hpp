@@ -11,33 +11,33 @@
 
 namespace terracut::send {
 
-/// What can go wrong between a sensor and its receiver. "From T on" means: from the first packet
-/// whose stamp is T or more after the stream's first one. N counts packets that are still there: a
-/// packet that an earlier fault took away is not one of them.
+/// The faults between a sensor and its receiver. "From T on" means from the first packet whose
+/// stamp is at least T after the stream's first one. N counts remaining packets, without those that
+/// an earlier fault removed.
 enum class FaultKind : std::uint8_t {
   kLoss,       ///< N packets from T on are never sent.
   kReorder,    ///< One packet, the first from T on, is sent after the N that follow it.
   kDuplicate,  ///< N packets from T on are sent twice in a row.
-  kPause,      ///< Packets of a span of time from T on are never sent: a sensor that falls silent.
-  kBurst,      ///< Packets of a span of time from T on are held back and sent at once at its end.
+  kPause,      ///< Packets during a time span from T on are never sent: the sensor falls silent.
+  kBurst,      ///< Packets during a time span from T on are held back and sent together at its end.
   kForeign,    ///< N packets of another device come before the first packet from T on.
   kTruncate,   ///< N packets from T on are sent with only the first half of their bytes.
-  kClock,      ///< The device's clock goes wrong by so much at T, and stays so.
+  kClock,      ///< The device's clock jumps at T and keeps the offset.
 };
 
-/// Stable lower-case name, as written in scripts: "loss".
+/// Returns a stable lower-case name, as in scripts: "loss".
 [[nodiscard]] std::string_view to_string(FaultKind kind) noexcept;
 
 struct Fault {
   FaultKind kind = FaultKind::kLoss;
   std::int64_t at_ns = 0;     ///< T, since the stream's first packet.
   std::uint64_t packets = 0;  ///< N; unused by pause, burst and clock.
-  std::int64_t span_ns = 0;   ///< How long a pause or burst lasts; how far a clock jumps, signed.
+  std::int64_t span_ns = 0;   ///< Length of a pause or burst; signed jump of a clock.
 
   friend bool operator==(const Fault&, const Fault&) = default;
 };
 
-/// As parse_fault_script() reads it: "loss@2.5s:20packets", "clock@8s:-2s".
+/// Returns the text for parse_fault_script(): "loss@2.5s:20packets", "clock@8s:-2s".
 [[nodiscard]] std::string to_string(const Fault& fault);
 
 using FaultScript = std::vector<Fault>;
@@ -48,7 +48,7 @@ using FaultScript = std::vector<Fault>;
 ///   foreign@7s:50 truncate@9s:5 clock@8s:+2.0s
 ///
 /// Times take s or ms, [0, 1e6] s; counts may carry "packets", [1, 1e9]; a clock needs its sign.
-/// kInvalidArgument names the fault and what was expected. No text, no faults.
+/// kInvalidArgument names the fault and what was expected. An empty text means no faults.
 [[nodiscard]] Expected<FaultScript> parse_fault_script(std::string_view text);
 
 }  // namespace terracut::send

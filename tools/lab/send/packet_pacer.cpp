@@ -58,14 +58,14 @@ std::int64_t PacketPacer::due_ns(std::int64_t stamp_ns) noexcept {
     first_due_ns_ = measure::monotonic_ns() + start_delay_ns_;
     planned_due_ns_ = first_due_ns_;
   }
-  constexpr double kFar_ns = 4e18;  // a rate near 0 would leave the 64 bits
+  constexpr double kFar_ns = 4e18;  // a rate near 0 would overflow 64 bits
   const double after_ns = static_cast<double>(stamp_ns - first_stamp_ns_) / rate_;
   const std::int64_t due =
       first_due_ns_ + static_cast<std::int64_t>(std::clamp(after_ns, 0.0, kFar_ns));
   return std::max(due, planned_due_ns_);
 }
 
-/// In slices, so that stop() does not have to interrupt the sleep.
+/// Sleeps in slices, so that stop() does not have to interrupt the sleep.
 void PacketPacer::sleep_until(std::int64_t due_ns) const noexcept {
   constexpr std::int64_t kSlice_ns = 100'000'000;
   for (std::int64_t now_ns = measure::monotonic_ns(); now_ns < due_ns && !stopped();

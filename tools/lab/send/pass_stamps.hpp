@@ -7,11 +7,11 @@
 
 namespace terracut::send {
 
-/// The stamps of a capture that is played over and over, as if it went on: passes are as far apart
-/// as its packets are on average. PacketPacer would send a second pass with the old stamps at once.
+/// The stamps of a capture played repeatedly, as one continuous stream: passes are as far apart as
+/// its packets are on average. PacketPacer would send a second pass with the old stamps at once.
 class PassStamps {
  public:
-  /// The stamp, in ns, that a packet has in this pass.
+  /// Returns the stamp, in ns, of a packet in this pass.
   std::int64_t place(std::int64_t stamp_ns) noexcept {
     if (packets_++ == 0) first_ns_ = last_ns_ = stamp_ns;
     last_ns_ = std::max(last_ns_, stamp_ns);
@@ -22,7 +22,7 @@ class PassStamps {
     shift_ns_ += length_ns + (packets_ > 1 ? length_ns / (packets_ - 1) : 0);
     packets_ = 0;
   }
-  /// Of this pass, so far.
+  /// Returns the number of packets so far in this pass.
   [[nodiscard]] std::int64_t packets() const noexcept { return packets_; }
 
  private:

@@ -18,7 +18,7 @@ Expected<PortSenders> PortSenders::open(const std::string& to, UdpSenderConfig c
                 "expected a port from 1 to 65535 after the address, found 0 in '" + to + "'");
   }
   config.to = *endpoint;
-  // Also without a port: what is wrong with the address or the interface shall be known now.
+  // Opened even without a port: a wrong address or interface must be reported now.
   UdpSenderConfig first = config;
   if (!has_port) first.to.port = 1;
   auto sender = UdpSender::open(first, memory);
@@ -47,7 +47,7 @@ UdpSender* PortSenders::sender_for(std::uint16_t port) {
 SendCounters PortSenders::counters() const noexcept {
   SendCounters sum;
   sum.failed = refused_;
-  if (refused_ > 0) sum.last_error = EMFILE;  // what else was wrong open() has found
+  if (refused_ > 0) sum.last_error = EMFILE;  // open() has found all other errors
   for (const auto& [port, sender] : by_port_) sum += sender.counters();
   return sum;
 }

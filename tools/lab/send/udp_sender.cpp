@@ -88,7 +88,7 @@ std::size_t UdpSender::send(std::span<const packet::Datagram> datagrams) noexcep
       // sendmmsg() only reads them; iovec knows no const.
       vectors_[slot] = {const_cast<std::uint8_t*>(payload.data()), payload.size()};
     }
-    // Stops at the first datagram that fails; called again, it says why.
+    // Stops at the first datagram that fails; the next call returns its error.
     const int accepted =
         ::sendmmsg(socket_.get(), messages_.data(), static_cast<unsigned>(count), 0);
     if (accepted < 0) {

@@ -19,36 +19,36 @@
 namespace terracut::send {
 
 struct UdpSenderConfig {
-  net::Ipv4Endpoint to{};  ///< One address, a broadcast address or a multicast group.
-  std::optional<net::Ipv4Endpoint> from{};  ///< Sent from here; else the system chooses.
-  std::string interface{};                  ///< Of multicast and broadcast; empty: by the routes.
+  net::Ipv4Endpoint to{};  ///< An address, a broadcast address or a multicast group.
+  std::optional<net::Ipv4Endpoint> from{};  ///< Source; none: chosen by the system.
+  std::string interface{};  ///< For multicast and broadcast; empty: chosen by routing.
 };
 
-/// failed datagrams were not sent: the system refused them (no route, interface down).
+/// Counts of datagrams; `failed` ones were refused by the system (no route, interface down).
 struct SendCounters {
   std::uint64_t sent = 0;
   std::uint64_t bytes = 0;  ///< Payload.
   std::uint64_t failed = 0;
   int last_error = 0;  ///< errno of the newest failure.
 
-  /// Of several senders; `last_error` is of one that has any.
+  /// Sums several senders; `last_error` is one of theirs.
   SendCounters& operator+=(const SendCounters& other) noexcept;
 };
 
-/// Sends datagrams as a sensor would: whether anybody listens makes no difference. One thread.
+/// Sends datagrams as a sensor would, regardless of listeners. One thread.
 class UdpSender {
  public:
   static constexpr std::size_t kBatch = 64;
 
-  /// kInvalidArgument: no address or port to send to. kNotFound: `from` is none of this machine's
-  /// addresses, or there is no such interface. kUnreadable: another refusal of the system. Memory
-  /// is taken here, none later.
+  /// kInvalidArgument: no address or port to send to. kNotFound: `from` is no address of this
+  /// machine, or there is no such interface. kUnreadable: another refusal of the system. Takes all
+  /// its memory here.
   [[nodiscard]] static Expected<UdpSender> open(const UdpSenderConfig& config,
                                                 memory::FixedMemory& memory);
 
-  /// Sends the payloads in this order, kBatch to a system call; stamps and addresses of the
-  /// datagrams do not matter. Waits while the system's send buffer is full; returns how many were
-  /// sent, the others are counted as failed.
+  /// Sends the payloads in this order, kBatch per system call; stamps and addresses of the
+  /// datagrams are ignored. Waits while the system's send buffer is full. Returns the number sent;
+  /// the others are counted as failed.
   std::size_t send(std::span<const packet::Datagram> datagrams) noexcept;
 
   [[nodiscard]] const SendCounters& counters() const noexcept { return counters_; }
@@ -60,7 +60,7 @@ class UdpSender {
 
   files::OwnedDescriptor socket_;
   net::Ipv4Endpoint to_;
-  std::span<::sockaddr_in> address_;  ///< One: where all go.
+  std::span<::sockaddr_in> address_;  ///< One element: the destination.
   std::span<::mmsghdr> messages_;
   std::span<::iovec> vectors_;
   SendCounters counters_;

@@ -12,11 +12,11 @@
 namespace terracut::simulator {
 namespace {
 
-constexpr std::uint64_t kBesideTheAxis = 0x5BE5;  // sets its keys apart from the axis's
-/// Half the length of a pulse of 5 ns: echoes nearer to each other run together.
+constexpr std::uint64_t kBesideTheAxis = 0x5BE5;  // distinguishes its keys from the axis's
+/// Half the length of a 5 ns pulse: nearer echoes merge.
 constexpr double kSeparable_m = 0.75;
-/// Two places are on one surface when each lies so near to the other's tangent plane: slanting
-/// ground spreads one pulse over metres without making two of it.
+/// Two places are on one surface if each lies this near to the other's tangent plane: slanting
+/// ground spreads one pulse over metres without splitting it.
 constexpr double kOnePlane_m = 0.15;
 
 double off_plane_m(const world::Hit& hit, const Eigen::Vector3d& at, const Eigen::Vector3d& other) {
@@ -30,7 +30,7 @@ SideLine side_line(const world::SightLine& axis, double half_width_rad,
   const std::uint64_t key = world::mix_keys(ray_key, kBesideTheAxis);
   world::Random random(key);
   const double angle_rad = random.uniform(0, 2 * std::numbers::pi);
-  const double aside = half_width_rad * std::sqrt(random.unit());  // evenly over the disc
+  const double aside = half_width_rad * std::sqrt(random.unit());  // uniform over the disc
   const double share = random.uniform(0.25, 1.0);
   const Eigen::Vector3d right = axis.direction.unitOrthogonal();
   const Eigen::Vector3d up = axis.direction.cross(right);

@@ -23,9 +23,9 @@
 namespace terracut::simulator {
 namespace {
 
-// Objects are sorted anew after so many firings (9 ms): nothing moves far in that time.
+// Objects are sorted again after so many firings (9 ms): nothing moves far in that time.
 constexpr std::int64_t kBatch = 192;
-// From the sensor's origin to where its beams start.
+// Distance from the sensor's origin to the beams' starts, at most.
 constexpr double kBeamStarts_m = 0.5;
 
 Status in_range(const char* what, double value, double least, double most) {
@@ -56,7 +56,7 @@ Status check(const DriveConfig& config) {
   return {};
 }
 
-/// A drive under way: the world at the current batch of firings.
+/// A running drive: the world at the current batch of firings.
 template <class EncoderTraits>
 class Drive {
  public:
@@ -135,7 +135,7 @@ class Drive {
     head_.cast(firing, {moment, moment}, columns);
   }
 
-  /// Every thread takes each n-th firing; a firing depends on nothing but its index.
+  /// Thread k takes every n-th firing; a firing depends only on its index.
   void cast(std::int64_t first, std::int64_t count) {
     const auto share = [&](std::int64_t from) {
       for (std::int64_t i = from; i < count; i += config_.threads) {
@@ -147,7 +147,7 @@ class Drive {
     for (int i = 1; i < config_.threads; ++i) {
       try {
         helpers.emplace_back(share, i);
-      } catch (const std::system_error&) {  // no thread is left for it
+      } catch (const std::system_error&) {  // the system has no thread left
         share(i);
       }
     }
@@ -159,15 +159,15 @@ class Drive {
   Eigen::Isometry3d T_vehicle_lidar_;
   drive::FiringPlan<EncoderTraits> plan_;
   ScanHead<EncoderTraits> head_;
-  std::array<ObjectIndex, 2> objects_;  ///< By frame; only the first while moving.
+  std::array<ObjectIndex, 2> objects_;  ///< By frame parity; only the first is used with motion.
   std::array<Moment, 2> frame_moments_{};
   std::array<double, 2> still_time_s_{};
   double batch_time_s_ = 0;
-  std::size_t returns_;  ///< Columns of a firing.
+  std::size_t returns_;  ///< Columns per firing.
   std::vector<Column> columns_;
 };
 
-/// What a valid configuration describes.
+/// The objects built from a valid configuration.
 template <class EncoderTraits>
 struct DrivePlan {
   std::int64_t frames = 0;
@@ -193,7 +193,7 @@ struct DrivePlan {
   }
 };
 
-/// From a stamp of the drive to the time that its world has.
+/// Returns the world's time for a stamp of the drive.
 template <class EncoderTraits>
 double world_time_s(const SimulationConfig<EncoderTraits>& config,
                     const drive::FiringPlan<EncoderTraits>& firings, std::int64_t stamp_ns) {

@@ -20,47 +20,46 @@
 
 namespace terracut::simulator {
 
-/// A drive to simulate, whatever the sensor. The same configuration gives the same drive, return by
-/// return, with any compiler; a mathematical library that rounds differently may move a range by a
-/// count now and then.
+/// A drive to simulate, for any sensor. The same configuration gives the same drive, return by
+/// return, with any compiler; a mathematical library that rounds differently may rarely move a
+/// range by a count.
 struct DriveConfig {
   std::string scene = "street";  ///< One of scene_names().
-  std::uint64_t seed = 1;        ///< Of everything random: world, noise, drop-outs.
+  std::uint64_t seed = 1;        ///< For all random values: world, noise, drop-outs.
   double duration_s = 5.0;       ///< Rounded to whole frames, at least one; (0, 3600].
   double spin_hz = 10.0;         ///< [5, 20]
-  double speed_mps = -1;         ///< Of the vehicle; < 0: what is usual in the scene; at most 60.
-  /// Not 0: the vehicle turns at this rate all the time, on an arc that follows the road in the
-  /// middle of the drive and leaves it towards both ends; [-1, 1], to the left is positive.
+  double speed_mps = -1;         ///< Of the vehicle; < 0: the scene's usual speed; at most 60.
+  /// Not 0: the vehicle turns at this constant rate, on an arc that follows the road in the middle
+  /// of the drive and leaves it towards both ends; [-1, 1], positive to the left.
   double yaw_rate_radps = 0;
   mount::Mount mount;
   SensorEffects effects;
-  /// The vehicle and everything else move on while the head rotates, as in life. When off, they
-  /// stand still during each frame and jump between frames: frames are then as if motion were
-  /// compensated.
+  /// True: vehicle and objects move while the head rotates. False: they stand still during each
+  /// frame and jump between frames, as if motion were compensated.
   bool motion_within_frame = true;
   std::int64_t start_ns = 1'767'225'600'000'000'000;  ///< Of the first firing; 2026-01-01 UTC.
-  int threads = 1;  ///< Rays are cast on so many threads; results do not depend on it; [1, 64].
+  int threads = 1;  ///< Threads that cast rays, without influence on results; [1, 64].
 };
 
-/// The same with a sensor (tools/lab/drive/encoder_traits.hpp).
+/// A drive with its sensor (tools/lab/drive/encoder_traits.hpp).
 template <class EncoderTraits>
 struct SimulationConfig : DriveConfig {
   typename EncoderTraits::Calibration calibration = EncoderTraits::nominal();
   typename EncoderTraits::Config sensor;  ///< Return mode, encodings.
 };
 
-/// One column of returns, as on the wire, and what it was made from.
+/// One column of returns, as on the wire, and its origin.
 template <class EncoderTraits>
 struct SimulatedColumn {
   typename EncoderTraits::Column wire;
-  double time_s = 0;  ///< Since the head passed straight ahead for the first time.
-  /// Where each return lies in the sensor frame, noise included, before the wire's rounding to
-  /// whole counts. Meaningless where by_laser[i].raw == 0.
+  double time_s = 0;  ///< Since the head first pointed straight ahead.
+  /// The place of each return in the sensor frame, noise included, before rounding to the wire's
+  /// counts. Meaningless where by_laser[i].raw == 0.
   std::array<beams::Point, static_cast<std::size_t>(EncoderTraits::kLasers)> exact{};
 };
 
-/// Takes columns in firing order, whole packets in all; in dual return two a firing, in the
-/// sensor's order. An error ends the drive and is handed on.
+/// Takes columns in firing order, whole packets in all; in dual return two per firing, in the
+/// sensor's order. An error ends the drive and is returned.
 template <class EncoderTraits>
 using ColumnSink = std::function<Status(const SimulatedColumn<EncoderTraits>&)>;
 
@@ -70,16 +69,15 @@ struct SimulationSummary {
   std::uint64_t returns = 0;
 };
 
-/// Simulates a drive and hands it to `sink`, column by column, from this thread.
+/// Simulates a drive and passes it to `sink`, column by column, on this thread.
 ///
 /// Azimuths are rounded to the wire's 0.01 degrees first and rays cast at the rounded azimuth plus
 /// firing advance, so that decoding the wire values gives `exact` back to within the rounding of
 /// the range. The head starts some 11 degrees before straight ahead and ends as much after the last
-/// frame; beams outside of the whole frames have no return, so every laser sees every frame whole
-/// and there are no others.
+/// frame; beams outside the whole frames have no return, so all frames are whole for every laser.
 ///
-/// In dual return a beam has a width: what lies behind an edge, a pole or a few leaves gives an
-/// echo of its own. Where there is one echo, both returns are that one.
+/// In dual return a beam has a width: a surface behind an edge, a pole or a few leaves gives a
+/// second echo. With a single echo both returns are that one.
 ///
 /// Errors: kInvalidArgument naming the setting, its value and the allowed range; those of `sink`.
 /// Not real-time safe; allocates. A frame at 10 Hz takes 0.1 to 0.8 s on one core.
@@ -88,13 +86,13 @@ template <class EncoderTraits>
     const SimulationConfig<EncoderTraits>& config,
     const std::type_identity_t<ColumnSink<EncoderTraits>>& sink);
 
-/// How the vehicle of a drive moves, every `period_ns` from before its first firing to after its
-/// last, stamped as its firings are. Errors as simulate_drive().
+/// Returns the motion of a drive's vehicle every `period_ns`, from before the first firing to after
+/// the last, with stamps like those of firings. Errors as simulate_drive().
 template <class EncoderTraits>
 [[nodiscard]] Expected<std::vector<vehicle::MotionSample>> simulated_motion(
     const SimulationConfig<EncoderTraits>& config, std::int64_t period_ns = 10'000'000);
 
-/// T_world_vehicle by stamps of the drive. Errors as simulate_drive().
+/// Returns T_world_vehicle by stamps of the drive. Errors as simulate_drive().
 template <class EncoderTraits>
 [[nodiscard]] Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(
     const SimulationConfig<EncoderTraits>& config);

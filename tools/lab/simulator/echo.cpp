@@ -9,7 +9,7 @@ namespace terracut::simulator {
 namespace {
 
 constexpr double kHalfSeenSignal = 1.5e-6;  // Per square metre: half of such echoes are seen.
-constexpr double kSignalSpread = 0.35;      // Of the logarithm of the signal, around that.
+constexpr double kSignalSpread = 0.35;      // Spread of the signal's logarithm around that.
 
 bool is_seen(double signal, world::Random& random) noexcept {
   if (signal <= 0) return false;
@@ -30,7 +30,7 @@ std::optional<Echo> echo_from(const SensorEffects& effects, const world::Hit& hi
 
   double noise_m = effects.range_noise_m;
   if (effects.rough_surfaces) noise_m = std::hypot(noise_m, surface.roughness_m);
-  // The sensor rotates its power up with distance, so intensity tells the surface more than the
+  // The sensor raises its power with distance, so intensity depends on the surface more than on the
   // range.
   const double brightness = share * surface.reflectivity * (0.4 + 0.6 * cos_incidence);
   const double intensity = 255.0 * (0.04 + 0.75 * brightness) + 5.0 * random.normal();

@@ -13,7 +13,7 @@
 namespace terracut::simulator {
 namespace {
 
-constexpr double kFarthest_m = 135.0;  // Objects beyond are not looked at.
+constexpr double kFarthest_m = 135.0;  // Objects beyond this are ignored.
 
 int sector_of(double azimuth_rad, int sectors) noexcept {
   const double frames = azimuth_rad / (2 * std::numbers::pi);
@@ -21,7 +21,7 @@ int sector_of(double azimuth_rad, int sectors) noexcept {
   return std::min(sector, sectors - 1);
 }
 
-/// How far into a shape the line gets; nothing when it passes through.
+/// Returns the way to a hit inside a shape; nothing if the line passes through.
 std::optional<double> way_to_leaf_m(const world::Shape& shape, const world::Chord& chord,
                                     std::uint64_t leaf_key) noexcept {
   const double in_m = std::max(chord.in_m, 0.0);
@@ -118,7 +118,7 @@ std::optional<world::Hit> ObjectIndex::cast(const world::SightLine& line, double
       const std::optional<double> way_m = way_to_leaf_m(shape, *chord, leaf_key);
       if (!way_m || *way_m >= limit_m) continue;
       limit_m = *way_m;
-      // Leaves and wires face the beam as often as not: taken as facing it.
+      // Leaves and wires have random directions: taken as facing the beam.
       const Eigen::Vector3d normal = shape.density_per_m > 0
                                          ? Eigen::Vector3d(-line.direction)
                                          : placed.T_world_object.linear() * chord->normal;

@@ -12,18 +12,18 @@
 
 namespace terracut::simulator {
 
-/// The objects of a scene around one time and place, sorted by the direction in which they are
-/// seen, so that a line of sight looks at few of them.
+/// The objects of a scene around one time and place, sorted by direction, so that a line of sight
+/// is tested against few of them.
 class ObjectIndex {
  public:
-  /// `scene` must outlive this.
+  /// `scene` must outlive this object.
   explicit ObjectIndex(const scenes::Scene& scene);
 
-  /// Places everything as it is at `time_s`, seen from `viewpoint`. Afterwards lines may start up
-  /// to `window_s` later and as far from the viewpoint as `reach_m`.
+  /// Places all objects at `time_s` and sorts them as seen from `viewpoint`. Lines may then start
+  /// up to `window_s` later and up to `reach_m` from the viewpoint.
   void update(double time_s, double window_s, const Eigen::Vector3d& viewpoint, double reach_m);
 
-  /// First surface in the way of `line`, `after_s` after the time of update(), nearer than
+  /// Returns the first surface on `line`, `after_s` after the time of update(), nearer than
   /// `limit_m`. `ray_key` decides which leaf or wire is hit. Any number of threads between updates.
   [[nodiscard]] std::optional<world::Hit> cast(const world::SightLine& line, double after_s,
                                                std::uint64_t ray_key,
@@ -40,7 +40,7 @@ class ObjectIndex {
   };
   struct Candidate {
     std::uint32_t object = 0;
-    double nearest_m = 0;  ///< No part of it is nearer to a line's start than this.
+    double nearest_m = 0;  ///< The least distance from a line's start.
   };
 
   void place(std::size_t object, double time_s, double window_s);

@@ -13,9 +13,9 @@
 namespace terracut::simulator {
 namespace {
 
-// Two-point corrections bend a beam by centimetres, so it meets a surface a little beside the place
-// its straight ray does. On surfaces seen more slantingly than this that would be a leap, perhaps
-// past the surface's edge: there the depth is kept instead.
+// Two-point corrections bend a beam by centimetres, so it meets a surface slightly beside its
+// straight ray. On surfaces seen at a smaller angle than this the difference would be large,
+// perhaps beyond the surface's edge: there the depth is kept instead.
 constexpr double kSlantingGround = 0.01;
 constexpr double kSlantingObject = 0.2;
 
@@ -140,7 +140,7 @@ void ScanHead<EncoderTraits>::cast_single(const Beam& beam, const Moment& moment
   if (const auto measured = measure(beam, moment, *sighting)) put(*measured, beam.laser, column);
 }
 
-// The axis is measured as in single return, so that a dual-return drive differs by what it adds.
+// The axis is measured as in single return: a dual-return drive only adds second echoes.
 template <class EncoderTraits>
 void ScanHead<EncoderTraits>::cast_dual(const Beam& beam, const Moment& moment,
                                         std::span<Column> columns) const {

@@ -17,15 +17,15 @@
 
 namespace terracut::simulator {
 
-/// The world as one beam finds it.
+/// The world at the time of one beam.
 struct Moment {
   const ObjectIndex* objects = nullptr;
   double after_s = 0;  ///< Time since the objects' update().
   Eigen::Isometry3d T_world_lidar = Eigen::Isometry3d::Identity();
 };
 
-/// The sensor: casts the beams of a firing and writes down what they measure, in the units of the
-/// wire and through the inverse of the unit's calibration.
+/// The simulated sensor: casts the beams of a firing and returns their measurements in units of the
+/// wire, through the inverse of the unit's calibration.
 ///
 /// Immutable; any thread may cast.
 template <class EncoderTraits>
@@ -33,12 +33,12 @@ class ScanHead {
  public:
   using Column = SimulatedColumn<EncoderTraits>;
 
-  /// All three must outlive this.
+  /// All arguments must outlive this object.
   ScanHead(const SimulationConfig<EncoderTraits>& config, const world::Terrain& terrain,
            const drive::FiringPlan<EncoderTraits>& plan);
 
-  /// `moments` by frame of the beam, even and odd: they differ when the world stands still during
-  /// each frame. Fills in everything of `columns`, one for each return of a firing.
+  /// `moments` are for even and odd frames of the beams: they differ if the world stands still
+  /// during each frame. Fills in all fields of `columns`, one for each return of a firing.
   void cast(const drive::Firing& firing, const std::array<Moment, 2>& moments,
             std::span<Column> columns) const;
 
@@ -50,7 +50,7 @@ class ScanHead {
     std::uint64_t ray_key = 0;
     Eigen::Vector3d origin, direction;  ///< In the sensor's frame.
   };
-  /// What a beam found in one direction.
+  /// The surface that a beam meets in one direction.
   struct Sighting {
     world::Hit hit;
     Echo echo;
@@ -66,10 +66,10 @@ class ScanHead {
   [[nodiscard]] std::optional<Sighting> echo_of(const world::SightLine& line,
                                                 const std::optional<world::Hit>& hit,
                                                 std::uint64_t ray_key, double share) const;
-  /// Where the echo ends up on the wire. The sensor takes all light to come along the beam's axis.
+  /// Returns the echo on the wire. The sensor takes all light as coming along the beam's axis.
   [[nodiscard]] std::optional<Measured> measure(const Beam& beam, const Moment& moment,
                                                 const Sighting& sighting) const;
-  /// As measured, but for the bend of the beam: only the depth counts.
+  /// As measure(), without the beam's bend: only the depth counts.
   [[nodiscard]] std::optional<Measured> measure_along(const Beam& beam, const Sighting& sighting,
                                                       const Eigen::Vector3d& normal) const;
   void cast_single(const Beam& beam, const Moment& moment, Column& column) const;

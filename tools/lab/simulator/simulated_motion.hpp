@@ -10,15 +10,15 @@
 
 namespace terracut::simulator {
 
-/// T_world_vehicle of the sensor's vehicle, which drives along the road and stands on it with four
-/// wheels, at a time since the start of the drive (negative times are before it).
+/// Returns T_world_vehicle of the sensor's vehicle, which drives along the road on four wheels, at
+/// a time since the start of the drive (which may be negative).
 [[nodiscard]] Eigen::Isometry3d ego_pose(const scenes::Scene& scene, double time_s);
 
-/// What the vehicle's own sensors say at that time; no stamp. The point that does not slip sideways
-/// is the one below the sensor.
+/// Returns the readings of the vehicle's own sensors at that time; no stamp. The point without
+/// sideways slip is the one below the sensor.
 [[nodiscard]] vehicle::MotionSample ego_motion(const scenes::Scene& scene, double time_s);
 
-/// mount::T_vehicle_lidar() as a transform of this room.
+/// Returns mount::T_vehicle_lidar() as an Eigen transform.
 [[nodiscard]] Eigen::Isometry3d mount_pose(const mount::Mount& mount);
 
 }  // namespace terracut::simulator

@@ -7,7 +7,7 @@
 
 namespace terracut::world {
 
-/// Height of a road along its way, as road builders draw it: the grade (rise per metre) is given at
+/// The height of a road along its length, as in road design: the grade (rise per metre) is given at
 /// knots and linear between them, so heights are smooth parabolas; constant grade beyond the ends.
 class GradeProfile {
  public:
@@ -16,16 +16,16 @@ class GradeProfile {
     double grade = 0;
   };
 
-  /// Level everywhere.
+  /// Makes a road that is level everywhere.
   GradeProfile() = default;
   /// Knots in ascending order of s_m; none means level. The height is 0 at s = 0.
   explicit GradeProfile(std::span<const Knot> knots);
 
   [[nodiscard]] double height_m(double s_m) const noexcept;
   [[nodiscard]] double grade(double s_m) const noexcept;
-  /// The steepest grade, up or down.
+  /// Returns the steepest grade, up or down.
   [[nodiscard]] double steepest() const noexcept;
-  /// The greatest change of grade in a metre.
+  /// Returns the greatest change of grade per metre.
   [[nodiscard]] double sharpest_bend_per_m() const noexcept;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace terracut::world {
 
-/// What a simulated surface truly is: class numbers of SemanticKITTI, as in its label files.
+/// The true class of a simulated surface: a class number of SemanticKITTI, as in label files.
 enum class Truth : std::uint32_t {
   kCar = 10,
   kTruck = 18,
@@ -14,7 +14,7 @@ enum class Truth : std::uint32_t {
   kBicyclist = 31,
   kRoad = 40,
   kParking = 44,
-  kSidewalk = 48,  ///< The face of a kerb too.
+  kSidewalk = 48,  ///< Also the face of a kerb.
   kOtherGround = 49,
   kBuilding = 50,
   kFence = 51,
@@ -24,13 +24,13 @@ enum class Truth : std::uint32_t {
   kPole = 80,
 };
 
-/// The classes that are ground.
+/// True for the classes of ground.
 [[nodiscard]] constexpr bool is_ground(Truth truth) noexcept {
   return truth == Truth::kRoad || truth == Truth::kParking || truth == Truth::kSidewalk ||
          truth == Truth::kOtherGround || truth == Truth::kTerrain;
 }
 
-/// What a surface is made of, as far as light is concerned.
+/// The optical material of a surface.
 enum class Material : std::uint8_t {
   kAsphalt,
   kRoadPaint,
@@ -52,11 +52,9 @@ enum class Material : std::uint8_t {
 };
 
 struct MaterialProperties {
-  double reflectivity =
-      0;  ///< Share of light sent back at normal incidence, > 1 for retro-reflectors.
-  double roughness_m =
-      0;  ///< Standard deviation of depth inside the spot (blades of grass, gravel).
-  double drop_share = 0;  ///< Returns lost whatever the distance: light thrown elsewhere by gloss.
+  double reflectivity = 0;  ///< Share of light returned at normal incidence; > 1: retro-reflector.
+  double roughness_m = 0;   ///< Standard deviation of depth in the spot (grass, gravel).
+  double drop_share = 0;  ///< Share of returns lost at any distance: light reflected away by gloss.
 };
 
 [[nodiscard]] MaterialProperties properties(Material material) noexcept;

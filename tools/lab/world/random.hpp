@@ -17,21 +17,21 @@ namespace terracut::world {
   return bits ^ (bits >> 31);
 }
 
-/// One key out of two, sensitive to their order.
+/// Combines two keys into one that depends on their order.
 [[nodiscard]] constexpr std::uint64_t mix_keys(std::uint64_t a, std::uint64_t b) noexcept {
   return scramble(scramble(a) ^ (b * 0xD6E8FEB86659FD93U + 0x2545F4914F6CDD1DU));
 }
 
-/// [0, 1) from scrambled bits.
+/// Returns a number in [0, 1) from scrambled bits.
 [[nodiscard]] constexpr double unit_interval(std::uint64_t bits) noexcept {
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
 /// Seeded random numbers, the same on every platform (the distributions of <random> are not).
 ///
-/// Made anew from a key for each object or ray, so that no number depends on how many were drawn
-/// elsewhere: adding an object or a thread changes nothing else. Draw at most once in a function
-/// call's arguments: compilers evaluate those in different orders.
+/// Constructed from a key for each object or ray, so that no number depends on draws elsewhere:
+/// adding an object or a thread changes nothing else. Draw at most once among a call's arguments,
+/// whose order of evaluation differs between compilers.
 class Random {
  public:
   explicit constexpr Random(std::uint64_t key) noexcept : key_(scramble(key)) {}
@@ -39,18 +39,18 @@ class Random {
   [[nodiscard]] constexpr std::uint64_t bits() noexcept {
     return scramble(key_ ^ scramble(count_++));
   }
-  /// [0, 1)
+  /// Returns a number in [0, 1).
   [[nodiscard]] constexpr double unit() noexcept { return unit_interval(bits()); }
-  /// [low, high)
+  /// Returns a number in [low, high).
   [[nodiscard]] constexpr double uniform(double low, double high) noexcept {
     return low + (high - low) * unit();
   }
   [[nodiscard]] constexpr bool chance(double probability) noexcept { return unit() < probability; }
-  /// 0 .. count - 1
+  /// Returns one of 0 .. count - 1.
   [[nodiscard]] constexpr int pick(int count) noexcept {
     return static_cast<int>(unit() * static_cast<double>(count));
   }
-  /// Mean 0, standard deviation 1 (Box and Muller).
+  /// Returns a normal variable with mean 0, standard deviation 1 (Box and Muller).
   [[nodiscard]] double normal() noexcept {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - unit()));
     return radius * std::cos(2.0 * std::numbers::pi * unit());

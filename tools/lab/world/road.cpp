@@ -23,7 +23,7 @@ double Road::heading_rad(double s_m) const noexcept {
 }
 
 // The distance from the centre line is taken at the same s: exact on straights and near the line,
-// and close enough on the gentle bends meant here; what counts is that both ways agree.
+// close enough on gentle bends; both directions of conversion agree.
 Road::Location Road::locate(double x_m, double y_m) const noexcept {
   if (bend_m == 0) return {{x_m, y_m}, 0};
   const double wave = 2.0 * std::numbers::pi / bend_length_m;

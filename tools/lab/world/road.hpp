@@ -10,14 +10,14 @@
 namespace terracut::world {
 
 /// A place along and beside the road. s is the world's x; d is the distance from the centre line,
-/// left of it positive.
+/// positive to the left.
 struct RoadPoint {
   double s_m = 0, d_m = 0;
 };
 
 /// One band of ground that runs along the road. Bands follow each other outwards from the centre.
 struct Strip {
-  double width_m = 0;  ///< > 0.3; the last one of a side goes on for ever, whatever stands here.
+  double width_m = 0;  ///< > 0.3; ignored for the last of a side, which is endless.
   double step_m = 0;   ///< Vertical face at the inner edge: a kerb when positive.
   double slope = 0;    ///< Rise per metre outwards.
   double bumps_m = 0;  ///< Greatest height of smooth random bumps.
@@ -25,35 +25,35 @@ struct Strip {
   Material material = Material::kAsphalt;
 };
 
-/// Everything on one side of the centre line.
+/// All strips on one side of the centre line.
 struct RoadSide {
   std::vector<Strip> strips;   ///< At least one.
   double dropped_every_m = 0;  ///< Distance between dropped kerbs; 0 = none.
   double dropped_at_m = 0;     ///< s of one of them.
-  double dropped_share = 1;    ///< What is left of the steps there.
+  double dropped_share = 1;    ///< Height of the steps there, as a share.
 };
 
-/// The shape of a road: where it goes in plan, how it climbs, what lies beside it.
+/// The shape of a road: its plan, its grade, and the strips beside it.
 struct Road {
-  double bend_m = 0;           ///< Half the sideways swing of the bends; 0 = straight.
-  double bend_length_m = 400;  ///< From one bend to the next of the same hand.
+  double bend_m = 0;           ///< Half the lateral amplitude of the bends; 0 = straight.
+  double bend_length_m = 400;  ///< Distance between bends of the same hand.
   GradeProfile grade;
   RoadSide left, right;
   double lane_mark_d_m = -1;  ///< Dashed paint at this |d|; < 0 = none.
 
-  /// The centre line's y at s, and its slope there.
+  /// Return the centre line's y at s, and its slope there.
   [[nodiscard]] double centre_y_m(double s_m) const noexcept;
   [[nodiscard]] double centre_slope(double s_m) const noexcept;
-  /// The road's direction at s, from the x axis to the left.
+  /// Returns the road's direction at s, from the x axis to the left.
   [[nodiscard]] double heading_rad(double s_m) const noexcept;
 
-  /// Where a place of the world is on the road, and the centre line's slope at its s.
+  /// The place of a world position on the road, and the centre line's slope at its s.
   struct Location {
     RoadPoint place;
     double centre_slope = 0;
   };
   [[nodiscard]] Location locate(double x_m, double y_m) const noexcept;
-  /// The world's y of a place; its x is s.
+  /// Returns the world's y of a place; its x is s.
   [[nodiscard]] double y_m(const RoadPoint& place) const noexcept;
 };
 

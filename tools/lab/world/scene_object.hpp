@@ -13,7 +13,7 @@
 
 namespace terracut::world {
 
-/// How an object meets the ground.
+/// The pose of an object on the ground.
 enum class Stance : std::uint8_t {
   kUpright,   ///< z straight up, origin on the ground: people, trees, poles, buildings.
   kOnWheels,  ///< Follows the slope of the ground below its base.
@@ -25,12 +25,12 @@ struct SceneObject {
   Stance stance = Stance::kUpright;
   double half_base_m = 1.0;  ///< Half the wheel base and track; for kOnWheels only.
   double half_track_m = 0.5;
-  RoadPoint place;         ///< At time 0, or where it waits for moves_from_s.
-  std::uint64_t key = 0;   ///< Its own random numbers (which leaf is hit).
+  RoadPoint place;         ///< At time 0, or until moves_from_s.
+  std::uint64_t key = 0;   ///< Key of its random numbers (which leaf is hit).
   double heading_rad = 0;  ///< From the road's direction at its place to the left.
   double along_mps = 0;    ///< Speed along the road and to its left, while it moves.
   double across_mps = 0;
-  double moves_from_s = -std::numeric_limits<double>::infinity();  ///< Stands before and after.
+  double moves_from_s = -std::numeric_limits<double>::infinity();  ///< Still before and after.
   double moves_until_s = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool moves() const noexcept { return along_mps != 0 || across_mps != 0; }
@@ -44,7 +44,7 @@ struct BoundingSphere {
 
 [[nodiscard]] BoundingSphere bounding_sphere(const SceneObject& object);
 
-/// T_world_object at a time since the start of the drive.
+/// Returns T_world_object at a time since the start of the drive.
 [[nodiscard]] Eigen::Isometry3d pose_at(const SceneObject& object, const Terrain& terrain,
                                         double time_s);
 

@@ -6,14 +6,14 @@
 
 namespace terracut::world {
 
-/// What a shape is and is made of.
+/// The material and class of a shape.
 struct Substance {
   Truth truth = Truth::kBuilding;
   Material material = Material::kFacade;
   double density_per_m = 0;  ///< As in Shape.
 };
 
-/// Shapes by their bottom, which is how they are thought of: `bottom` is the middle of the foot.
+/// Make shapes by their bottom: `bottom` is the middle of the foot.
 [[nodiscard]] inline Shape box(const Eigen::Vector3d& bottom, const Eigen::Vector3d& size,
                                const Substance& substance) {
   Shape shape;
@@ -40,7 +40,7 @@ struct Substance {
   return shape;
 }
 
-/// Frames around an axle along y; stands on `bottom`.
+/// Makes a wheel with its axle along y; stands on `bottom`.
 [[nodiscard]] inline Shape wheel(const Eigen::Vector3d& bottom, double radius_m, double width_m,
                                  const Substance& substance) {
   Shape shape = box(bottom, {2 * radius_m, width_m, 2 * radius_m}, substance);

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/// Cuts a chord down to one side of a plane; false when nothing is left.
+/// Clips a chord to one side of a plane; false if nothing is left.
 bool clip(Chord& chord, const Vector3d& from, const Vector3d& direction, const Vector3d& normal,
           double plane) noexcept {
   const double closing = normal.dot(direction);
@@ -34,7 +34,7 @@ std::optional<Chord> clip_box(const Shape& shape, const Vector3d& from,
   Chord chord{-kForever, kForever, Vector3d::UnitZ()};
   const Vector3d& half = shape.half;
   const double height = 2 * half.z();
-  // A face that leans inwards by `inset` over the height; its foot stands at `half`.
+  // A face that leans inwards by `inset` over the height; its foot is at `half`.
   const auto leaning = [&](const Vector3d& outwards, double foot, double inset) {
     const Vector3d normal = height * outwards + inset * Vector3d::UnitZ();
     return clip(chord, from, direction, normal, height * foot - inset * half.z());
@@ -51,7 +51,7 @@ std::optional<Chord> clip_box(const Shape& shape, const Vector3d& from,
   return chord;
 }
 
-/// A circle around the axis number `axis`, cut off at both ends.
+/// Clips to a cylinder around axis number `axis`, with flat ends.
 std::optional<Chord> clip_cylinder(const Shape& shape, const Vector3d& from,
                                    const Vector3d& direction, int axis) noexcept {
   const Vector3d along = Vector3d::Unit(axis);

@@ -22,21 +22,21 @@ struct Shape {
   ShapeKind kind = ShapeKind::kBox;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Vector3d half = Eigen::Vector3d::Ones();  ///< Half its size along x, y, z.
-  /// Boxes: how much the top draws back from the bottom at the front, the rear and both sides.
+  /// Boxes: insets of the top from the bottom at the front, the rear and both sides.
   double front_inset_m = 0, rear_inset_m = 0, side_inset_m = 0;
   Truth truth = Truth::kBuilding;
   Material material = Material::kFacade;
-  /// Mean number of leaves or wires met in a metre; 0 = solid.
+  /// Mean number of leaves or wires met per metre; 0 = solid.
   double density_per_m = 0;
 };
 
-/// Where a line runs inside a shape.
+/// The part of a line inside a shape.
 struct Chord {
-  double in_m = 0, out_m = 0;  ///< Ways along the line; in_m may be negative (line starts inside).
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Outward where it enters, length 1.
+  double in_m = 0, out_m = 0;  ///< Along the line; in_m may be negative (line starts inside).
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Outward normal at the entry, length 1.
 };
 
-/// `line` in the object's frame; nothing when it misses.
+/// Intersects `line`, in the object's frame; nothing if it misses.
 [[nodiscard]] std::optional<Chord> intersect(const Shape& shape, const SightLine& line) noexcept;
 
 }  // namespace terracut::world

@@ -12,8 +12,8 @@
 
 namespace terracut::world {
 
-/// The ground of the simulated world: one height for every place, smooth but for the vertical faces
-/// between strips (kerbs). World frame: x along the road at s = 0, y left, z up, metres.
+/// The ground of the simulated world: one height for every place, smooth except for the vertical
+/// faces between strips (kerbs). World frame: x along the road at s = 0, y left, z up, metres.
 ///
 /// Immutable; any thread may ask.
 class Terrain {
@@ -25,13 +25,13 @@ class Terrain {
   [[nodiscard]] double height_m(double x_m, double y_m) const noexcept;
   [[nodiscard]] const Strip& strip(double x_m, double y_m) const noexcept;
 
-  /// First meeting of a line of sight with the ground within `limit_m` of its origin, which must be
-  /// above the ground; nothing when there is none. Exact to a micrometre on smooth ground; bumps
-  /// that the line would touch for less than a few centimetres may be missed.
+  /// Returns the first intersection of a line of sight with the ground within `limit_m` of its
+  /// origin, which must be above the ground; nothing if there is none. Exact to a micrometre on
+  /// smooth ground; a bump that the line touches for less than a few centimetres may be missed.
   [[nodiscard]] std::optional<Hit> cast(const SightLine& line, double limit_m) const noexcept;
 
  private:
-  /// Which band of which side a place is in.
+  /// The band and side of a place.
   struct Zone {
     const CrossSection* side = nullptr;
     const CrossSection::Band* band = nullptr;
@@ -52,7 +52,7 @@ class Terrain {
     return spot(at.x(), at.y(), at.z());
   }
   [[nodiscard]] Zone zone(const Spot& spot) const noexcept;
-  /// The height that the zone's band would have here.
+  /// Returns the height that the zone's band would have here.
   [[nodiscard]] double height_m(const Zone& zone, const Spot& spot) const noexcept;
   [[nodiscard]] double clearance_m(const Zone& zone, const Spot& spot) const noexcept {
     return spot.z_m - height_m(zone, spot);
@@ -79,8 +79,8 @@ class Terrain {
   double highest_step_m_;
 };
 
-/// How something with four wheels or a long base stands on the ground: origin on the ground in the
-/// middle, x along its heading, z away from the ground.
+/// Returns the pose of an object with four wheels or a long base on the ground: origin on the
+/// ground in the middle, x along its heading, z away from the ground.
 [[nodiscard]] Eigen::Isometry3d stand_on(const Terrain& terrain, double x_m, double y_m,
                                          double heading_rad, double half_base_m,
                                          double half_track_m);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// How a line of sight finds the ground: it steps ahead by as much as the slope of the ground below
-// allows, but never over the edge of a strip, where a kerb may stand.
+// Casts a line of sight at the ground: it steps as far as the slope of the ground below allows, but
+// never over the edge of a strip, where a kerb may stand.
 #include <algorithm>
 #include <cmath>
 
@@ -13,13 +13,13 @@ namespace {
 constexpr double kShortestStep_m = 0.04;
 constexpr double kPastEdge_m =
     0.02;  // How far a step goes beyond an edge, to be in the next strip.
-constexpr double kLongestStep_m = 8.0;  // On bends the way to an edge is only known near by.
+constexpr double kLongestStep_m = 8.0;  // On bends the way to an edge is only known nearby.
 constexpr double kEdgePrecision_m = 1e-6;
 constexpr double kBendInPlan = 0.005;  // Slope that appears as the road bends away below a step.
 
 }  // namespace
 
-/// How fast a line's distance from the centre line grows.
+/// Returns the rate at which a line's distance from the centre line grows.
 double Terrain::outwards(const Zone& zone, const SightLine& line, const Spot& spot) const noexcept {
   const double slope = spot.road.centre_slope;
   return (zone.side == &left_ ? 1.0 : -1.0) * (line.direction.y() - slope * line.direction.x()) /
@@ -47,8 +47,8 @@ double Terrain::safe_step_m(const Zone& zone, const SightLine& line, const Spot&
   return std::max(step_m, kPastEdge_m);
 }
 
-// The distance from the centre line is all but linear along a line, so the secant finds the edge in
-// a few rounds. Should it stop short of it, the next step goes on from there.
+// The distance from the centre line is nearly linear along a line, so the secant method finds the
+// edge in a few rounds. If it stops short of it, the next step continues from there.
 double Terrain::way_of_edge_m(const Zone& here, const SightLine& line, double inside_m,
                               double outside_m) const noexcept {
   const double side = here.side == &left_ ? 1.0 : -1.0;

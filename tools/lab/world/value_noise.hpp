@@ -9,8 +9,8 @@
 
 namespace terracut::world {
 
-/// Smooth random heights over the plane in [-1, 1]: random values on a grid of 1 x 1, blended
-/// between by the cubic smoothstep. Slope per axis at most 3.
+/// Returns smooth random heights over the plane in [-1, 1]: random values on a grid of 1 x 1,
+/// interpolated by the cubic smoothstep. Slope per axis at most 3.
 [[nodiscard]] inline double value_noise(std::uint64_t seed, double x, double y) noexcept {
   const double column = std::floor(x);
   const double row = std::floor(y);

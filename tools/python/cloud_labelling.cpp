@@ -25,7 +25,7 @@ std::string shape_of(const py::array& array) {
   return text_of(array.attr("shape"));
 }
 
-/// As it lies in memory, but without gaps: strides of any kind are copied away.
+/// Returns an array without gaps: strides of any kind are copied.
 py::array contiguous(const py::array& array) {
   return py::module_::import("numpy").attr("ascontiguousarray")(array);
 }
@@ -58,12 +58,12 @@ std::optional<FieldType> field_type(const py::dtype& type) {
   return std::nullopt;
 }
 
-/// The cloud that an array is, and the array that holds its points.
+/// The cloud of an array, with the array that holds its points.
 struct ArrayCloud {
   py::array array;
   std::vector<std::string> names;
   std::vector<PointField> fields;
-  std::vector<py::ssize_t> shape;  ///< Of the labels.
+  std::vector<py::ssize_t> shape;  ///< Shape of the label array.
   std::size_t point_step = 0;
 
   [[nodiscard]] std::size_t points() const {
@@ -150,7 +150,7 @@ std::vector<std::uint16_t> lasers_of(const py::object& laser, const ArrayCloud& 
   return lasers;
 }
 
-/// The points with their lasers, which no field of theirs has to name.
+/// Returns the points with their lasers, which need not be a field of theirs.
 Cloud cloud_with_lasers(const ArrayCloud& cloud, const std::vector<std::uint16_t>& lasers,
                         std::vector<CloudPoint>& points) {
   points.resize(cloud.points());

@@ -15,14 +15,14 @@ class CloudLabelling {
  public:
   explicit CloudLabelling(const Segmenter::Config& config);
 
-  /// `points`: (N, 3 or more) or, organised, (rows, columns, 3 or more) of float32 or float64, x y
-  /// z first; or an array of records with fields x, y, z and, where there is one, ring. `laser`:
-  /// None, or a number 0..255 a point. One label a point, a class of SemanticKITTI, in an array of
-  /// its own.
+  /// `points` are (N, 3 or more) or, organised, (rows, columns, 3 or more) of float32 or float64, x
+  /// y z first; or an array of records with fields x, y, z and optionally ring. `laser` is None, or
+  /// a number 0..255 per point. Returns one label per point, a class of SemanticKITTI, in an array
+  /// of its own.
   [[nodiscard]] pybind11::array_t<std::uint8_t> label(const pybind11::object& points,
                                                       const pybind11::object& laser);
-  /// height_m, roll_deg, pitch_deg, their uncertainty and found_in_frames; None where no mount was
-  /// looked for or found.
+  /// Returns height_m, roll_deg, pitch_deg, their uncertainty and found_in_frames; None if no mount
+  /// was looked for or found.
   [[nodiscard]] pybind11::object found_mount();
 
  private:

@@ -16,11 +16,11 @@ namespace terracut::python {
 /// One labelled frame, whose numpy arrays are views of `points` and keep it alive.
 struct FrameData {
   frame::FrameInfo info;
-  std::optional<status::FrameRecord> record;  ///< None: of a live run.
+  std::optional<status::FrameRecord> record;  ///< None for a live run.
   std::vector<stream::WirePoint> points;
 };
 
-/// Frames whose memory is used again once Python has dropped the last array that looks at it.
+/// Frames whose memory is reused once Python has dropped the last array that refers to it.
 using FrameBuffers = memory::UsedAgain<FrameData>;
 
 void bind_frame(pybind11::module_& module);

@@ -10,7 +10,7 @@
 
 namespace terracut::python {
 
-/// Dictionaries and lists as a program reads them from the report's file.
+/// Returns dictionaries and lists, as parsed from the report's file.
 [[nodiscard]] inline pybind11::object json_object(const nlohmann::ordered_json& json) {
   return pybind11::module_::import("json").attr("loads")(cli::json_text(json));
 }

@@ -16,7 +16,7 @@ namespace terracut::python {
 namespace py = pybind11;
 namespace {
 
-/// Whether a signal waits whose handler raises an exception, which is then pending.
+/// True if a signal is pending whose handler raised an exception, which is then set.
 bool is_interrupted() {
   const py::gil_scoped_acquire locked;
   return PyErr_Occurred() != nullptr || PyErr_CheckSignals() != 0;

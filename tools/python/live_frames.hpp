@@ -19,17 +19,17 @@
 
 namespace terracut::python {
 
-/// A live sensor's frames for a loop in Python. The run has threads of its own, which hold no lock
-/// of the interpreter's; a loop that is too slow misses the oldest of the frames that wait for it,
-/// which is counted.
+/// A live sensor's frames for a loop in Python. The run has threads of its own, which never hold
+/// the interpreter's lock; if the loop is too slow, the oldest waiting frames are dropped and
+/// counted.
 class LiveFrames {
  public:
-  /// `words`: a command line of `terracut live`. Returns when the sensor is heard; Ctrl-C ends the
-  /// wait.
+  /// `words` is a command line of `terracut live`. Returns when the sensor is heard; Ctrl-C ends
+  /// the wait.
   explicit LiveFrames(const std::vector<std::string>& words);
   ~LiveFrames();
 
-  /// Waits for the next one; null when the run is over.
+  /// Waits for the next frame; null when the run is over.
   [[nodiscard]] std::shared_ptr<FrameData> next();
   void stop();
 
@@ -51,7 +51,7 @@ class LiveFrames {
   std::atomic<bool> stop_{false};
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::shared_ptr<FrameData>> waiting_;  ///< Guarded by mutex_, as what follows.
+  std::deque<std::shared_ptr<FrameData>> waiting_;  ///< Guarded by mutex_, with the following.
   LiveRun::Figures figures_;
   std::string refusals_;
   std::uint64_t left_out_ = 0;

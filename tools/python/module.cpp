@@ -17,7 +17,7 @@ namespace py = pybind11;
 namespace terracut::python {
 namespace {
 
-/// As `terracut parameters` prints them, with the default of the terracut profile.
+/// Returns the rows of `terracut parameters`, with the defaults of the terracut profile.
 py::list parameters() {
   const ground::SegmenterConfig defaults = ground::terracut_profile();
   py::list all;

@@ -9,10 +9,10 @@
 #include "rt/error.hpp"
 #include "tools/cli/console.hpp"
 
-/// How what C++ says reaches Python.
+/// Passes errors and messages of C++ to Python.
 namespace terracut::python {
 
-/// Raises the exception of terracut/errors.py that stands for it.
+/// Raises the exception of terracut/errors.py for it.
 [[noreturn]] void raise(const Error& error);
 
 template <class T>
@@ -21,11 +21,11 @@ template <class T>
   return *std::move(expected);
 }
 
-/// Warnings become Python's, what is said goes to the logger "terracut". Throws what is pending: a
-/// signal's exception, or a warning that Python was told to raise.
+/// Turns warnings into Python's and logs other lines to the logger "terracut". Throws a pending
+/// exception: a signal's, or of a warning that Python was told to raise.
 void tell(const cli::HeardLines& lines);
 
-/// Does `work` while other threads of the interpreter run.
+/// Runs `work` while other threads of the interpreter run.
 template <class Work>
 auto without_the_lock(Work&& work) {
   cli::HeardLines lines;

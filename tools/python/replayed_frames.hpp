@@ -12,14 +12,14 @@
 
 namespace terracut::python {
 
-/// The frames of a capture, one after the other, as `terracut replay` labels them. Any thread of
-/// the interpreter, one at a time.
+/// The frames of a capture in order, labelled as by `terracut replay`. Any thread of the
+/// interpreter, one at a time.
 class ReplayedFrames {
  public:
-  /// `words`: a command line of `terracut replay`.
+  /// `words` is a command line of `terracut replay`.
   explicit ReplayedFrames(const std::vector<std::string>& words);
 
-  /// Null at the end.
+  /// Returns null at the end.
   [[nodiscard]] std::shared_ptr<FrameData> next();
   [[nodiscard]] nlohmann::ordered_json report();
 
@@ -32,7 +32,7 @@ class ReplayedFrames {
   std::mutex mutex_;
   std::unique_ptr<cli::LabelledCapture> capture_;
   FrameBuffers buffers_;
-  std::vector<points::LabelledPoint> labelled_;  ///< Of the frame at hand.
+  std::vector<points::LabelledPoint> labelled_;  ///< Points of the current frame.
   bool concluded_ = false;
 };
 

@@ -37,7 +37,7 @@ def _settings(of_method: Optional[Mapping[str, Any]]) -> list[str]:
 
 
 def _words(command: str, arguments: list[Path], options: dict[str, Any]) -> list[str]:
-    """As one would type it; what is None or False is left out."""
+    """Returns the typed words; options that are None or False are left out."""
     words = [command]
     for argument in arguments:
         path = os.fspath(argument)
@@ -83,10 +83,10 @@ def replay(
     deskew_to: Optional[str] = None,
     config: Optional[Path] = None,
 ) -> Replay:
-    """The labelled frames of a capture file, as `terracut replay` labels them.
+    """Returns the labelled frames of a capture file, as `terracut replay` labels them.
 
-    Every setting is the program's option of that name (`terracut replay --help`): angles are degrees, the mount is found
-    in the first frames where it is not stated. `sender` is --from, `parameters` are those of --set.
+    Every setting is the program's option of that name (`terracut replay --help`): angles are degrees, a mount that is
+    not stated is estimated from the first frames. `sender` is --from, `parameters` are those of --set.
     """
     return Replay(_words("replay", [capture], {
         "calibration": calibration, "sensor": sensor, "nominal_calibration": nominal_calibration, "columns": columns,
@@ -113,10 +113,10 @@ def live(
     segment_priority: Optional[int] = None,
     lock_memory: bool = True,
 ) -> Live:
-    """The labelled frames of a sensor that sends to `listen` (ADDRESS:PORT, or a port of any address).
+    """Returns the labelled frames of a sensor that sends to `listen` (ADDRESS:PORT, or a port of any address).
 
     Returns when the sensor is heard. Labels are made before the deadline (milliseconds) by threads that Python does not
-    hold up; where the loop is too slow, the oldest of four waiting frames is left out and counted in `figures()`.
+    delay; if the loop is too slow, the oldest of four waiting frames is dropped and counted in `figures()`.
     `with terracut.live() as frames:` ends the run with the block.
     """
     return Live(_words("live", [], {
@@ -130,9 +130,9 @@ def live(
 class Segmenter:
     """Labels clouds of one sensor, any spinning LiDAR with 8 to 256 lasers.
 
-    The first cloud decides what tells the lasers apart: `laser`, or a field `ring` of records, the rows of an organised
-    cloud, the order of KITTI's files, or elevations (docs/guide/clouds.md). `parameters`: as --set. `find_mount`: the near
-    ground of the first ten clouds says how the sensor stands; the stated mount is taken until it does.
+    The first cloud decides how points are assigned to lasers: by `laser`, a field `ring` of records, the rows of an
+    organised cloud, the order of KITTI's files, or elevations (docs/guide/clouds.md). `parameters` are those of --set.
+    `find_mount` estimates the mount from the near ground of the first ten clouds; until then the stated one is used.
     """
 
     def __init__(
@@ -155,14 +155,14 @@ class Segmenter:
         )
 
     def __call__(self, points: npt.ArrayLike, laser: Optional[npt.ArrayLike] = None) -> npt.NDArray[np.uint8]:
-        """A label for each of the (N, 3 or more) or (rows, columns, 3 or more) points, float32 or float64, in the
-        sensor's frame: x ahead, y left, z up, metres. Points that are no return (NaN, infinite, 0 0 0) get NONE."""
+        """Returns a label for each of the (N, 3 or more) or (rows, columns, 3 or more) points, float32 or float64, in
+        the sensor's frame: x ahead, y left, z up, metres. Points without a return (NaN, infinite, 0 0 0) get NONE."""
         return self._segmenter.label(points, laser)
 
     @property
     def found_mount(self) -> Optional[dict[str, Any]]:
-        """The mount of the last labels where it was found: height_m, roll_deg, pitch_deg, the same below `uncertainty`
-        (half of what holds the true figure in 95 of 100 cases), found_in_frames. None: not looked for, or not seen."""
+        """Returns the mount found for the last labels: height_m, roll_deg, pitch_deg, the same below `uncertainty`
+        (half of the 95 % interval), found_in_frames. None if not looked for, or not found."""
         return self._segmenter.found_mount
 
 

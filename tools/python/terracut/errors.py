@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""What terracut raises and warns of, in the program's words."""
+"""The exceptions and warnings of terracut, with the program's messages."""
 
 import logging
 import warnings
@@ -9,7 +9,7 @@ _log = logging.getLogger("terracut")
 
 
 class Error(Exception):
-    """What went wrong; `code` tells cases apart: "not_found", "malformed", "invalid_argument", ..."""
+    """A failure; `code` distinguishes cases: "not_found", "malformed", "invalid_argument", ..."""
 
     def __init__(self, code: str, message: str):
         super().__init__(message)
@@ -20,18 +20,18 @@ class Error(Exception):
 
 
 class InvalidArgument(Error, ValueError):
-    """A setting that there is not, or out of its range."""
+    """A setting that does not exist or is out of its range."""
 
 
 class NotFound(Error, FileNotFoundError):
-    """A file, folder or stream that was named does not exist."""
+    """A named file, folder or stream does not exist."""
 
     def __str__(self) -> str:
         return self.args[0]
 
 
 class TerracutWarning(UserWarning):
-    """What the program would warn of: a table of another unit, a mount that is a guess, a capture that breaks off."""
+    """A warning of the program: a table of another unit, a guessed mount, a capture that breaks off."""
 
 
 def of(code: str, message: str) -> Error:

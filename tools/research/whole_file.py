@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Files that are there whole or not at all, as the program writes its own (rt/files/whole_file.hpp)."""
+"""Writes files whole or not at all, like the program (rt/files/whole_file.hpp)."""
 
 
 def write_whole_file(path, text):
-    """Makes the folder where it is missing. Raises OSError; a file that was there before is left as it was then."""
+    """Makes a missing folder. Raises OSError; an existing file is then left unchanged."""
     path.parent.mkdir(parents=True, exist_ok=True)
     unfinished = path.with_name(path.name + ".part")
     try:

@@ -43,7 +43,7 @@ class BeliefPropagation {
 
   BeliefPropagation(const Shape& shape, memory::FixedMemory& memory);
 
-  /// The costs of a node's labels, to be filled before run(). Finite.
+  /// Returns the costs of a node's labels, to be filled before run(). Finite.
   [[nodiscard]] std::span<float> data_cost(int row, int column) noexcept {
     return data_cost_.subspan(node(row, column) * labels(), labels());
   }

@@ -42,8 +42,8 @@ void FixedGridElevationMap::label_cells(const frame::RangeImage& image,
   if (observer != nullptr) observer->stage_done(stage::Stage::kElevationMap);
 }
 
-/// Counting sort: counts the returns of each square, finds where each square ends, then puts every
-/// return in place.
+/// Sorts by counting: counts the returns of each square, finds where each square ends, then puts
+/// every return in place.
 void FixedGridElevationMap::sort_returns_into_squares(const frame::RangeImage& image) noexcept {
   std::fill(end_.begin(), end_.end(), 0U);
   frame::for_each_return(image, [this](const frame::PlacedReturn& placed) {

@@ -27,7 +27,7 @@ class FixedGridElevationMap final : public Baseline {
     float extent_m = 120.0F;         ///< Half the side of the map, [10, 250]; returns farther out
                                      ///< belong to its outermost squares.
     float sigma_m = 0.02F;           ///< Standard deviation of a height at range 0, (0, 1].
-    float sigma_per_metre = 0.001F;  ///< Its growth with range, [0, 0.1].
+    float sigma_per_metre = 0.001F;  ///< Growth of sigma_m with range, [0, 0.1].
     float vertical_sigma_m = 0.06F;  ///< Heights that vary more are not one level, (0, 5].
     float vehicle_height_m = 2.0F;   ///< The vehicle can drive through larger gaps, [0.1, 1e9].
     float obstacle_height_m = 0.2F;  ///< Obstacles are this far above the elevation, (0, 5].

@@ -28,7 +28,7 @@ class HeightFieldMrf final : public Baseline {
     float band_m = 1.0F;          ///< Width of its rings, [0.2, 20].
     float range_limit_m = 80.0F;  ///< Farther returns count to the last ring, [10, 250].
     int height_labels = 64;       ///< Number of heights to choose from, [2, 128].
-    float height_step_m = 0.1F;   ///< Their spacing, around the mount's plane; [0.01, 1].
+    float height_step_m = 0.1F;   ///< Spacing of these heights; [0.01, 1].
 
     float above_cost = 0.5F;   ///< Cost if all returns of a column are above, [0, 1000].
     float below_cost = 5.0F;   ///< Cost if all returns of a column are below, [0, 1000].
@@ -37,11 +37,11 @@ class HeightFieldMrf final : public Baseline {
     float hidden_cost = 2.0F;  ///< Cost of ground where a beam passed, [0, 1000].
 
     float step_cost_per_m = 10.0F;  ///< Cost of a difference beyond a slope, [0, 1000].
-    float step_cost_limit = 1.0F;   ///< Its upper limit, [0, 1000].
+    float step_cost_limit = 1.0F;   ///< Upper limit of that cost, [0, 1000].
     float max_slope = 0.15F;        ///< Slope without cost, m/m; [0, 2].
     int iterations = 20;            ///< [0, 1000]
 
-    float obstacle_height_m = 0.2F;  ///< Returns this far above the ground are obstacles, (0, 5].
+    float obstacle_height_m = 0.2F;  ///< Obstacles are this far above the ground, (0, 5].
   };
 
   /// Takes all memory. Uses only the mount's height of `profile`.

@@ -1,3 +1,3 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""What ./tools/compare says of two reports of `terracut eval`."""
+"""Compares two reports of `terracut eval` for ./tools/compare."""

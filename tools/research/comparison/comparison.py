@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""How measures changed from one evaluation to another, frame by frame."""
+"""Compares the measures of two evaluations, frame by frame."""
 
 from collections import defaultdict
 from dataclasses import asdict, dataclass
@@ -10,7 +10,7 @@ import numpy
 
 from comparison.paired_tests import PairedTest, sign_flip_test, signed_rank_test
 
-MEASURES = {"iou_g": True, "recall_o": True, "iou_road": True, "ms": False}  # whether more is better
+MEASURES = {"iou_g": True, "recall_o": True, "iou_road": True, "ms": False}  # true if more is better
 
 
 class Refused(Exception):
@@ -22,22 +22,22 @@ class Compared:
     """One side of a comparison."""
 
     report: dict  # of `terracut eval --json`
-    name: str  # of its file, for messages
+    name: str  # name of its file, for messages
     method: str
 
 
 @dataclass(frozen=True)
 class Change:
-    """Of one measure; means over the frames that both reports have."""
+    """The change of one measure; means over the frames of both reports."""
 
     before: float
     after: float
     frames: PairedTest  # signed-rank test over frames, after - before
-    # Sign-flip test over the means of sequences: frames that follow each other look alike, so that the test over frames
-    # finds too much. None below two sequences.
+    # Sign-flip test over the means of sequences: successive frames look alike, so the test over frames finds too much.
+    # None below two sequences.
     sequences: Optional[PairedTest]
-    # As eval prints it, the mean over sequences of all their points together; None where the reports are not of the same
-    # frames, and of times.
+    # As printed by eval, the mean over sequences of all their points together; None for times, and if the reports are
+    # not of the same frames.
     eval_before: Optional[float]
     eval_after: Optional[float]
 
@@ -56,7 +56,7 @@ def method_of(side):
 
 
 def frames_of(side):
-    """{(sequence, frame): {measure: number or None}}"""
+    """Returns {(sequence, frame): {measure: number or None}}."""
     listed = method_of(side).get("frames")
     if not isinstance(listed, list):
         raise no_report(side, f"its method '{side.method}' has no 'frames'")
@@ -78,7 +78,7 @@ def mean_of_eval(side, measure):
 
 
 def change_of(measure, before, after, pairs):
-    """pairs: [(sequence, frame before, frame after)]; before, after: what eval says of the whole."""
+    """pairs: [(sequence, frame before, frame after)]; before, after: eval's overall values."""
     measured = [(sequence, was[measure], now[measure]) for sequence, was, now in pairs if None not in (was[measure], now[measure])]
     by_sequence = defaultdict(list)
     for sequence, was, now in measured:
@@ -96,16 +96,16 @@ def change_of(measure, before, after, pairs):
 
 @dataclass(frozen=True)
 class Comparison:
-    before: str  # what was compared: "paper of A.json"
+    before: str  # names, such as "paper of A.json"
     after: str
-    frames: int  # in both
+    frames: int  # number in both
     only_before: int
     only_after: int
     measures: dict  # {measure: Change}
 
     def worse(self, significance):
-        """The measures that got worse, and not by chance, by the test over frames. Never of times: those of two runs on a
-        shared machine differ without anybody's doing."""
+        """Returns the measures that got significantly worse by the test over frames. Never times: those of two runs
+        on a shared machine differ by themselves."""
         return [
             measure
             for measure, change in self.measures.items()
@@ -117,7 +117,7 @@ class Comparison:
 
 
 def compare(before, after):
-    """Two methods over the frames that both reports have; each a Compared."""
+    """Compares two methods over the frames of both reports; each is a Compared."""
     was, now = frames_of(before), frames_of(after)
     both = sorted(was.keys() & now.keys())
     if not both:
@@ -133,7 +133,7 @@ def compare(before, after):
 
 
 def text(comparison, significance):
-    """For people: one line a measure, and what got worse at that significance."""
+    """Returns text for people: one line per measure, and the significantly worse ones."""
 
     def line(measure, before, after):
         unit = 1 if measure == "ms" else 100  # shares as percent

@@ -10,7 +10,7 @@ from pathlib import Path
 from comparison.comparison import Compared, Refused, compare, text
 from whole_file import write_whole_file
 
-# Those that the program has (tools/cli/exit_codes.hpp) mean the same there.
+# The codes of the program (tools/cli/exit_codes.hpp) mean the same.
 DONE, INPUT_REFUSED, OUTPUT_FAILED, GOT_WORSE = 0, 3, 4, 8
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""What paired differences say together."""
+"""Significance tests of paired differences."""
 
 import warnings
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ import numpy
 from scipy import stats
 
 MOST_EXACT_PAIRS = 25
-MOST_RESAMPLES = 2**16  # all the ways of up to 16 differences; of more, as many at random
+MOST_RESAMPLES = 2**16  # all sign patterns of up to 16 differences; for more, as many random ones
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class PairedTest:
     greater: int  # differences above 0
     less: int
     mean: float
-    p: float  # two-sided: how likely so much is where there is no difference
+    p: float  # two-sided: probability of such a difference by chance
 
 
 def test_of(differences, p):
@@ -28,21 +28,21 @@ def test_of(differences, p):
 
 def signed_rank_test(differences):
     """Wilcoxon's signed-rank test (1945): zeros are left out, ties share their mean rank. The distribution is exact for
-    few pairs without ties, else the normal approximation with correction for ties and continuity."""
+    few pairs without ties, otherwise the normal approximation with correction for ties and continuity."""
     differences = numpy.asarray(differences, dtype=float)
     some = differences[differences != 0]
     if len(some) == 0:
         return test_of(differences, 1)
     exact = len(some) <= MOST_EXACT_PAIRS and len(numpy.unique(abs(some))) == len(some)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # that few pairs with ties have nothing but the approximation
-        # By position: SciPy 1.9 gave the last one another name.
+        warnings.simplefilter("ignore")  # no warning that few pairs with ties have only the approximation
+        # By position: SciPy 1.9 renamed the last parameter.
         _, p = stats.wilcoxon(some, None, "wilcox", True, "two-sided", "exact" if exact else "approx")
     return test_of(differences, p)
 
 
 def sign_flip_test(differences):
-    """Sign-flip test of the mean (Fisher 1935): how many of the ways to give the differences signs lead to as large a mean."""
+    """Sign-flip test of the mean (Fisher 1935): the share of sign patterns that lead to as large a mean."""
     differences = numpy.asarray(differences, dtype=float)
     tried = stats.permutation_test(
         (differences,), numpy.mean, permutation_type="samples", n_resamples=MOST_RESAMPLES, random_state=0

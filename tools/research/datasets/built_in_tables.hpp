@@ -9,7 +9,7 @@
 
 namespace terracut::datasets {
 
-/// A class table that comes with the program.
+/// A class table built into the program.
 struct BuiltInTable {
   std::string_view dataset;  ///< "semantickitti"
   std::string_view yaml;
@@ -17,7 +17,7 @@ struct BuiltInTable {
 
 [[nodiscard]] const std::vector<BuiltInTable>& built_in_tables();
 
-/// The table of such a dataset. kInvalidArgument, naming those there are, for any other name.
+/// Returns the table of a dataset. kInvalidArgument, naming the existing ones, for any other name.
 [[nodiscard]] Expected<ClassTable> built_in_table(std::string_view dataset);
 
 }  // namespace terracut::datasets

@@ -16,25 +16,25 @@
 
 namespace terracut::datasets {
 
-/// What counts as ground. Both are always reported, because they are not comparable.
+/// The definitions of ground. Both are always reported, because they are not comparable.
 enum class GroundDefinition : std::uint8_t {
   kAll,   ///< Every physical ground.
-  kRoad,  ///< The road alone: what the paper's figures imply.
+  kRoad,  ///< The road alone, as the paper's figures imply.
 };
 inline constexpr std::size_t kGroundDefinitions = 2;
 
-/// "all", "road"
+/// Returns "all" or "road".
 [[nodiscard]] constexpr std::string_view to_string(GroundDefinition definition) noexcept {
   return definition == GroundDefinition::kAll ? "all" : "road";
 }
 
-/// What points of a class count as.
+/// The role of a class's points.
 using Role = quality::TruthClass;
 
 struct ClassEntry {
   std::uint16_t id = 0;  ///< In label files.
   std::string name;
-  std::array<Role, kGroundDefinitions> roles{};  ///< By GroundDefinition.
+  std::array<Role, kGroundDefinitions> roles{};  ///< Indexed by GroundDefinition.
   bool vegetation = false;
 
   [[nodiscard]] Role role(GroundDefinition definition) const noexcept {
@@ -42,26 +42,26 @@ struct ClassEntry {
   }
 };
 
-/// A dataset's files, its classes and what they count as: a file users can copy and edit
-/// (tools/research/datasets/semantickitti_classes.yaml says how it is written).
+/// A dataset's files, its classes and their roles: a file that users can copy and edit (format:
+/// tools/research/datasets/semantickitti_classes.yaml).
 class ClassTable {
  public:
   /// `name` stands for the text in messages. kMalformed, with the line: no list `classes`, an
-  /// unknown key or role, an id out of [0, 65535] or twice, or a layout that is none.
+  /// unknown key or role, an id out of [0, 65535] or repeated, or an invalid layout.
   [[nodiscard]] static Expected<ClassTable> parse(std::string_view text, const std::string& name);
   [[nodiscard]] static Expected<ClassTable> read(const std::filesystem::path& path);
 
-  /// None where the table has classes alone.
+  /// Returns none if the table has only classes.
   [[nodiscard]] const std::optional<CloudLayout>& layout() const noexcept { return layout_; }
-  /// What users of the dataset have to know; mostly empty.
+  /// Returns a note to users of the dataset; mostly empty.
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
-  /// Layout and note of `other`, unless it has a layout of its own.
+  /// Takes layout and note of `other`, unless this table has a layout.
   void take_layout(const ClassTable& other);
-  /// In order of their ids.
+  /// Returns the entries in order of ids.
   [[nodiscard]] const std::vector<ClassEntry>& entries() const noexcept { return entries_; }
-  /// Null for an id the table does not have.
+  /// Returns null for an unknown id.
   [[nodiscard]] const ClassEntry* find(std::uint16_t id) const noexcept;
-  /// kIgnored for an id the table does not have.
+  /// Returns kIgnored for an unknown id.
   [[nodiscard]] Role role(std::uint16_t id, GroundDefinition definition) const noexcept {
     const ClassEntry* const entry = find(id);
     return entry == nullptr ? Role::kIgnored : entry->role(definition);

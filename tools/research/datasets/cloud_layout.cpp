@@ -41,7 +41,8 @@ bool decode(const YAML::Node& node, int least, int most, int& to) {
   return YAML::convert<int>::decode(node, to) && least <= to && to <= most;
 }
 
-/// What the key expects; empty where `text` is that. Nothing for a key there is not.
+/// Sets a key. Returns the expected values for a wrong `text`, "" if set; nothing for an unknown
+/// key.
 std::optional<std::string> take(CloudLayout& layout, std::string_view key, const YAML::Node& node) {
   constexpr const char* kPattern = "a relative path with one `*`, in its last part";
   const std::string text = node.IsScalar() ? node.Scalar() : "";

@@ -22,20 +22,20 @@ enum class RingSource : std::uint8_t {
   kField,  ///< Each point has the number of its laser.
 };
 
-/// How labelled clouds lie on disk: the part `layout` of a class table
-/// (semantickitti_classes.yaml says what each means).
+/// The layout of labelled clouds on disk: the part `layout` of a class table
+/// (semantickitti_classes.yaml explains the values).
 struct CloudLayout {
   FilePattern sequences;
   FilePattern points;
   PointFormat point_format = PointFormat::kKittiBin;
-  std::optional<FilePattern> labels;  ///< None: a field of the points' file.
+  std::optional<FilePattern> labels;  ///< None: labels are a field of the points' file.
   LabelFormat label_format = LabelFormat::kUint32;
   int rings = 0;
   int columns = frame::ImageShape{}.columns;  ///< Firings of a laser in one revolution.
   RingSource rings_from = RingSource::kOrder;
 };
 
-/// All of it in one line: two layouts with the same line read the same.
+/// Returns the layout as one line: equal lines mean equal layouts.
 [[nodiscard]] std::string to_string(const CloudLayout& layout);
 
 }  // namespace terracut::datasets

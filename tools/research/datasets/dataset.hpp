@@ -13,13 +13,13 @@
 
 namespace terracut::datasets {
 
-/// Labelled clouds on disk, where their layout says.
+/// Labelled clouds on disk, in their layout.
 class Dataset {
  public:
-  /// kUnsupported where the rings of a sensor without 64 of them are to follow from the order.
+  /// Errors: kUnsupported if rings follow from the order and the sensor has not 64 of them.
   [[nodiscard]] static Expected<Dataset> at(const CloudLayout& layout, std::filesystem::path root);
 
-  /// Names of the sequences that have labels, sorted. kNotFound, saying what was expected: none.
+  /// Returns the names of the sequences with labels, sorted. kNotFound if there is none.
   [[nodiscard]] Expected<std::vector<std::string>> sequences() const;
   [[nodiscard]] std::filesystem::path folder(const std::string& sequence) const {
     return root_ / layout_.sequences.path(sequence);

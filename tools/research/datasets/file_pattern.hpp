@@ -14,16 +14,16 @@ namespace terracut::datasets {
 class FilePattern {
  public:
   FilePattern() = default;
-  /// Nothing unless `text` is a relative path with exactly one `*`, in its last part.
+  /// Returns nothing unless `text` is a relative path with exactly one `*`, in its last part.
   [[nodiscard]] static std::optional<FilePattern> parse(std::string_view text);
 
-  /// As it was parsed.
+  /// Returns the parsed text.
   [[nodiscard]] std::string text() const { return path("*").string(); }
-  /// With `name` for the `*`.
+  /// Returns the path with `name` in place of the `*`.
   [[nodiscard]] std::filesystem::path path(const std::string& name) const {
     return folder_ / (before_ + name + after_);
   }
-  /// What stands for the `*` in every entry of `root` that fits, sorted; none where there is no
+  /// Returns the part for the `*` of every matching entry of `root`, sorted; none if there is no
   /// such folder.
   [[nodiscard]] std::vector<std::string> names_in(const std::filesystem::path& root) const;
 

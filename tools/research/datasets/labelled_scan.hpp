@@ -13,20 +13,20 @@
 
 namespace terracut::datasets {
 
-/// One labelled frame. Buffers are kept from frame to frame.
+/// One labelled frame. Buffers are reused for the next frame.
 struct LabelledScan {
-  scan::KittiScan scan;                       ///< Sensor frame; as many labels as points.
+  scan::KittiScan scan;                       ///< In the sensor frame; as many labels as points.
   std::vector<std::uint16_t> laser_of_point;  ///< Empty unless the layout's rings are a field.
   scan::RingRecovery rings;                   ///< The ring of every point.
 };
 
-/// Reads the points of a file, their lasers, and the labels that are a field of it. Errors name the
-/// file: those of its format, and kMalformed for a missing field, numbers of lasers or labels that
-/// there cannot be, or no point that is a place.
+/// Reads the points of a file, with their lasers and labels if those are fields of it. Errors name
+/// the file: those of its format, and kMalformed for a missing field, impossible numbers of lasers
+/// or labels, or no valid point.
 [[nodiscard]] Status read_points(const CloudLayout& layout, const std::filesystem::path& file,
                                  LabelledScan& to);
 
-/// Reads the labels of the points from a file of their own. The errors of scan::read_label_file().
+/// Reads the labels of the points from a file of their own. Errors of scan::read_label_file().
 [[nodiscard]] Status read_labels(LabelFormat format, const std::filesystem::path& file,
                                  scan::KittiScan& to);
 

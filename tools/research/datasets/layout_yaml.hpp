@@ -9,11 +9,11 @@
 #include "cloud_layout.hpp"
 #include "rt/error.hpp"
 
-// For .cpp files of this folder only: yaml-cpp stays out of what others include.
+// Only for .cpp files of this folder: keeps yaml-cpp out of other includes.
 namespace terracut::datasets {
 
-/// kMalformed, with the line in `name`: a key that is unknown, missing or has no such value, or a
-/// combination that no file can have.
+/// Errors: kMalformed, with the line in `name`: an unknown or missing key, an invalid value, or an
+/// impossible combination.
 [[nodiscard]] Expected<CloudLayout> layout_from_yaml(const YAML::Node& node,
                                                      const std::string& name);
 

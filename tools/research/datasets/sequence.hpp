@@ -17,31 +17,31 @@
 
 namespace terracut::datasets {
 
-/// Frames of one unit, in order of their names.
+/// The frames of one unit, in order of names.
 class Sequence {
  public:
   /// Lists the frames in `folder` and learns the rings of the unit. Errors name file or folder:
-  /// kNotFound, those of reading where no frame can be read, kMalformed also where the points of a
-  /// laser do not lie on its cone around the origin, as in a map's frame.
+  /// kNotFound, those of reading if no frame can be read, kMalformed also if the points of a laser
+  /// do not lie on its cone around the origin, as in a map's frame.
   [[nodiscard]] static Expected<Sequence> open(const CloudLayout& layout,
                                                std::filesystem::path folder);
 
   [[nodiscard]] std::size_t size() const { return frames_.size(); }
-  /// "000042": names a frame's results and predictions.
+  /// Returns "000042", the name of a frame's results and predictions.
   [[nodiscard]] const std::string& frame(std::size_t index) const { return frames_[index]; }
-  /// The file with its points, for messages.
+  /// Returns the file with its points, for messages.
   [[nodiscard]] std::filesystem::path file(std::size_t index) const {
     return folder_ / layout_.points.path(frames_[index]);
   }
-  /// From any thread. Errors name the file.
+  /// Reads a frame, on any thread. Errors name the file.
   [[nodiscard]] Status read(std::size_t index, LabelledScan& scan) const;
-  /// kMalformed, naming them, when there are labels of frames that are not there.
+  /// Errors: kMalformed, naming them, if labels exist for missing frames.
   [[nodiscard]] Status check_whole() const;
-  /// Of the unit, as far as its frames tell.
+  /// Returns the unit's rings, as far as the frames show them.
   [[nodiscard]] const scan::RingTable& rings() const { return table_; }
-  /// Of the head of an HDL-64E, as far as its frames tell.
+  /// Returns the spin of an HDL-64E's head, as far as the frames show it.
   [[nodiscard]] const encode::RecordedSpin& spin() const { return spin_; }
-  /// Of an image that holds a frame.
+  /// Returns the shape of an image for a frame.
   [[nodiscard]] frame::ImageShape shape() const { return {layout_.rings, layout_.columns}; }
 
  private:
@@ -53,7 +53,7 @@ class Sequence {
   CloudLayout layout_;
   std::filesystem::path folder_;
   std::vector<std::string> frames_;
-  cloud::RingOfLaser ring_of_laser_;  ///< Where the points have the numbers of their lasers.
+  cloud::RingOfLaser ring_of_laser_;  ///< Set if the points have laser numbers.
   scan::RingTable table_;
   encode::RecordedSpin spin_;
 };

@@ -41,7 +41,7 @@ Colour colour_of(datasets::Role truth, Label label, bool changed) noexcept {
   return is_right(truth, label) ? kRight : kWrong;
 }
 
-/// The square around the sensor that nine tenths of what changed lie in.
+/// Returns the side of a square around the sensor that holds nine tenths of the changed returns.
 double side_around(std::vector<double>& distances_m) {
   constexpr double kLeast_m = 40, kMost_m = 120, kStep_m = 10, kShare = 0.9;
   const auto place = distances_m.begin() +
@@ -74,7 +74,7 @@ void ChangedFrames::look(const LabelledByAll& frame) {
   for (std::size_t i = 1; i < methods_.size(); ++i) {
     Change change = change_of(frame, i);
     if (change.returns == 0) continue;
-    // By the most returns, then by the first name.
+    // More returns first, then the first name.
     const auto is_more = [&] {
       const Change& most = most_[i];
       return change.returns != most.returns

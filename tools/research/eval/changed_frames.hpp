@@ -19,39 +19,39 @@
 
 namespace terracut::eval {
 
-/// A frame that every method has labelled; everything by return index of `image`.
+/// A frame labelled by every method; all data by return index of `image`.
 struct LabelledByAll {
   const std::string& sequence;
   const std::string& frame;
   const frame::RangeImage& image;
   std::span<const std::uint32_t> truth;                                 ///< As in label files.
-  std::function<std::span<const frame::Label>(std::size_t)> labels_of;  ///< methods[index]
+  std::function<std::span<const frame::Label>(std::size_t)> labels_of;  ///< By index of the method.
 };
 
-/// Of every method but the first: the frame with most returns that are ground to one and obstacle
-/// to the other, as a picture from above. On the left what the method said, on the right the first
-/// one; returns of which both say the same dim, the others green where that is right, red where it
-/// is wrong, white where their class counts nowhere. From any thread.
+/// Keeps, for every method but the first, the frame with most returns that are ground to one and
+/// obstacle to the other, as a picture from above. The left half shows the method, the right half
+/// the first one; returns with equal labels are dim, the others green where right, red where wrong,
+/// white where their class is ignored. From any thread.
 class ChangedFrames {
  public:
-  static constexpr int kSide = 320;  ///< Pixels of either half.
+  static constexpr int kSide = 320;  ///< Pixels of each half.
 
-  /// Both must outlive this.
+  /// Both arguments must outlive this object.
   ChangedFrames(std::span<const eval::MethodChoice> methods, const datasets::ClassTable& classes);
 
-  /// The order of calls makes no difference: of equal frames the first by name is kept.
+  /// The order of calls does not matter: of equal frames the first by name is kept.
   void look(const LabelledByAll& frame);
 
-  /// `<folder>/<method>.png` for every method that ever differed, and changes.json: of each of them
-  /// the frame, what changed there, and what of it the first method has right and wrong.
+  /// Writes `<folder>/<method>.png` for every method that ever differed, and changes.json: its
+  /// frame, what changed there, and how much of it the first method has right and wrong.
   [[nodiscard]] Status write(const std::filesystem::path& folder) const;
 
  private:
   struct Change {
     std::string sequence, frame;
     std::uint64_t returns = 0;
-    std::uint64_t right = 0, wrong = 0;  ///< To the first; the others count nowhere.
-    double side_m = 0;                   ///< Of what the picture shows.
+    std::uint64_t right = 0, wrong = 0;  ///< Of the first method; ignored classes do not count.
+    double side_m = 0;                   ///< Of the picture.
     pictures::Picture picture{1, 1, {}};
   };
   [[nodiscard]] Change change_of(const LabelledByAll& frame, std::size_t method) const;
@@ -60,8 +60,8 @@ class ChangedFrames {
 
   std::span<const eval::MethodChoice> methods_;
   const datasets::ClassTable& classes_;
-  mutable std::mutex mutex_;  ///< Guards what follows.
-  std::vector<Change> most_;  ///< By method.
+  mutable std::mutex mutex_;  ///< Guards the following member.
+  std::vector<Change> most_;  ///< Indexed by method.
 };
 
 }  // namespace terracut::eval

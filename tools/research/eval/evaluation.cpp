@@ -37,9 +37,9 @@ struct OpenSequence {
   std::string name;
   datasets::Sequence scans;
   mount::RingProfile profile;
-  std::optional<scan::SensorMotion> motion;  ///< Where poses lie beside the frames.
+  std::optional<scan::SensorMotion> motion;  ///< Set if there are poses beside the frames.
 
-  /// Takes what frame `scan` sees to frame `before`; nothing unless they follow each other.
+  /// Returns the motion from frame `scan` to frame `before`; nothing unless they are successive.
   [[nodiscard]] std::optional<scan::RigidMotion> motion_since(std::size_t before,
                                                               std::size_t scan) const {
     const auto from = rt::number_of<std::uint32_t>(scans.frame(scan));
@@ -57,15 +57,15 @@ struct Work {
   [[nodiscard]] fs::path file() const { return sequence->scans.file(scan); }
 };
 
-/// Frames that one thread labels in their order: what one of them says of the next does not depend
-/// on who does what.
+/// Frames that one thread labels in order: results that carry over to the next frame do not depend
+/// on the distribution of work.
 using FrameRun = std::vector<Work>;
 constexpr std::size_t kLongestRun = 32;
 
 constexpr frame::Place kDeparture{.journey = 1};
 
-/// As the vehicle's own motion would tell it: in the plane. `since`: takes what the frame at hand
-/// sees to the frame before; where it is not known another journey begins.
+/// Moves a place as measured by the vehicle, in the plane. `since` transforms the current frame to
+/// the previous one; without it another journey begins.
 frame::Place moved(const frame::Place& place, const std::optional<scan::RigidMotion>& since) {
   if (!since) return {.journey = place.journey + 1};
   const double length = std::hypot((*since)[0], (*since)[4]);
@@ -76,7 +76,7 @@ frame::Place moved(const frame::Place& place, const std::optional<scan::RigidMot
   return {place.journey, at.x_m, at.y_m, at.cosine, at.sine};
 }
 
-/// By up to ten scans of the sequence, evenly apart, as a run would find it.
+/// Estimates the mount from up to ten scans, evenly spaced over the sequence, as a run would.
 Expected<mount::FoundMount> mount_of(const datasets::Sequence& sequence) {
   memory::FixedMemory memory;
   DirectWay way(sequence.shape(), mount::kAtTheSensor, memory);
@@ -85,7 +85,7 @@ Expected<mount::FoundMount> mount_of(const datasets::Sequence& sequence) {
   const std::size_t scans = std::min(sequence.size(), mount::kFramesToFind);
   for (std::size_t i = 0; i < scans; ++i) {
     const Status read = sequence.read(i * sequence.size() / scans, scan);
-    if (!read) continue;  // is said when its turn comes
+    if (!read) continue;  // reported when the frame is labelled
     const auto placed = way.place(scan.scan.points, scan.rings.ring_of_point);
     if (placed) search.add_frame(*placed->image);
   }
@@ -149,7 +149,7 @@ class Run {
         OpenSequence{name, *std::move(scans), profile, motion_of(name)}));
   }
 
-  /// Poses that are not there are no fault; some that cannot be read are.
+  /// Missing poses are no fault; unreadable ones are.
   std::optional<scan::SensorMotion> motion_of(const std::string& name) {
     const fs::path folder = dataset_.folder(name);
     const fs::path poses = folder / "poses.txt", times = folder / "times.txt";
@@ -185,7 +185,7 @@ class Run {
           pin_this_thread(fmt::format("tc-eval-{}", i), cores, i);
           label_some();
         });
-      } catch (const std::system_error&) {  // no thread is left: it takes longer, then
+      } catch (const std::system_error&) {  // no thread is left: the work takes longer
         break;
       }
     }
@@ -286,13 +286,13 @@ class Run {
   std::vector<std::unique_ptr<OpenSequence>> sequences_;
   std::map<std::string, mount::FoundMount> found_mounts_;
   std::vector<FrameRun> runs_;
-  std::size_t frames_ = 0;             ///< Of all runs.
-  std::atomic<std::size_t> next_ = 0;  ///< Run.
+  std::size_t frames_ = 0;             ///< Frames of all runs.
+  std::atomic<std::size_t> next_ = 0;  ///< The next run.
   std::atomic<bool> stop_ = false;
 
-  std::mutex mutex_;  ///< Guards what follows.
+  std::mutex mutex_;  ///< Guards the following members.
   std::size_t done_ = 0;
-  std::map<std::pair<std::string, std::string>, Fault> faults_;  ///< By sequence and frame.
+  std::map<std::pair<std::string, std::string>, Fault> faults_;  ///< Keyed by sequence and frame.
 };
 
 }  // namespace

@@ -20,7 +20,7 @@
 
 namespace terracut::eval {
 
-/// Which frames of a sequence, by their place in it: first, first + step, ... up to last.
+/// Frames of a sequence by index: first, first + step, and so on up to last.
 struct FrameRange {
   std::size_t first = 0;
   std::size_t last = SIZE_MAX;
@@ -30,40 +30,38 @@ struct FrameRange {
 struct EvaluationConfig {
   datasets::CloudLayout layout;
   std::filesystem::path root;          ///< Of the dataset.
-  std::vector<std::string> sequences;  ///< Empty: all that have labels.
+  std::vector<std::string> sequences;  ///< Empty: all with labels.
   FrameRange frames;
   std::vector<MethodChoice> methods;
   mount::Mount mount;
-  bool find_mount = false;  ///< Of every sequence by itself, as a run would; else `mount`.
+  bool find_mount = false;  ///< For every sequence, as a run would; otherwise use `mount`.
   bool through_packets = false;
-  int jobs = 0;  ///< Threads, each on a core of its own; 0: one a core.
-  /// Says what stands tall and what does not move; null: neither is counted. Must outlive the run.
+  int jobs = 0;  ///< Threads, each on its own core; 0: one per core.
+  /// Tells tall and immobile classes; null: neither is counted. Must outlive the run.
   const datasets::ClassTable* classes = nullptr;
   std::filesystem::path predictions;  ///< Folder; empty: none are written.
-  /// Is shown every frame that all methods label; may be null.
+  /// Receives every frame that all methods label; may be null.
   eval::ChangedFrames* changed_frames = nullptr;
 };
 
-/// Something that was not evaluated.
+/// A failure to evaluate something.
 struct Fault {
   std::string where;  ///< File or folder.
   std::string what;
 };
 
 struct EvaluationOutcome {
-  FrameResults results;                                   ///< Faulty frames are not among them.
+  FrameResults results;                                   ///< Without faulty frames.
   std::vector<Fault> faults;                              ///< In order of sequence and frame.
-  std::map<std::string, mount::FoundMount> found_mounts;  ///< By sequence.
+  std::map<std::string, mount::FoundMount> found_mounts;  ///< Keyed by sequence.
   bool interrupted = false;
 };
 
-/// Labels every frame of a dataset with every method and counts what came of it. A sequence whose
-/// mount is not found is a fault, whole.
-/// A file that cannot be read is a fault, and the rest goes on. Results that `journal` has are
-/// kept; frames among others of their run (32 that follow each other, labelled in their order by
-/// one thread) are labelled again for what they mean to these. Faulty ones are not in it.
-/// Predictions are at
-/// `<predictions>/<method>/sequences/NN/predictions/NNNNNN.label`.
+/// Labels every frame of a dataset with every method and counts the labels. A sequence without a
+/// found mount is a fault as a whole. An unreadable file is a fault, and the rest goes on. Results
+/// in `journal` are kept; in a run with other frames (32 successive ones, labelled in order by one
+/// thread) they are labelled again because of their effect on these. Faulty ones are not in the
+/// journal. Predictions are at `<predictions>/<method>/sequences/NN/predictions/NNNNNN.label`.
 ///
 /// `on_progress(done, of)`, from any thread, one at a time; `stop_wanted()` is asked between
 /// frames. Results depend neither on the number of jobs nor on interruptions; times do.

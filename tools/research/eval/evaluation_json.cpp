@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using quality::Quality;
 
-/// The measures that are always shown side by side.
+/// A scope whose measures are always shown side by side with the others.
 struct NamedScope {
   std::string_view name;
   statistics::Scope scope;
@@ -72,7 +72,7 @@ Json flips_json(const statistics::FlipCounts& flips) {
           {"true_share", of_returns(flips.true_flips)}};
 }
 
-/// Mean of those that are defined; null without any.
+/// Returns the mean of the defined values; null without any.
 Json mean(const std::vector<Json>& values) {
   double sum = 0;
   int count = 0;
@@ -84,7 +84,7 @@ Json mean(const std::vector<Json>& values) {
   return count == 0 ? Json(nullptr) : Json(sum / count);
 }
 
-/// {min, mean, max} of those that are defined.
+/// Returns {min, mean, max} of the defined values.
 Json spread(const std::vector<Json>& values) {
   std::optional<double> least, most;
   for (const Json& value : values) {
@@ -102,7 +102,7 @@ double milliseconds(std::int64_t ns) {
   return static_cast<double>(ns / 1000) / 1000.0;
 }
 
-/// {mean, p50, p99, max} by nearest rank.
+/// Returns {mean, p50, p99, max} by nearest rank.
 Json times_json(std::vector<std::int64_t> times_ns) {
   if (times_ns.empty()) return nullptr;
   std::ranges::sort(times_ns);
@@ -138,7 +138,7 @@ Counts sum_of(std::span<const FrameResults::value_type* const> frames,
   return sum;
 }
 
-/// What one method made of the dataset.
+/// The results of one method on the dataset.
 class MethodJson {
  public:
   MethodJson(const MethodChoice& method, const datasets::ClassTable& classes,
@@ -185,7 +185,7 @@ class MethodJson {
     return json;
   }
 
-  /// What `judge` would have made of the same points: means(), and the same by sequence.
+  /// Returns the measures of `judge` on the same points: means(), and by sequence.
   template <class Judge>
   [[nodiscard]] Json oracle(Judge&& judge) const {
     Json json = means(judge);
@@ -200,7 +200,7 @@ class MethodJson {
   }
 
  private:
-  /// Every measure in every scope as the mean over sequences of what `judge` says of each.
+  /// Returns every measure in every scope as the mean over sequences of `judge`.
   template <class Judge>
   [[nodiscard]] Json means(Judge&& judge) const {
     Json json = Json::object();
@@ -348,7 +348,7 @@ class MethodJson {
   const MethodChoice& method_;
   const datasets::ClassTable& classes_;
   BySequence frames_;
-  std::map<std::string, statistics::FrameCounts> counts_;  ///< By sequence.
+  std::map<std::string, statistics::FrameCounts> counts_;  ///< Keyed by sequence.
   statistics::FrameCounts total_;
 };
 
@@ -410,7 +410,7 @@ Json evaluation_json(const EvaluationFacts& facts, const datasets::ClassTable& c
   for (const MethodChoice& method : facts.methods) {
     const MethodJson of_method(method, classes, outcome.results);
     json["methods"][method.name] = of_method.json();
-    if (json.contains("oracles")) continue;  // the same whichever method's frames are taken
+    if (json.contains("oracles")) continue;  // the same for each method's frames
     json["oracles"] = {{"everything_ground", of_method.oracle(statistics::everything_ground)},
                        {"perfect_ground", of_method.oracle(statistics::perfect_ground)}};
   }

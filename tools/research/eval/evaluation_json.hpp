@@ -12,7 +12,7 @@
 
 namespace terracut::eval {
 
-/// What an evaluation was of, for its report.
+/// The subject of an evaluation, for its report.
 struct EvaluationFacts {
   std::string dataset;  ///< "semantickitti", "koblenz", "own", "simulated"
   std::string root;
@@ -20,8 +20,8 @@ struct EvaluationFacts {
   bool through_packets = false;
 };
 
-/// The whole evaluation for programs. Shares are numbers in [0, 1], or null where there is nothing
-/// to share out (no key obstacle: no recall_o); times are milliseconds of processor time.
+/// Returns the whole evaluation for programs. Shares are in [0, 1], or null if undefined (no key
+/// obstacle: no recall_o); times are milliseconds of processor time.
 ///
 ///   terracut, dataset, root, through_packets, classes[]
 ///   methods{name}
@@ -50,7 +50,7 @@ struct EvaluationFacts {
                                                      const datasets::ClassTable& classes,
                                                      const EvaluationOutcome& outcome);
 
-/// A table of the methods' means, for people.
+/// Returns a table of the methods' means, for people.
 [[nodiscard]] std::string evaluation_text(const nlohmann::ordered_json& evaluation);
 
 }  // namespace terracut::eval

@@ -17,25 +17,25 @@
 
 namespace terracut::eval {
 
-/// Counts what a point's class alone does not tell: how tall it stands above the true ground, and
-/// whether its label is that of the frame before. One thread, one frame after the other.
+/// Counts facts beyond a point's class: its height above the true ground, and whether its label
+/// equals that of the previous frame. One thread, frames in order.
 class FrameJudge {
  public:
-  /// `classes` must outlive this.
+  /// `classes` must outlive this object.
   FrameJudge(const datasets::ClassTable& classes, std::size_t methods)
       : classes_(classes), ground_(classes), flips_(classes, methods) {}
 
-  /// `scan` stays as it is until the next call. `before_this`: LabelFlips::look_at().
+  /// Sets the frame to judge; keep `scan` unchanged. `before_this`: see LabelFlips::look_at().
   void look_at(const scan::KittiScan& scan, const std::optional<scan::RigidMotion>& before_this);
 
-  /// Fills `tall` and `flips`. `labels`: one a point. Once a method and frame.
+  /// Fills `tall` and `flips`. `labels` has one per point. Call once per method and frame.
   void judge(std::size_t method, std::span<const frame::Label> labels, FrameResult& result);
 
  private:
   const datasets::ClassTable& classes_;
   statistics::TrueGround ground_;
   statistics::LabelFlips flips_;
-  std::vector<std::size_t> tall_;  ///< Points.
+  std::vector<std::size_t> tall_;  ///< Indices of tall points.
 };
 
 }  // namespace terracut::eval

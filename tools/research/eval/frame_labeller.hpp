@@ -16,28 +16,28 @@
 
 namespace terracut::eval {
 
-/// Labels scans of one unit with several methods, and counts what came of it. Every scan stands for
-/// itself, unless it is said where the sensor stood. One thread.
+/// Labels scans of one unit with several methods and counts the labels. Scans are independent
+/// unless the sensor's place is given. One thread.
 class FrameLabeller {
  public:
-  /// `methods` must outlive this. Takes all memory.
+  /// `methods` must outlive this object. Takes all memory.
   FrameLabeller(std::span<const MethodChoice> methods, const datasets::Sequence& sequence,
                 const mount::RingProfile& profile, bool through_packets);
 
-  /// The scan that label() is about from now on; both arguments stay as they are meanwhile. The
-  /// errors of PacketWay::place().
+  /// Sets the scan for label(); both arguments must not change meanwhile. Errors of
+  /// PacketWay::place().
   [[nodiscard]] Status place(const scan::KittiScan& scan, const scan::RingRecovery& rings);
 
-  /// By methods[index]. Its labels are those of points() until the next call.
-  /// `place`: of the sensor, for methods that remember the frames before.
+  /// Labels with methods[index]. Its labels are points() until the next call. `place` is the
+  /// sensor's, for methods that remember earlier frames.
   [[nodiscard]] FrameResult label(std::size_t index, const frame::Place& place = {});
 
-  /// One label a point of the file: kNone for what is no place, kObstacle, the safe side, for what
-  /// was lost on the way.
+  /// Returns one label per point of the file: kNone for invalid points; kObstacle, the safe side,
+  /// for points lost on the way.
   [[nodiscard]] std::span<const frame::Label> points() const noexcept { return labels_; }
 
-  /// The scan as the methods see it, and what methods[index] found there, by return index of its
-  /// image: all methods' until the next scan.
+  /// Returns the scan as seen by the methods, and the labels of methods[index] by return index of
+  /// its image; all methods' labels are valid until the next scan.
   [[nodiscard]] const PlacedScan& placed() const noexcept { return placed_; }
   [[nodiscard]] std::span<const frame::Label> returns(std::size_t index) const {
     return bench_->labels(index);

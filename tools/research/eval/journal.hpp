@@ -14,22 +14,22 @@
 
 namespace terracut::eval {
 
-/// Results on disk as they come, one line of JSON each, so that a run that is killed goes on where
-/// it was: at most the frames in work are lost. The first line says what was run, and a journal of
-/// something else is refused, not mixed.
+/// Keeps results on disk as they come, one line of JSON each, so that a killed run can continue: at
+/// most the frames in work are lost. The first line states what was run; a journal of something
+/// else is refused.
 class Journal {
  public:
-  /// Reads what is there, cuts off a line that was not finished, and goes on behind it.
-  /// `settings`: everything results depend on, words in one line of text. kInvalidArgument: the
-  /// file is of other settings (the message names the words that differ), or another process is
-  /// writing it. kMalformed: a whole line that is no result. kWriteFailed.
+  /// Reads the existing lines, cuts off an incomplete one, and appends after it. `settings` is all
+  /// that results depend on, words in one line of text. kInvalidArgument: the file has other
+  /// settings (the message names the words that differ), or another process is writing it.
+  /// kMalformed: a whole line that is no result. kWriteFailed.
   [[nodiscard]] static Expected<Journal> open(const std::filesystem::path& path,
                                               const std::string& settings);
 
-  /// What was found by open().
+  /// Returns the results found by open().
   [[nodiscard]] FrameResults take_results() { return std::move(results_); }
 
-  /// From any thread; whole or not at all, and on disk as far as the system tells. kWriteFailed.
+  /// Writes a result, whole or not at all, and flushes it to disk. From any thread. kWriteFailed.
   [[nodiscard]] Status add(const FrameKey& key, const FrameResult& result);
 
  private:
@@ -42,9 +42,9 @@ class Journal {
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
 };
 
-/// One line of the journal, without its end; for reports, too.
+/// Returns one line of the journal, without its end; also used by reports.
 [[nodiscard]] std::string journal_line(const FrameKey& key, const FrameResult& result);
-/// kMalformed when it is none.
+/// Errors: kMalformed for an invalid line.
 [[nodiscard]] Expected<std::pair<FrameKey, FrameResult>> parse_journal_line(
     const std::string& line);
 

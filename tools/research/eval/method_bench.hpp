@@ -15,19 +15,19 @@
 
 namespace terracut::eval {
 
-/// Several methods side by side, sized for one kind of range image. One thread.
+/// Several methods side by side, sized for one shape of range image. One thread.
 class MethodBench {
  public:
-  /// Takes all memory, from `memory`, which must outlive this.
+  /// Takes all memory from `memory`, which must outlive this object.
   MethodBench(std::span<const MethodChoice> methods, const mount::RingProfile& profile,
               const frame::ImageShape& shape, std::size_t return_capacity,
               memory::FixedMemory& memory);
 
-  /// By methods[index]; the times without decode_ns.
-  /// `place`: of the sensor, for methods that remember; unknown by default.
+  /// Labels with methods[index]; returns the times without decode_ns. `place` is the sensor's, for
+  /// methods that remember; unknown by default.
   [[nodiscard]] FrameTimes segment(std::size_t index, const frame::RangeImage& image,
                                    const frame::Place& place = {});
-  /// What it found, a label a return, until it is asked again.
+  /// Returns the labels of that method, one per return, until it runs again.
   [[nodiscard]] std::span<const frame::Label> labels(std::size_t index) const;
 
  private:

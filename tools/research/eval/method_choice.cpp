@@ -11,7 +11,7 @@
 namespace terracut::eval {
 namespace {
 
-/// It becomes the name of a folder.
+/// True if the name can be a folder's.
 bool is_name(std::string_view name) {
   return !name.empty() && std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -19,7 +19,7 @@ bool is_name(std::string_view name) {
   });
 }
 
-/// "a,b,c": takes "a" off the front.
+/// Removes "a" from the front of "a,b,c" and returns it.
 std::string_view take_part(std::string_view& text) {
   const std::size_t comma = text.find(',');
   const std::string_view part = text.substr(0, comma);

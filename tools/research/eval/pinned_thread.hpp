@@ -8,8 +8,8 @@
 
 namespace terracut::eval {
 
-/// Names the calling thread and puts it on cores[index] (threads::allowed_cores()), beginning anew
-/// behind the last one. Where that is refused, only the accuracy of times suffers.
+/// Names the calling thread and pins it to cores[index modulo their number]
+/// (threads::allowed_cores()). If refused, only the accuracy of times suffers.
 void pin_this_thread(const std::string& name, const std::vector<int>& cores, std::size_t index);
 
 }  // namespace terracut::eval

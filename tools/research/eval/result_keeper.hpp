@@ -19,26 +19,25 @@
 
 namespace terracut::eval {
 
-/// Puts the results of frames where they belong as they come: into memory, the journal, and, their
-/// labels, into `<predictions>/<method>/sequences/<sequence>/predictions/<frame>.label`. From any
-/// thread.
+/// Stores the results of frames as they come: in memory, in the journal and, as labels, in
+/// `<predictions>/<method>/sequences/<sequence>/predictions/<frame>.label`. From any thread.
 class ResultKeeper {
  public:
-  /// Begins with what `journal` has of these methods. `journal`: may be null; it and `methods` must
-  /// outlive this. `predictions`: empty: none are written.
+  /// Starts with the results of these methods in `journal`, which may be null; it and `methods`
+  /// must outlive this object. `predictions` empty: none are written.
   ResultKeeper(std::span<const MethodChoice> methods, std::filesystem::path predictions,
                Journal* journal);
 
-  /// A frame that this run is about. The journal may have others, of a run over more of the
-  /// dataset: they are not among take_results().
+  /// Adds a frame of this run. Frames in the journal that are not expected are not in
+  /// take_results().
   void expect(const std::string& sequence, const std::string& frame);
 
-  /// The methods, by index, that have not labelled this frame yet, or whose prediction is wanted
-  /// and not there.
+  /// Returns the methods, by index, that have not labelled this frame yet, or whose wanted
+  /// prediction is missing.
   [[nodiscard]] std::vector<std::size_t> methods_left(const std::string& sequence,
                                                       const std::string& frame) const;
 
-  /// False, from then on, when something could not be written: failure().
+  /// Returns false once something could not be written: see failure().
   bool keep(const FrameKey& key, std::span<const frame::Label> labels, FrameResult result);
 
   [[nodiscard]] std::optional<Error> failure() const;
@@ -51,9 +50,9 @@ class ResultKeeper {
   std::filesystem::path predictions_;
   Journal* journal_;
 
-  mutable std::mutex mutex_;  ///< Guards what follows.
+  mutable std::mutex mutex_;  ///< Guards the following members.
   FrameResults results_;
-  std::set<std::pair<std::string, std::string>> expected_;  ///< By sequence and frame.
+  std::set<std::pair<std::string, std::string>> expected_;  ///< Keyed by sequence and frame.
   std::optional<Error> failure_;
 };
 

@@ -18,21 +18,21 @@
 
 namespace terracut::eval {
 
-/// A scan as a range image, and which of its points the image's returns are.
+/// A scan as a range image, with the point of each return.
 struct PlacedScan {
   const frame::RangeImage* image = nullptr;
-  std::span<const std::uint32_t> point_of_return;  ///< By return index.
+  std::span<const std::uint32_t> point_of_return;  ///< One per return.
   std::int64_t decode_ns = 0;                      ///< Processor time; 0 without packets.
 };
 
-/// Straight from the file into the image.
+/// Places a scan directly in the image.
 class DirectWay {
  public:
   DirectWay(const frame::ImageShape& shape, const mount::Mount& mount, memory::FixedMemory& memory);
 
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return image_.shape(); }
   [[nodiscard]] std::size_t return_capacity() const noexcept { return image_.return_capacity(); }
-  /// Valid until the next call. Never fails; the other way may.
+  /// Places a scan; valid until the next call. Never fails, unlike PacketWay::place().
   [[nodiscard]] Expected<PlacedScan> place(std::span<const scan::ScanPoint> points,
                                            std::span<const std::int16_t> ring_of_point);
 
@@ -41,17 +41,16 @@ class DirectWay {
   scan::ScanToImage scan_to_image_;
 };
 
-/// As the sensor would have sent it: encoded as one frame's packets, which the decoder takes.
+/// Places a scan through packets: encoded as one frame's packets, which the decoder decodes.
 class PacketWay {
  public:
-  /// `spin`: of the head that recorded the scans.
+  /// `spin` is that of the recording head.
   PacketWay(const hdl64e::Hdl64eCalibration& calibration, const encode::RecordedSpin& spin,
             const mount::Mount& mount, memory::FixedMemory& memory);
 
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return decoder_.shape(); }
   [[nodiscard]] std::size_t return_capacity() const noexcept { return decoder_.return_capacity(); }
-  /// Valid until the next call. kMalformed when the decoder does not make one frame of what was
-  /// encoded of it.
+  /// Places a scan; valid until the next call. kMalformed if the decoder makes not one frame of it.
   [[nodiscard]] Expected<PlacedScan> place(std::span<const scan::ScanPoint> points,
                                            std::span<const std::int16_t> ring_of_point);
 

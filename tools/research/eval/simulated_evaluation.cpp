@@ -48,7 +48,7 @@ std::string name_of(std::size_t frame) {
   return fmt::format("{:06}", frame);
 }
 
-/// Before anything is simulated, which takes its time.
+/// Called before the lengthy simulation.
 Status check_scenes(const std::vector<std::string>& scenes) {
   const auto known = scenes::scene_names();
   for (auto scene = scenes.begin(); scene != scenes.end(); ++scene) {
@@ -71,7 +71,7 @@ decode::Decoder::Config decoder_config(int columns) {
   return config;
 }
 
-/// By the first ten frames of the drive, as a run would find it.
+/// Estimates the mount from the first ten frames of the drive, as a run would.
 Expected<mount::FoundMount> mount_of(const fs::path& capture,
                                      const calib::SensorCalibration& calibration, int columns) {
   auto source = capture::PcapSource::open(capture);
@@ -189,10 +189,10 @@ class DriveEvaluation {
   ResultKeeper& keeper_;
   std::function<void()> on_frame_done_;
 
-  std::vector<std::uint32_t> truth_;  ///< Of the frame in work, by return index.
+  std::vector<std::uint32_t> truth_;  ///< Of the current frame, by return index.
   std::vector<Fault> faults_;
-  std::int64_t decode_ns_ = 0;   ///< For the frame under way.
-  std::int64_t resumed_ns_ = 0;  ///< Since when the decoder is at work.
+  std::int64_t decode_ns_ = 0;   ///< For the current frame.
+  std::int64_t resumed_ns_ = 0;  ///< Start of the current decoding.
 };
 
 /// All drives of one kind of sensor, one after the other.
@@ -264,7 +264,7 @@ class Run {
     DriveEvaluation drive(config_, mount, scene, drive::truth_folder_of(capture), calibration,
                           columns, keeper_, [this] { progress_.evaluated(++done_, frames()); });
     Status status;
-    // A thread of its own, for the core is given up again before the next drive's rays.
+    // A thread of its own, which leaves the core again before the next drive's rays.
     std::thread([&] {
       pin_this_thread("tc-eval-0", threads::allowed_cores(), 0);
       status = drive.run(capture, stop_wanted_);
@@ -277,7 +277,7 @@ class Run {
     return config_.drives.dual_return ? ReturnMode::kDual : ReturnMode::kSingle;
   }
 
-  /// False when it was interrupted.
+  /// Returns false if it was interrupted.
   Expected<bool> simulate(const std::string& scene, const fs::path& capture,
                           const typename EncoderTraits::Calibration& calibration) {
     simulator::SimulationConfig<EncoderTraits> config;

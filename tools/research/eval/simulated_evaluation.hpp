@@ -18,7 +18,7 @@
 
 namespace terracut::eval {
 
-/// Drives to simulate, one a scene, with the sensor's nominal calibration, at 10 Hz.
+/// Drives to simulate, one per scene, with the sensor's nominal calibration, at 10 Hz.
 struct SimulatedDrives {
   std::vector<std::string> scenes;  ///< scenes::scene_names(), each once; each is a sequence.
   sensor::SensorModel sensor = sensor::SensorModel::kHdl64e;  ///< encoder_traits.hpp
@@ -31,26 +31,26 @@ struct SimulatedConfig {
   SimulatedDrives drives;
   FrameRange frames;
   std::vector<MethodChoice> methods;
-  mount::Mount mount;       ///< That the drives have.
-  bool find_mount = false;  ///< Labels by what the drive's first frames show of it, not by `mount`.
-  std::filesystem::path predictions;  ///< As EvaluationConfig::predictions: a label a return.
+  mount::Mount mount;       ///< Of the simulated sensor.
+  bool find_mount = false;  ///< Labels with the mount estimated from the drive's first frames.
+  std::filesystem::path predictions;  ///< As EvaluationConfig::predictions: one label per return.
   eval::ChangedFrames* changed_frames = nullptr;  ///< As EvaluationConfig::changed_frames.
 };
 
-/// Both from the calling thread or another, one at a time.
+/// Called from the calling thread or another, one at a time.
 struct SimulatedProgress {
-  std::function<void(double, double)> simulated_s;          ///< Seconds done, of.
-  std::function<void(std::size_t, std::size_t)> evaluated;  ///< Frames done, of.
+  std::function<void(double, double)> simulated_s;          ///< Seconds done, seconds in all.
+  std::function<void(std::size_t, std::size_t)> evaluated;  ///< Frames done, frames in all.
 };
 
 /// Simulates each drive, sends it through packets and the decoder, labels every frame with every
-/// method and counts against what the simulator knows (SemanticKITTI ids; in dual return both
-/// returns count). Otherwise as evaluate(): frames that `journal` has are not labelled again, and a
-/// drive of which it has all is not simulated. Range bands are those of the vehicle frame. Frames
-/// are labelled one after the other on one pinned core, rays cast on all.
+/// method and counts against the simulator's truth (SemanticKITTI ids; in dual return both returns
+/// count). Otherwise as evaluate(): frames in `journal` are not labelled again, and a drive all of
+/// whose frames it has is not simulated. Range bands are those of the vehicle frame. Frames are
+/// labelled one after the other on one pinned core, rays cast on all.
 ///
 /// kInvalidArgument: of the simulator. kMalformed: a mount is not found. kWriteFailed: predictions,
-/// journal, or the drive under way, which lies in the temporary folder (about 10 MB a second of the
+/// journal, or the current drive, which lies in the temporary folder (about 10 MB a second of the
 /// HDL-64E, 16 of the RS-Ruby128, up to twice that in dual return).
 [[nodiscard]] Expected<EvaluationOutcome> evaluate_simulated(
     const SimulatedConfig& config, Journal* journal, const SimulatedProgress& progress,

@@ -15,12 +15,12 @@ from page.page import render
 from whole_file import write_whole_file
 
 REPOSITORY = Path(__file__).resolve().parents[3]
-# The program's (tools/cli/exit_codes.hpp).
+# The program's codes (tools/cli/exit_codes.hpp).
 DONE, INPUT_REFUSED, OUTPUT_FAILED = 0, 3, 4
 
 
 class Refused(Exception):
-    """A message for people, and the exit code."""
+    """An error with a message for people and the exit code."""
 
 
 def read_evaluation(path):
@@ -58,8 +58,8 @@ def age(path):
 
 
 def evaluate(folder, arguments):
-    """Runs `terracut eval` and prints what it does, without its hint to draw the page; its exit code, and whether it wrote a
-    report."""
+    """Runs `terracut eval` and prints its output, without its hint to draw the page. Returns its exit code, and
+    whether it wrote a report."""
     program = os.environ.get("TERRACUT", str(REPOSITORY / "build/release/terracut"))
     before = age(folder / "evaluation.json")
     try:

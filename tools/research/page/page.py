@@ -15,7 +15,7 @@ HERE = Path(__file__).parent
 
 
 class Facts:
-    """What the template asks of an evaluation."""
+    """The functions that the template calls on an evaluation."""
 
     def __init__(self, evaluation):
         self.evaluation = evaluation
@@ -23,22 +23,22 @@ class Facts:
         self.columns = paper.columns(evaluation)
 
     def tells_road(self, method):
-        """Whether it tells the road surface from other ground."""
+        """True if the method tells the road surface from other ground."""
         return any(entry["as_other_ground"] > 0 for entry in self.methods[method]["by_class"])
 
     def stages(self):
-        """Decoding and stages that any method has, in the order they are reported."""
+        """Returns decoding and all stages of the methods, in the order of the report."""
         return list(dict.fromkeys(stage for method in self.methods.values() for stage in method["ms"] if stage != "segment"))
 
     def role_of(self, class_id):
-        """What a class counts as under both definitions, in words."""
+        """Returns the role of a class under both definitions, in words."""
         for entry in self.evaluation["classes"]:
             if entry["id"] == class_id:
                 return entry["all"] if entry["all"] == entry["road"] else f"{entry['all']} (road: {entry['road']})"
         return "not in the class table"
 
     def place_of_class(self, method, class_id):
-        """In the method's list of the classes that it met; None: it did not."""
+        """Returns the index in the method's list of the classes it met; None if it is not there."""
         ids = [entry["id"] for entry in self.methods[method]["by_class"]]
         return ids.index(class_id) if class_id in ids else None
 
@@ -47,7 +47,7 @@ class Facts:
         return next((frame for frame in self.methods[method]["frames"] if (frame["sequence"], frame["frame"]) == same), None)
 
     def mean_of_measured(self, values):
-        """The mean of the paper's numbers of those sequences that were evaluated."""
+        """Returns the mean of the paper's numbers for the evaluated sequences."""
         measured = [values[place] for _, name, place in self.columns if name is not None and place is not None]
         return sum(measured) / len(measured) if measured else None
 
@@ -57,7 +57,7 @@ def share(value):
 
 
 def render(evaluation, folder):
-    """The page as HTML, whole in one file: the pictures of `folder` are in it."""
+    """Returns the page as HTML in a single file, with the pictures of `folder`."""
 
     def png(name):
         return "data:image/png;base64," + base64.b64encode((folder / name).read_bytes()).decode()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""What the paper prints in its Tables I to IX, by our names for its methods."""
+"""The figures of the paper's Tables I to IX, by our names for its methods."""
 
 import json
 from pathlib import Path
@@ -9,8 +9,8 @@ TABLES = json.loads(Path(__file__).with_name("paper_tables.json").read_text())
 
 
 def columns(evaluation):
-    """[(title, evaluated sequence or None, place in the paper's tables or None)] of the tables by sequence: the
-    paper's sequences, then what was evaluated besides. The paper's ForestMap lies in a folder KoblenzForestMap."""
+    """Returns [(title, evaluated sequence or None, place in the paper's tables or None)] for the tables by sequence:
+    the paper's sequences, then the other evaluated ones. The paper's ForestMap is in a folder KoblenzForestMap."""
     evaluated = list(next(iter(evaluation["methods"].values()))["sequences"])
     printed = TABLES["datasets"].get(evaluation["dataset"], {}).get("sequences", [])
     listed = []

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""The plots of the page, as SVG elements that stand in it."""
+"""The plots of the page, as inline SVG elements."""
 
 import io
 import math
@@ -12,10 +12,10 @@ from markupsafe import Markup, escape
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-# Told apart by people who confuse red and green, too (Okabe, Ito).
+# Distinguishable with red-green colour blindness (Okabe, Ito).
 METHOD_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#444444", "#882255"]
 STYLE = {
-    "svg.fonttype": "none",  # letters stay letters
+    "svg.fonttype": "none",  # text is kept as text
     "font.size": 9,
     "axes.titlesize": 10.5,
     "axes.titleweight": "bold",
@@ -29,9 +29,9 @@ STYLE = {
     "grid.color": "#d9dee5",
     "legend.frameon": False,
 }
-WIDTH = 12.8  # inches: as wide as the page
+WIDTH = 12.8  # inches: the width of the page
 MOST_STROKES = 600
-LEGEND_LETTERS = 160  # have room beside each other
+LEGEND_LETTERS = 160  # number of letters that fit side by side
 RECALL = r"Recall$_\mathrm{o}$"
 
 
@@ -40,15 +40,15 @@ def colour_of_method(place):
 
 
 class Plot:
-    """A figure in the page's style. A tip is what a browser shows where the pointer rests on an artist."""
+    """A figure in the page's style. Tips are shown by a browser when the pointer rests on an artist."""
 
     def __init__(self, name, height, alternative, below=0.45):
-        """Heights in inches; below: what the axes leave free under them."""
+        """Heights are in inches; `below` is left free under the axes."""
         self.name = name
         self.alternative = alternative
         self.tips = {}
         self.figure = Figure(figsize=(WIDTH, height))
-        # Fixed, so that plots below each other have their axes in line.
+        # Fixed margins, so that the axes of stacked plots are aligned.
         self.figure.subplots_adjust(left=0.055, right=0.995, top=1 - 0.3 / height, bottom=below / height, wspace=0.12)
 
     def tip(self, artist, text):
@@ -63,7 +63,7 @@ class Plot:
             self.figure.savefig(file, format="svg", metadata=no_metadata)
         text = file.getvalue()
         text = text[text.index("<svg") :]
-        # Numbered ids come back in every plot; those that something refers to are hashes of this plot's name.
+        # Numbered ids would repeat in each plot and are removed; referenced ids are hashes of this plot's name.
         text = re.sub(r' id="[\w.]+_\d+"', "", text)
         for key, tip in self.tips.items():
             text = text.replace(f'<g id="{key}">', f'<g id="{key}"><title>{escape(tip)}</title>')
@@ -71,7 +71,7 @@ class Plot:
 
 
 def recalls(evaluation):
-    """The worst, the mean and the best frame of every sequence, by method."""
+    """Plots the worst, the mean and the best frame of every sequence, by method."""
     methods = evaluation["methods"]
     sequences = list(next(iter(methods.values()))["sequences"])
     step = min(0.8 / len(methods), 0.12)
@@ -103,14 +103,14 @@ def recalls(evaluation):
 
 
 def times(method, results, place):
-    """The time of every frame, and how the times are distributed."""
+    """Plots the time of every frame, and the distribution of the times."""
     frames = results["frames"]
     values = numpy.array([frame["ms"] for frame in frames])
     colour = colour_of_method(place)
     plot = Plot(f"times-{method}", 2.6, f"Time of every frame, and how the times are distributed: {method}")
     with rc_context(STYLE):
         series, histogram = plot.figure.subplots(1, 2, gridspec_kw={"width_ratios": [2, 1]})
-        # Where there is no room for every frame, neighbours share a stroke from the least of their times to the largest.
+        # If there is no room for every frame, neighbours share a stroke from their least to their largest time.
         strokes = numpy.array_split(numpy.arange(len(values)), min(MOST_STROKES, len(values)))
         middles = [stroke.mean() for stroke in strokes]
         lows, highs = ([pick(values[stroke]) for stroke in strokes] for pick in (numpy.min, numpy.max))
@@ -135,13 +135,13 @@ def times(method, results, place):
 
 
 def name_sequences(axes, sequences):
-    """Frames along the x axis, sequence after sequence."""
+    """Marks the sequences of the frames along the x axis."""
     start, middles, names = 0, [], []
     for name, group in groupby(sequences):
         count = len(list(group))
         if start:
             axes.axvline(start - 0.5, color="#d9dee5", linewidth=1, zorder=0.5)  # behind what is plotted
-        if count >= 0.03 * len(sequences):  # else there is no room for its name
+        if count >= 0.03 * len(sequences):  # only if there is room for its name
             middles.append(start + (count - 1) / 2)
             names.append(name)
         start += count

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Table cells of numbers. One that comes from the evaluation says in its attribute `data-path` where it lies there,
-as a JSON pointer, so that anybody can check the page against the JSON. A number that is not there is a dash."""
+"""Makes table cells of numbers. A number of the evaluation has its place there as a JSON pointer in the attribute
+`data-path`, so that anybody can check the page against the JSON. A missing number is a dash."""
 
 from markupsafe import Markup
 
@@ -9,7 +9,7 @@ EMPTY = Markup("<td>–</td>")
 
 
 def number_at(evaluation, path):
-    """The number under those keys, or places of lists; None where there is none."""
+    """Returns the number under those keys or list indices; None if there is none."""
     value = evaluation
     for key in path:
         try:
@@ -41,5 +41,5 @@ class TableCells:
 
 
 def printed(value):
-    """A number of the paper."""
+    """Returns the cell of a number from the paper."""
     return EMPTY if value is None else Markup('<td class="paper">{:.2f}</td>').format(value)

@@ -28,7 +28,7 @@ KEPT = ((1, 0), (2, 0), (2, 1), (4, 0), (4, 2))
 
 
 def rings_of(points):
-    """The ring of each point from the top, by KITTI's order (firmware_io/scan/ring_recovery.hpp)."""
+    """Returns the ring of each point from the top, by KITTI's order (firmware_io/scan/ring_recovery.hpp)."""
     jitter = math.pi / 18
     rings, ring, last = [], 0, 0.0
     for x, y, _, _ in points:
@@ -45,7 +45,7 @@ def rings_of(points):
 
 
 class Sequence:
-    """A sequence's scans with some rows, as files."""
+    """A sequence's scans reduced to some rows, as files."""
 
     def __init__(self, folder, scratch, every, first):
         self.scans, self.truth = [], []

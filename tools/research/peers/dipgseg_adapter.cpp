@@ -26,7 +26,7 @@ class DipgSeg {
     others_.clear();
     is_ground_.assign(scan.size(), 0);
   }
-  /// The call that tells which points are ground, with the paper's parameters.
+  /// The call that finds the ground points, with the paper's parameters.
   void segment(const Scan&) {
     method_.segment_ground_eval(cloud_, ground_, others_, is_ground_.data());
   }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Drives that everybody labels: packets for terracut, the very points that are in them for its peers."""
+"""Drives for all programs: packets for terracut, and for its peers the points decoded from them."""
 
 import re
 import struct
@@ -8,18 +8,18 @@ import sys
 from array import array
 from pathlib import Path
 
-SENSOR_HEIGHT_M = 1.73  # KITTI's, and what all peers expect
+SENSOR_HEIGHT_M = 1.73  # KITTI's height, expected by all peers
 CLASSES = Path(__file__).resolve().parents[1] / "datasets/semantickitti_classes.yaml"
 
 
 def roles():
-    """{class id: ground, ordinary, key or ignored}, every physical ground counting as ground."""
+    """Returns {class id: ground, ordinary, key or ignored}, with every physical ground as ground."""
     entries = re.findall(r"id: (\d+),.*?\ball: (\w+)", CLASSES.read_text(encoding="utf-8"))
     return {int(number): role for number, role in entries}
 
 
 def kitti_scan(pcd):
-    """The points of a binary PCD of `terracut replay --pcd`, in the sensor's frame, as KITTI's .bin has them."""
+    """Returns the points of a binary PCD of `terracut replay --pcd`, in the sensor's frame, as in KITTI's .bin."""
     header, _, content = pcd.partition(b"DATA binary\n")
     if not content or b"FIELDS x y z intensity ring label\nSIZE 4 4 4 4 2 2\n" not in header:
         sys.exit("expected a binary cloud of x y z intensity ring label, as `terracut replay --pcd` writes")
@@ -29,11 +29,11 @@ def kitti_scan(pcd):
     return scan.tobytes()
 
 
-MOUNT = ["--mount-height", SENSOR_HEIGHT_M, "--mount-roll", 0, "--mount-pitch", 0]  # the peers are told it, too
+MOUNT = ["--mount-height", SENSOR_HEIGHT_M, "--mount-roll", 0, "--mount-pitch", 0]  # the peers get the same height
 
 
 class Drive:
-    """One capture, the truth of its returns, and its frames as scans. Everything lies in its scratch folder."""
+    """A capture, the truth of its returns, and its frames as scans, all in a scratch folder."""
 
     def __init__(self, group, name, folder):
         self.group, self.name, self.folder = group, name, folder
@@ -42,7 +42,7 @@ class Drive:
         self.scans, self.truth = [], []
 
     def take(self, program):
-        """Decodes it once, for its points."""
+        """Decodes the drive once to get its points."""
         program.run("replay", self.capture, "--calibration", self.calibration, "--pcd", self.folder / "pcd",
                     *MOUNT)  # fmt: skip
         for pcd in sorted((self.folder / "pcd").glob("*.pcd")):
@@ -53,7 +53,7 @@ class Drive:
             self.truth.append(self.folder / "drive.truth" / f"{pcd.stem}.label")
 
     def score(self, labels, role_of):
-        """(IoU_g, Recall_o) of the labels NNNNNN.label in a folder; None where a label is missing."""
+        """Returns (IoU_g, Recall_o) of the labels NNNNNN.label in a folder; None if a label is missing."""
         counts = {}
         for number, truth_file in enumerate(self.truth):
             written = labels / f"{number:06}.label"
@@ -68,7 +68,7 @@ class Drive:
 
 
 def score_of(counts, role_of):
-    """(IoU_g, Recall_o) of {(true class, label): points}; None where there is nothing to find."""
+    """Returns (IoU_g, Recall_o) of {(true class, label): points}; None without ground or key obstacles."""
     def points(wanted, called_ground):
         return sum(number for (true, label), number in counts.items()
                    if role_of.get(true, "ignored") in wanted and (role_of.get(label) == "ground") == called_ground)  # fmt: skip
@@ -81,7 +81,7 @@ def score_of(counts, role_of):
 
 
 def recorded(program, root, scratch):
-    """The sequences below a SemanticKITTI root, as the packets they came in, their motion put back."""
+    """Returns the sequences below a SemanticKITTI root, encoded as packets with their motion restored."""
     drives = []
     for sequence in sorted((root / "sequences").glob("*")):
         if not any((sequence / "labels").glob("*.label")):

@@ -20,7 +20,7 @@ class FugSeg {
     }
     return scan;
   }
-  /// Its viewer lets these lists grow in the call; with room set aside it is faster.
+  /// Its viewer lets these lists grow in the call; reserving memory makes it faster.
   void prepare(const Scan& scan) {
     for (fugseg::Cluster3D* const list : {&ground_, &others_}) {
       list->clear();
@@ -35,7 +35,7 @@ class FugSeg {
   }
 
  private:
-  // What its viewer starts with, for KITTI.
+  // The defaults of its viewer, for KITTI.
   fugseg::GroundExtractor extractor_{120, 1.0F, 0.15F, 7.0F, 10.0F};
   fugseg::Cluster3D ground_, others_;
 };

@@ -9,8 +9,7 @@ namespace {
 using groundgrid::GroundSegmentation;
 using Cloud = pcl::PointCloud<GroundSegmentation::PCLPoint>;
 
-constexpr float kSensorHeight_m =
-    1.73F;  // its launch files: the vehicle's frame lies so much below
+constexpr float kSensorHeight_m = 1.73F;  // its launch files: the vehicle's frame is so much lower
 constexpr float kMap_m = 120, kCell_m = .33F;  // GroundGrid.h
 
 class GroundGrid {
@@ -25,7 +24,7 @@ class GroundGrid {
     sensor_.x = sensor_.y = 0;
     sensor_.z = kSensorHeight_m;
   }
-  /// In the vehicle's frame. Rings serve as a limit only, which its defaults do not set.
+  /// In the vehicle's frame. Rings serve only as a limit, which its defaults do not set.
   static Scan scan_of(const std::vector<terracut::peers::Point>& points) {
     Scan scan(new Cloud);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -38,7 +37,7 @@ class GroundGrid {
     }
     return scan;
   }
-  /// The map before its first odometry, as GroundGrid::initGroundGrid() makes it.
+  /// The map before the first odometry, as made by GroundGrid::initGroundGrid().
   void prepare(const Scan&) {
     map_["points"].setZero();
     map_["ground"].setConstant(0);
@@ -47,7 +46,7 @@ class GroundGrid {
     map_["maxGroundHeight"].setConstant(-100);
   }
   void segment(const Scan& scan) { labelled_ = method_.filter_cloud(scan, sensor_, {}, map_); }
-  /// It returns a cloud without numbers: points are found by their coordinates, ground as 49.
+  /// It returns a cloud without point numbers: points are found by coordinates; ground is 49.
   std::vector<bool> is_ground(const Scan& scan) {
     const auto key = [](const GroundSegmentation::PCLPoint& p) {
       return std::array<float, 3>{p.x, p.y, p.z};

@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-/// What GroundGrid's build makes of its cfg/GroundGrid.cfg, with the defaults there; one thread.
+/// The result of GroundGrid's build for its cfg/GroundGrid.cfg, with its defaults; one thread.
 namespace groundgrid {
 struct GroundGridConfig {
   int point_count_cell_variance_threshold = 10;
@@ -10,7 +10,7 @@ struct GroundGridConfig {
   double groundpatch_detection_minimum_threshold = 0.01;
   double distance_factor = 0.0001;
   double minimum_distance_factor = 0.0005;
-  double miminum_point_height_threshold = 0.3;  // its spelling
+  double miminum_point_height_threshold = 0.3;  // spelt so in GroundGrid
   double minimum_point_height_obstacle_threshold = 0.1;
   double outlier_tolerance = 0.1;
   double ground_patch_detection_minimum_point_count_threshold = 0.25;

@@ -12,9 +12,9 @@ class Jcp {
  public:
   using Scan = pcl::PointCloud<pcl::PointXYZI>;
 
-  /// What its processor.param.yaml says is what it starts with.
+  /// Its defaults equal its processor.param.yaml.
   Jcp() { method_.config({}); }
-  /// Points without the ring: rows by elevation, which costs it an arctangent a point.
+  /// Points without the ring: rows follow from elevation, at the cost of an arctangent per point.
   static Scan scan_of(const std::vector<terracut::peers::Point>& points) {
     Scan scan;
     for (const auto& p : points) scan.push_back({p[0], p[1], p[2], p[3]});

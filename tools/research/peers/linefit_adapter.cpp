@@ -7,7 +7,7 @@
 namespace {
 
 GroundSegmentationParams kitti_params() {
-  // Its launch/segmentation_params.yaml, on one thread; the sensor's height is KITTI's.
+  // The values of its launch/segmentation_params.yaml, one thread, and KITTI's sensor height.
   GroundSegmentationParams params;
   params.n_threads = 1;
   params.r_min_square = 0.5 * 0.5;
@@ -46,7 +46,7 @@ class Linefit {
 
 }  // namespace
 
-/// Its display, which is off.
+/// Its viewer, which is off.
 Viewer::Viewer() = default;
 Viewer::~Viewer() = default;
 void Viewer::visualize(const std::list<PointLine>&, const PointCloud::ConstPtr&,

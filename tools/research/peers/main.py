@@ -34,7 +34,7 @@ SCENES = ("street", "highway", "rural", "hill")
 
 
 def percentile(values, percent):
-    """By nearest rank."""
+    """Returns the percentile by nearest rank."""
     return sorted(values)[max(1, math.ceil(percent / 100 * len(values))) - 1]
 
 
@@ -55,7 +55,7 @@ def table(title, names, rows):
 
 
 def time_rows(groups, names, samples):
-    """For each drive and for each group's drives together, p50 / p99 (x FROM_PACKETS) of every name."""
+    """Returns p50 / p99 (x FROM_PACKETS) of every name, for each drive and each group of drives."""
     for group, drives in groups.items():
         rows = [(drive, [drive]) for drive in drives]
         if len(drives) > 1:

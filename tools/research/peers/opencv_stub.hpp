@@ -2,9 +2,8 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-/// In place of the header that brings all of OpenCV, and of its names before version 4: what peers
-/// use of it is here, the real one. Windows, which they do not open when they are measured, are
-/// not.
+/// Replaces the header of all of OpenCV, and its names before version 4. The functions that peers
+/// use are the real ones; windows, which are closed during measurements, are missing.
 #include <opencv2/core/core_c.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>

@@ -10,9 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-/// In place of PCL's headers, for peers that use its clouds as vectors of points and nothing else:
-/// PCL brings 427 packages. Points are aligned as PCL's are; standard headers are those that peers
-/// get by PCL's.
+/// Replaces PCL's headers for peers that use its clouds only as vectors of points: PCL brings 427
+/// packages. Points are aligned as in PCL; the standard headers are those that PCL includes.
 namespace pcl {
 
 struct PCLHeader {};
@@ -52,7 +51,7 @@ namespace visualization {
 class PCLVisualizer {};
 }  // namespace visualization
 
-/// One pass in float, about the first point.
+/// One pass in float, relative to the first point.
 template <class Point>
 unsigned computeMeanAndCovarianceMatrix(const PointCloud<Point>& cloud, Eigen::Matrix3f& covariance,
                                         Eigen::Vector4f& mean) {

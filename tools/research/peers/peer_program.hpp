@@ -12,20 +12,20 @@
 #include <string>
 #include <vector>
 
-/// What adapters of peers share. Built beside a peer, never by this project
-/// (docs/reference/benchmark.md, "Beside its peers"), and so without anything of it.
+/// Shared code of the peers' adapters. It is built beside a peer, never by this project
+/// (docs/reference/benchmark.md, "Beside its peers"), and so includes nothing of it.
 namespace terracut::peers {
 
-using Point = std::array<float, 4>;  ///< x, y, z in metres, remission; as it lies in the file.
+using Point = std::array<float, 4>;  ///< x, y, z in metres, remission; as in the file.
 
-/// Of all threads: some peers start their own in every call.
+/// Returns the time of all threads: some peers start their own in every call.
 inline std::int64_t process_cpu_ns() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return now.tv_sec * INT64_C(1'000'000'000) + now.tv_nsec;
 }
 
-/// Empty when there is no such file, or it is none of points.
+/// Returns an empty list if there is no such file, or it does not hold points.
 inline std::vector<Point> read_scan(const char* path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file || file.tellg() % static_cast<std::streamoff>(sizeof(Point)) != 0) return {};
@@ -36,7 +36,7 @@ inline std::vector<Point> read_scan(const char* path) {
   return file ? points : std::vector<Point>{};
 }
 
-/// SemanticKITTI ids; what is not called ground, removed points too, is an obstacle.
+/// Writes SemanticKITTI ids; all points not called ground, removed ones too, are obstacles.
 inline bool write_labels(const std::string& path, const std::vector<bool>& is_ground) {
   constexpr std::uint32_t kGround = 40, kObstacle = 50;
   std::vector<std::uint32_t> labels;
@@ -73,9 +73,9 @@ int run_peer(int argc, char** argv) {
     }
     scans.push_back(Peer::scan_of(points));
   }
-  std::cout.setstate(std::ios::failbit);  // whatever the peer has to say: times go by printf
+  std::cout.setstate(std::ios::failbit);  // silences the peer; times are printed by printf
   Peer peer;
-  for (int pass = 0; pass <= repeat; ++pass) {  // the first one warms caches; not counted
+  for (int pass = 0; pass <= repeat; ++pass) {  // the first pass warms caches and is not counted
     for (std::size_t i = 0; i < scans.size(); ++i) {
       peer.prepare(scans[i]);
       const std::int64_t begun_ns = process_cpu_ns();

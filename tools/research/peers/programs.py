@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Who is measured: terracut, and programs made with peer_program.hpp."""
+"""The measured programs: terracut, and those made with peer_program.hpp."""
 
 import json
 import os
@@ -11,7 +11,7 @@ from pathlib import Path
 from .drives import MOUNT
 
 PASSES = 2
-# What is told of terracut's own times.
+# Names of terracut's own times.
 SEGMENTING = "terracut, without decoding"
 AFTER_FRAME = "terracut, after the frame's last packet"
 FROM_PACKETS = "terracut, from packets"
@@ -41,7 +41,7 @@ class Terracut:
         return run([self.program, *arguments])
 
     def times(self, drive):
-        """{name: [ms] of every frame of all passes}."""
+        """Returns {name: [ms] of every frame of all passes}."""
         report = drive.folder / "bench.json"
         self.run("bench", drive.capture, "--calibration", drive.calibration, "--repeat", PASSES, "--core", self.core,
                  "--json", report, *MOUNT)  # fmt: skip

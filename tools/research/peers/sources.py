@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Where the peers come from, and how they are built: outside of this repository, each at one commit."""
+"""The sources of the peers and how they are built: outside this repository, each at one commit."""
 
 import os
 import shlex
@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ADAPTERS = Path(__file__).resolve().parent
-# -march=native -O3 gave the best times of what was tried; terracut is built as users build it.
+# -march=native -O3 gave the best times of those tried; terracut is built as users build it.
 FLAGS = "-std=c++17 -O3 -march=native -DNDEBUG -w -isystem /usr/include/eigen3 -isystem /usr/include/opencv4"
-# Headers of PCL, ROS and OpenCV's whole that peers include, and what stands in for them.
+# Headers of PCL, ROS and all of OpenCV that peers include, and their replacements.
 STAND_INS = {
     "pcl_stub.hpp": [
         "pcl/point_cloud.h", "pcl/point_types.h", "pcl/common/centroid.h", "pcl/filters/filter.h",
@@ -33,14 +33,14 @@ STAND_INS = {
 
 
 class Unavailable(Exception):
-    """Why a peer cannot be measured here."""
+    """Raised if a peer cannot be measured here."""
 
 
 @dataclass(frozen=True)
 class Source:
-    repository: str  # of GitHub
+    repository: str  # on GitHub
     commit: str
-    folder: str  # all that is taken of it
+    folder: str  # the only folder used
 
     @property
     def place(self):
@@ -53,10 +53,10 @@ class PeerSource:
     licence: str
     sources: tuple
     adapter: str
-    code: str = ""  # patterns, relative to the folder of all sources, as the rest is
+    code: str = ""  # patterns, relative to the folder of all sources, like the following
     include: str = ""
     flags: str = ""
-    needs: str = ""  # a header, and the packages that bring it
+    needs: str = ""  # a header, and the packages that provide it
     note: str = ""
 
 
@@ -126,7 +126,7 @@ def run(command, folder, what):
 
 
 def fetch(source, folder):
-    """The folder of a source at its commit, below `folder`; kept for the next time."""
+    """Returns the folder of a source at its commit, below `folder`; kept for the next time."""
     place = folder / source.place
     fetched = place / ".fetched"
     if fetched.is_file() and fetched.read_text() == source.commit:
@@ -134,7 +134,7 @@ def fetch(source, folder):
     what = f"{source.repository}@{source.commit[:7]} cannot be fetched"
     place.mkdir(parents=True, exist_ok=True)
     run(["git", "init", "-q"], place, what)
-    # Without files (pictures are most of some), which then come as far as they are taken.
+    # Without files (most are pictures); they are fetched when needed.
     run(["git", "config", "remote.origin.url", f"https://github.com/{source.repository}"], place, what)
     run(["git", "config", "remote.origin.promisor", "true"], place, what)
     run(["git", "config", "remote.origin.partialclonefilter", "blob:none"], place, what)
@@ -155,7 +155,8 @@ def write_stand_ins(folder):
 
 
 def build(peer, folder):
-    """The program of a peer, built below `folder` unless it is newer than all of its adapter's files. Raises Unavailable."""
+    """Returns the program of a peer, built below `folder` unless it is newer than its adapter's files. Raises
+    Unavailable."""
     if peer.needs and not Path(peer.needs).is_file():
         raise Unavailable(f"{peer.needs} is missing; ./tools/setup --peers installs it")
     for source in peer.sources:

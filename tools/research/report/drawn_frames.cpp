@@ -19,7 +19,7 @@ std::string css(Colour colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue);
 }
 
-/// Whether the method tells the road surface from other ground.
+/// True if the method tells the road surface from other ground.
 bool tells_road(const Json& method) {
   return std::ranges::any_of(method.at("by_class"), [](const Json& entry) {
     return entry.at("as_other_ground").get<std::uint64_t>() > 0;

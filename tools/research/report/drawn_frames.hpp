@@ -14,7 +14,7 @@ namespace terracut::report {
 /// Draws frames into files of `folder`/pictures and lists them for a page.
 class DrawnFrames {
  public:
-  /// `evaluation` and `pictures` must outlive this; `on_frame` is called after every frame.
+  /// `evaluation` and `pictures` must outlive this object; `on_frame` is called after every frame.
   DrawnFrames(const Json& evaluation, FramePictures& pictures, std::filesystem::path folder,
               std::function<void()> on_frame)
       : evaluation_(evaluation),
@@ -22,14 +22,14 @@ class DrawnFrames {
         folder_(std::move(folder)),
         on_frame_(std::move(on_frame)) {}
 
-  /// Fig. 13, 14: the truth and every method side by side. A list of sequence, frame, why, side_m,
-  /// and of the files truth and methods{name}; or fault, where the frame cannot be read.
+  /// Draws the truth and every method side by side (Fig. 13, 14). Returns a list of sequence,
+  /// frame, why, side_m, files truth and methods{name}; or fault for an unreadable frame.
   [[nodiscard]] Expected<Json> side_by_side(const std::vector<ChosenFrame>& frames);
-  /// Fig. 16, 17: frames of method_in_question(). The same with the files truth, result, panorama.
+  /// Draws frames of method_in_question() (Fig. 16, 17), with the files truth, result, panorama.
   [[nodiscard]] Expected<Json> worst(const std::vector<ChosenFrame>& frames);
 
  private:
-  /// What every frame's entry begins with; it has a fault where there is nothing to draw.
+  /// Returns the beginning of a frame's entry, with a fault if there is nothing to draw.
   [[nodiscard]] Json opened(const ChosenFrame& frame);
   /// Writes the picture and puts the file's name into `entry`.
   [[nodiscard]] Status draw(const pictures::Picture& picture, const std::string& name, Json& entry);
@@ -40,7 +40,7 @@ class DrawnFrames {
   std::function<void()> on_frame_;
 };
 
-/// What the colours of the pictures stand for: truth{role} and verdict{name}, as CSS writes them.
+/// Returns the meaning of the pictures' colours: truth{role} and verdict{name}, in CSS notation.
 [[nodiscard]] Json colours_json();
 
 }  // namespace terracut::report

@@ -13,24 +13,24 @@
 
 namespace terracut::report {
 
-/// What a report is made from. Everything must outlive the call it is given to.
+/// The input of a report. All members must outlive the call.
 struct ReportInput {
   const nlohmann::ordered_json& evaluation;  ///< evaluation_json()
-  const eval::EvaluationConfig& config;      ///< Frames are read and labelled again for pictures.
+  const eval::EvaluationConfig& config;      ///< Used to read and label frames again for pictures.
   const datasets::ClassTable& classes;
   /// False: no files exist from which frames could be read again (simulated drives). The report
   /// then has no pictures.
   bool on_disk = true;
 };
 
-/// Writes what ./tools/report draws its page from: `folder`/evaluation.json, whole or not at all,
-/// and the pictures it names. It is the evaluation with, of frames on disk, these besides:
+/// Writes the input of ./tools/report: `folder`/evaluation.json, whole or not at all, and the
+/// pictures it names. It is the evaluation and, for frames on disk, also
 ///
 ///   side_by_side[]   the middle frame of every sequence (DrawnFrames)
 ///   worst_of, worst[]  a method, and the frames where it is worst
 ///   colours          of the pictures (colours_json())
 ///
-/// `methods` of the evaluation must have at least one frame each, else kNothingCameOut; also
+/// Each of the evaluation's `methods` must have a frame, otherwise kNothingCameOut; also
 /// kWriteFailed. `on_progress(done, of)` counts frames.
 [[nodiscard]] Status write_report(const std::filesystem::path& folder, const ReportInput& input,
                                   const std::function<void(std::size_t, std::size_t)>& on_progress);

@@ -14,58 +14,58 @@
 
 namespace terracut::report {
 
-/// What a label made of a return, for its colour.
+/// The comparison of a return's label with its truth, for its colour.
 enum class Verdict : std::uint8_t {
   kGround,          ///< Ground, called ground.
-  kOtherGround,     ///< Ground, told to be no road surface.
+  kOtherGround,     ///< Ground, labelled as no road surface.
   kObstacle,        ///< Obstacle, called obstacle.
   kMissedKey,       ///< Key obstacle, called ground.
   kMissedOrdinary,  ///< Ordinary obstacle, called ground.
   kFalseObstacle,   ///< Ground, called obstacle.
-  kIgnored,         ///< Of a class that counts nowhere.
+  kIgnored,         ///< Of an ignored class.
 };
 
 [[nodiscard]] Verdict verdict_of(datasets::Role truth, frame::Label label) noexcept;
 [[nodiscard]] pictures::Colour colour_of(Verdict verdict) noexcept;
-/// Colours of the truth alone: ground, ordinary obstacle, key obstacle.
+/// Returns the colour of the truth alone: ground, ordinary obstacle, key obstacle.
 [[nodiscard]] pictures::Colour colour_of(datasets::Role truth) noexcept;
-/// Of ground that is road, where a method is asked to tell it.
+/// For ground that is road, in pictures of methods that tell it.
 inline constexpr pictures::Colour kTrueRoadColour{150, 92, 158};
 
-/// Pictures of single frames: the truth, and what methods make of it.
+/// Pictures of single frames: the truth, and the results of methods.
 class FramePictures {
  public:
-  /// `config` and `reader` must outlive this.
+  /// `config` and `reader` must outlive this object.
   FramePictures(const eval::EvaluationConfig& config, FrameReader& reader)
       : config_(config), reader_(reader) {}
 
-  /// The frame that is shown from now on. Errors of FrameReader::read() and FrameLabeller::place().
+  /// Sets the frame of all pictures. Errors of FrameReader::read() and FrameLabeller::place().
   [[nodiscard]] Status open(const std::string& sequence, const std::string& frame);
 
-  /// `with_road`: road in a colour of its own.
+  /// `with_road` gives road its own colour.
   [[nodiscard]] pictures::Picture truth(const pictures::BirdEyeView& view, bool with_road) const;
-  /// By one of config.methods, with its mistakes on top.
+  /// Draws the labels of one of config.methods, with its mistakes on top.
   [[nodiscard]] pictures::Picture result(std::string_view method,
                                          const pictures::BirdEyeView& view);
-  /// What to look at to see all key obstacles that the method missed: the sensor in the middle,
+  /// Returns a view that shows all key obstacles that the method missed: the sensor in the middle,
   /// 60 to 160 m wide, drawn in about `side` pixels.
   [[nodiscard]] pictures::BirdEyeView view_of_misses(std::string_view method, int side);
-  /// result() with a ring around missed key obstacles: single returns are hard to see.
+  /// As result(), with a ring around missed key obstacles: single returns are hard to see.
   [[nodiscard]] pictures::Picture marked_result(std::string_view method,
                                                 const pictures::BirdEyeView& view);
-  /// The same as a panorama (range_image_picture.hpp); missed obstacles red, false ones yellow.
+  /// As result(), as a panorama (range_image_picture.hpp); missed obstacles red, false ones yellow.
   [[nodiscard]] pictures::Picture panorama(std::string_view method);
 
  private:
   void label(std::string_view method);
-  /// Where the last label() missed key obstacles.
+  /// Returns where the last label() missed key obstacles.
   [[nodiscard]] std::vector<frame::Return> missed_key() const;
 
   const eval::EvaluationConfig& config_;
   FrameReader& reader_;
   std::string sequence_;
   std::unique_ptr<eval::FrameLabeller> labeller_;
-  std::vector<frame::Label> labels_;  ///< By return index.
+  std::vector<frame::Label> labels_;  ///< One per return.
 };
 
 }  // namespace terracut::report

@@ -20,24 +20,24 @@
 
 namespace terracut::report {
 
-/// Reads single frames of a dataset that was evaluated once more, for pictures. Straight into the
-/// range image, with the rings that the evaluation used.
+/// Reads single frames of an evaluated dataset again, for pictures. Places them directly in the
+/// range image, with the rings of the evaluation.
 class FrameReader {
  public:
-  /// `dataset` and `classes` must outlive this.
+  /// `dataset` and `classes` must outlive this object.
   FrameReader(const datasets::Dataset& dataset, const mount::Mount& mount,
               const datasets::ClassTable& classes)
       : dataset_(dataset), mount_(mount), classes_(classes) {}
 
-  /// `frame`: its name, "000009". After an error there is no frame. kNotFound: no such sequence
-  /// or frame; else as Sequence::read().
+  /// `frame` is a name, "000009". After an error there is no frame. kNotFound: no such sequence or
+  /// frame; other errors as Sequence::read().
   [[nodiscard]] Status read(const std::string& sequence, const std::string& frame);
 
-  /// Of the last frame that was read; valid until the next.
+  /// Returns the image of the last frame; valid until the next.
   [[nodiscard]] const frame::RangeImage& image() const noexcept { return *placed_.image; }
-  /// What its points are with all physical ground as ground, by return index of image().
+  /// Returns the roles by return index of image(), with all physical ground as ground.
   [[nodiscard]] std::span<const datasets::Role> truth() const noexcept { return truth_; }
-  /// 1 for what is ground with the road alone as ground, by return index.
+  /// Returns 1 for road, with the road alone as ground, by return index.
   [[nodiscard]] std::span<const std::uint8_t> is_road() const noexcept { return is_road_; }
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
     return placed_.point_of_return;
@@ -55,7 +55,7 @@ class FrameReader {
   mount::Mount mount_;
   const datasets::ClassTable& classes_;
 
-  std::string sequence_;  ///< That is open; empty: none.
+  std::string sequence_;  ///< The open one; empty: none.
   std::optional<datasets::Sequence> open_;
   std::map<std::string, std::size_t> scan_of_frame_;
   mount::RingProfile profile_;

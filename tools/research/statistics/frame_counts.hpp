@@ -20,10 +20,10 @@ inline constexpr std::array<std::string_view, kRangeBands> kRangeBandNames{"<20m
   return ground_range_m < 20.0 ? 0 : ground_range_m < 40.0 ? 1 : 2;
 }
 
-/// How many points of one class and range band got which label.
+/// The number of points of one class and range band by label.
 struct LabelCounts {
   std::uint64_t ground = 0, obstacle = 0;
-  std::uint64_t other_ground = 0;  ///< Of the ground: told to be no road surface.
+  std::uint64_t other_ground = 0;  ///< Of `ground`: labelled as no road surface.
 
   LabelCounts& operator+=(const LabelCounts& other) noexcept {
     ground += other.ground;
@@ -34,8 +34,8 @@ struct LabelCounts {
   friend bool operator==(const LabelCounts&, const LabelCounts&) = default;
 };
 
-/// Points of key obstacles that stand more than 0.30 m above the true ground around them, where
-/// there is some to tell: how many, and how many of them were called ground.
+/// Points of key obstacles more than 0.30 m above the true ground around them, if any is there:
+/// their number, and how many of them were called ground.
 struct TallCounts {
   std::uint64_t returns = 0, as_ground = 0;
 
@@ -47,8 +47,8 @@ struct TallCounts {
   friend bool operator==(const TallCounts&, const TallCounts&) = default;
 };
 
-/// Points that the frame before saw, too, within 10 cm, of classes that do not move: how many, and
-/// how many changed from ground to obstacle or back, as labelled and in truth.
+/// Points that the previous frame also has within 10 cm, of immobile classes: their number, and how
+/// many changed from ground to obstacle or back, as labelled and in truth.
 struct FlipCounts {
   std::uint64_t returns = 0, flips = 0, true_flips = 0;
 
@@ -62,7 +62,7 @@ struct FlipCounts {
 };
 
 /// The points of a frame, or of many, by true class, range band and label: all measures, under any
-/// class table, follow from these numbers alone.
+/// class table, follow from these numbers.
 class FrameCounts {
  public:
   struct Key {
@@ -82,7 +82,7 @@ class FrameCounts {
     return *this;
   }
 
-  /// In order of class and band.
+  /// Returns the counts in order of class and band.
   [[nodiscard]] const std::map<Key, LabelCounts>& by_class_and_band() const noexcept {
     return counts_;
   }

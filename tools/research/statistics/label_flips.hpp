@@ -17,19 +17,18 @@
 
 namespace terracut::statistics {
 
-/// How steady labels are from frame to frame: every point is compared with the point of the frame
-/// before that lies nearest to it, within 10 cm, once the sensor's motion between them is removed.
-/// Both must be of a class that the table has, is not ignored and does not move (SemanticKITTI's
-/// "moving-..." do).
+/// Measures the steadiness of labels: every point is compared with the nearest point of the
+/// previous frame, within 10 cm, after removal of the sensor's motion. Both must be of a class that
+/// is in the table, is not ignored and does not move (SemanticKITTI's "moving-..." do).
 class LabelFlips {
  public:
   LabelFlips(const datasets::ClassTable& classes, std::size_t methods);
 
-  /// The next frame. `before_this`: takes its points to the frame before; none where there is none,
-  /// or its motion is not known.
+  /// Takes the next frame. `before_this` transforms its points to the previous frame; none if there
+  /// is none or its motion is unknown.
   void look_at(const scan::KittiScan& scan, const std::optional<scan::RigidMotion>& before_this);
 
-  /// By one method, a label a point of the frame looked at last.
+  /// Counts the flips of one method, given a label per point of the latest frame.
   [[nodiscard]] statistics::FlipCounts count(std::size_t method,
                                              std::span<const frame::Label> labels);
 
@@ -47,10 +46,10 @@ class LabelFlips {
   const datasets::ClassTable& classes_;
   std::vector<Place> places_, places_before_;
   std::vector<Truth> truth_, truth_before_;
-  std::vector<std::vector<frame::Label>> labels_;  ///< By method, of the frame counted last.
-  std::vector<std::uint32_t> partners_;            ///< In the frame before, by point.
+  std::vector<std::vector<frame::Label>> labels_;  ///< Per method, of the latest counted frame.
+  std::vector<std::uint32_t> partners_;            ///< In the previous frame, by point.
 
-  // Points of the frame before by voxel: lists, each beginning where its voxel's hash points.
+  // Points of the previous frame by voxel: linked lists, starting at their voxel's hash.
   std::vector<std::uint32_t> first_in_voxel_, next_in_voxel_;
 };
 

@@ -5,7 +5,7 @@
 namespace terracut::statistics {
 namespace {
 
-/// `labels_of(entry, counts)`: the labels to score instead of those counted.
+/// `labels_of(entry, counts)` returns the labels to score in place of the counted ones.
 template <class LabelsOf>
 quality::Quality score(const statistics::FrameCounts& counts, const datasets::ClassTable& classes,
                        const Scope& scope, LabelsOf&& labels_of) {

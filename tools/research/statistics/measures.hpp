@@ -10,30 +10,30 @@
 
 namespace terracut::statistics {
 
-/// Which points a measure is about.
+/// The points that a measure covers.
 struct Scope {
   datasets::GroundDefinition ground = datasets::GroundDefinition::kAll;
-  bool vegetation = true;             ///< False: points of vegetation count nowhere.
+  bool vegetation = true;             ///< False: vegetation is ignored.
   std::optional<std::size_t> band{};  ///< Only this range band.
 };
 
-/// The counts as the class table sees them. Classes it does not know count nowhere. Under kRoad
-/// ground that was told to be no road surface counts as called obstacle.
+/// Returns the counts by the class table's roles. Unknown classes are ignored. Under kRoad, ground
+/// labelled as no road surface counts as called obstacle.
 [[nodiscard]] quality::Quality quality_of(const statistics::FrameCounts& counts,
                                           const datasets::ClassTable& classes, const Scope& scope);
 
-/// What the same points would score if every one were called ground.
+/// Returns the score of the same points if all were called ground.
 [[nodiscard]] quality::Quality everything_ground(const statistics::FrameCounts& counts,
                                                  const datasets::ClassTable& classes,
                                                  const Scope& scope);
-/// What a detector would score that finds all physical ground (GroundDefinition::kAll) and nothing
-/// else: under kRoad, the ceiling of everything that does not see kerbs. Points ignored under kAll
-/// are taken as found correctly.
+/// Returns the score of a detector that finds all physical ground (GroundDefinition::kAll) and
+/// nothing else: under kRoad, the ceiling of all methods that do not see kerbs. Points ignored
+/// under kAll are taken as found correctly.
 [[nodiscard]] quality::Quality perfect_ground(const statistics::FrameCounts& counts,
                                               const datasets::ClassTable& classes,
                                               const Scope& scope);
 
-/// Harmonic mean of precision and recall; 0 when both are.
+/// Returns the harmonic mean of precision and recall; 0 if both are.
 [[nodiscard]] double f1_ground(const quality::Quality& quality) noexcept;
 
 }  // namespace terracut::statistics

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSquare_m = 0.5, kFarthest_m = 100;
 constexpr int kSide = static_cast<int>(2 * kFarthest_m / kSquare_m);
-constexpr int kReach = 4;  // squares, 2 m
+constexpr int kReach = 4;  // in squares: 2 m
 
 int square_of(double metres) {
   return static_cast<int>(std::floor((metres + kFarthest_m) / kSquare_m));

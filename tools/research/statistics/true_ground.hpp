@@ -10,16 +10,16 @@
 
 namespace terracut::statistics {
 
-/// The ground of a scan as its labels have it (GroundDefinition::kAll): mean heights on squares of
-/// half a metre, up to 100 m away.
+/// The ground of a labelled scan (GroundDefinition::kAll): mean heights on squares of half a metre,
+/// up to 100 m away.
 class TrueGround {
  public:
   explicit TrueGround(const datasets::ClassTable& classes);
 
   void look_at(const scan::KittiScan& scan);
 
-  /// Height of the ground around a place, the nearest squares counting most; nothing where none
-  /// within 2 m has ground.
+  /// Returns the height of the ground around a place, weighting the nearest squares most; nothing
+  /// if no square within 2 m has ground.
   [[nodiscard]] std::optional<double> height_m(double x_m, double y_m) const;
 
  private:

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""A min-cut that is too large for the deadline: degradation must stop it, say so, and lose nothing by it, from
-the first frame on.
+"""A min-cut that is too large for the deadline: degradation must stop it, report it, and lose nothing, from the first
+frame on.
 
-A rural scene, and seeds so strict that nearly every cell is unknown and all of them go into the cut. The
-drive is labelled live under two deadlines: one that leaves time for most of the cut, and one that does not
-even for its weights. Its truth judges these labels and those of the coarse stages alone; and every frame must
-have the labels of one level, bit for bit.
+In a rural scene seeds are so strict that nearly every cell is unknown and goes into the cut. The drive is labelled live
+under two deadlines: one that leaves time for most of the cut, and one too short even for its weights. These labels and
+those of the coarse stages alone are scored against the truth; and every frame must have the labels of one level, bit
+for bit.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from .report import Report
 
 HARD = {"seeds.ground_share": 1, "seeds.max_ground_height_m": 0, "min_cut.max_unknown": 262144}
 SETTINGS = [f"--set={key}={value}" for key, value in HARD.items()]
-SEVERAL_TIMES = 3  # what the hard cut takes at least of the usual one
+SEVERAL_TIMES = 3  # least time of the hard cut relative to the usual one
 WAKING_UP_MS = 1.5  # from the last packet to the segmenter
-SHARES_OF_CUT = [0.8, 0.25]  # that the deadline leaves time for
+SHARES_OF_CUT = [0.8, 0.25]  # share for which the deadline leaves time
 LOOPS = 2
 LABELLED_GROUND = 40
 GROUND = {40, 44, 48, 49, 60, 72}
@@ -99,7 +99,7 @@ def ids(path: Path) -> array:
 
 
 def iou_ground(pairs: list[tuple[Path, Path]]) -> float:
-    """IoU_g of label files against truth files, as tools/lab/quality/quality.cpp defines it."""
+    """Returns the IoU_g of label files against truth files, as defined in tools/lab/quality/quality.cpp."""
     counts: Counter = Counter()
     for labels, truth in pairs:
         counts.update(zip(ids(labels), ids(truth)))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""What runs beside a trial: cyclictest, which measures the machine, and stress-ng, which loads it."""
+"""The programs beside a trial: cyclictest measures the machine, stress-ng loads it."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from pathlib import Path
 
 from . import machine
 
-# Between the segmenting and the receiving thread: what it waits for, they wait for.
+# Between the segmenting and the receiving thread, so that it is delayed as they are.
 CYCLICTEST_PRIORITY = 75
 LONGEST_US = 200_000
 
 
 class CyclicTest:
-    """Wake-up delays of a thread that sleeps 1 ms at a time, in the same minutes."""
+    """Measures the wake-up delays of a thread that sleeps 1 ms at a time, in the same minutes."""
 
     def __init__(self, seconds: float):
         self.process: subprocess.Popen | None = None
@@ -32,7 +32,7 @@ class CyclicTest:
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
 
     def result(self) -> str:
-        """p99.9 and maximum, or why there is none."""
+        """Returns p99.9 and maximum, or why there is none."""
         if self.process is None:
             return self.reason
         output, _ = self.process.communicate()
@@ -51,7 +51,7 @@ class CyclicTest:
 
 
 class Stress:
-    """On every core something computes, moves memory and writes to the disk, at normal priority."""
+    """Computes, moves memory and writes to the disk on every core, at normal priority."""
 
     def __init__(self, scratch: Path, seconds: float):
         folder = scratch / "stress"
@@ -63,7 +63,7 @@ class Stress:
         self.process = subprocess.Popen(self.command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def stop(self) -> None:
-        """Its workers end with it."""
+        """Ends it with its workers."""
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
         self.process.wait(timeout=60)

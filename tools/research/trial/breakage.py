@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Things that break around a live process: whoever watches it, its network interface, its disk, its port."""
+"""Breaks things around a live process: its watchers, its network interface, its disk, its port."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def hold(program: Program, report: Report, drive: Drive, seconds: float, deadlin
     doors.hold(program, report, drive, seconds, deadline_ms)
 
 
-# --- Whoever watches is killed ---
+# --- A watcher is killed ---
 
 
 def killed_readers(program: Program, report: Report, drive: Drive, seconds: float, deadline_ms: float) -> None:
@@ -77,7 +77,7 @@ def readers(program: Program, name: str, metrics: int, stream: int) -> list[list
     return commands
 
 
-# --- Somebody else wants the port ---
+# --- Another process wants the port ---
 
 
 def second_process(program: Program, report: Report, drive: Drive, deadline_ms: float) -> None:
@@ -131,7 +131,8 @@ def full_disk(program: Program, report: Report, drive: Drive, deadline_ms: float
 
 
 class Link:
-    """Two network name spaces joined by a cable: the sensor's, and the computer's with the interface `lidar0`."""
+    """Two network name spaces joined by a virtual cable: the sensor's, and the computer's with the interface
+    `lidar0`."""
 
     SENSOR, COMPUTER = "10.77.3.1", "10.77.3.2"
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Simulated drives to send, and the little that a trial reads of captures and label files itself."""
+"""Simulated drives to send, and the few readers of captures and label files that a trial needs."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from pathlib import Path
 FILE_HEADER_BYTES = 24
 RECORD_HEADER = struct.Struct("<IIII")
 MICROSECOND_MAGIC = 0xA1B2C3D4
-# Of a record as terracut writes it: its header, Ethernet, IPv4 without options, UDP.
+# Offset of the port in a record of terracut: its header, Ethernet, IPv4 without options, UDP.
 PORT_AT = RECORD_HEADER.size + 14 + 20 + 2
 PAYLOAD_AT = RECORD_HEADER.size + 14 + 20 + 8
 
 
 @dataclass(frozen=True)
 class Drive:
-    """What `terracut simulate -o PCAP` wrote."""
+    """The files of `terracut simulate -o PCAP`."""
 
     pcap: Path
     calibration: Path
@@ -29,7 +29,7 @@ class Drive:
 
 
 def records(pcap: Path):
-    """(stamp in nanoseconds, bytes of header and packet) of every record of a classic pcap file."""
+    """Yields (stamp in nanoseconds, bytes of header and packet) for every record of a classic pcap file."""
     with pcap.open("rb") as file:
         magic = struct.unpack("<I", file.read(FILE_HEADER_BYTES)[:4])[0]
         unit_ns = 1000 if magic == MICROSECOND_MAGIC else 1
@@ -43,7 +43,7 @@ def packet_count(pcap: Path) -> int:
 
 
 def cut_beginning(pcap: Path, packets: int, into: Path) -> int:
-    """The first packets of a capture as one of its own; how many nanoseconds they span."""
+    """Writes the first packets of a capture to a file; returns the nanoseconds they span."""
     with pcap.open("rb") as file:
         content = file.read(FILE_HEADER_BYTES)
     stamps_ns = []
@@ -55,7 +55,7 @@ def cut_beginning(pcap: Path, packets: int, into: Path) -> int:
 
 
 def payloads(pcap: Path, for_s: float) -> list[bytes]:
-    """Of the first seconds' data packets: those to the port that most go to."""
+    """Returns the data packets of the first seconds: those to the busiest port."""
     found: list[tuple[int, bytes]] = []
     for number, (stamp_ns, record) in enumerate(records(pcap)):
         begin_ns = stamp_ns if number == 0 else begin_ns
@@ -68,12 +68,12 @@ def payloads(pcap: Path, for_s: float) -> list[bytes]:
 
 
 def labels_of(folder: Path) -> dict[int, str]:
-    """A digest of every frame's label file, by frame number."""
+    """Returns a digest of every frame's label file, by frame number."""
     return {int(path.stem): hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(folder.glob("*.label"))}
 
 
 def fresh_folder(folder: Path) -> Path:
-    """With nothing in it."""
+    """Returns the folder, emptied."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
     return folder

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Everything at once that others can do to a live process from outside: to its messages, its port, its disks and each of
-its doors. The sensor's frames must be labelled all the same, memory must stay, and what is refused must be counted."""
+"""Attacks a live process in all ways possible from outside at once: its messages, its port, its disks and each of its
+doors. The sensor's frames must still be labelled, memory must not grow, and refusals must be counted."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ MOST_GROWTH_MIB = 32
 IDLE_CONNECTIONS = 1000  # at each door
 BABBLERS = [f"127.0.1.{number}" for number in range(1, 69)]
 TWIN = "127.0.0.2"
-IN_TIME = 0.95  # of the frames
-DOORS_AGAIN_S = 30  # of which it waits ten between two tries
+IN_TIME = 0.95  # least share of frames
+DOORS_AGAIN_S = 30  # including ten seconds of waiting between two tries
 ANSWERS_AGAIN_S = 30
 CHUNK = 1 << 16
 AT_ONCE, PAUSE_S = 20, 0.01  # connections to a door; more would overflow the host's own queue (netdev_max_backlog)
@@ -52,13 +52,13 @@ def hold(program: Program, report: Report, drive: Drive, seconds: float, deadlin
 
 
 def learn_the_sensor(program: Program, drive: Drive) -> None:
-    """A run before, by which the sensor's address is known."""
+    """Makes an earlier run, which stores the sensor's address."""
     with Live(program, drive, limit_s=60) as live:
         live.interrupt()
         live.process.wait(timeout=60)
 
 
-# --- Where messages go ---
+# --- The destination of messages ---
 
 
 @contextlib.contextmanager
@@ -99,7 +99,7 @@ MESSAGES = {
 
 
 class Ports:
-    """The addresses of its doors, which this trial has until it gives them back."""
+    """The addresses of its doors, reserved for this trial until they are given back."""
 
     NAMES = ("metrics", "view", "foxglove", "stream")
     HTTP = NAMES[:3]
@@ -116,7 +116,7 @@ class Ports:
             held.close()
 
     def await_open(self) -> float:
-        """How long until all are served."""
+        """Waits until all are served; returns the seconds."""
         begun = time.monotonic()
         for name, port in self.of.items():
             while not is_open(port):
@@ -134,12 +134,12 @@ def is_open(port: int) -> bool:
         return False
 
 
-# --- Who sends to its port while it waits for its sensor ---
+# --- Senders to its port while it waits for its sensor ---
 
 
 @contextlib.contextmanager
 def babblers_and_twin(drive: Drive, to: str):
-    """One byte from each of many, and a second sensor as quick as the first."""
+    """Sends one byte from each of many addresses, and a second sensor at the first one's rate."""
     host, port = to.rsplit(":", 1)
     for address in BABBLERS:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as babbler:
@@ -160,11 +160,11 @@ def babblers_and_twin(drive: Drive, to: str):
     sending.join()
 
 
-# --- Who comes to its doors ---
+# --- Clients of its doors ---
 
 
 def idle_connection(port: int) -> socket.socket:
-    """On its way; whether it is taken is not waited for."""
+    """Starts a connection without waiting for its acceptance."""
     connection = socket.socket()
     connection.setblocking(False)
     with contextlib.suppress(BlockingIOError):
@@ -173,7 +173,7 @@ def idle_connection(port: int) -> socket.socket:
 
 
 class Crowd:
-    """Idle connections to every door, and requests without end to those that take requests."""
+    """Holds idle connections to every door, and sends endless requests to those that take requests."""
 
     REQUESTS = {
         "headers": (b"GET /%b HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n", b"X-Header: " + b"y" * 1000 + b"\r\n"),
@@ -207,7 +207,7 @@ class Crowd:
             time.sleep(0.01)
 
     def turned_away(self) -> int:
-        """Of the idle ones, those that the other side has closed again, or never took."""
+        """Returns how many idle connections the other side has closed or never accepted."""
         poll = select.poll()
         for connection in self.idle:
             poll.register(connection, select.POLLOUT | select.POLLRDHUP)
@@ -222,7 +222,7 @@ class Crowd:
             connection.close()
 
 
-# --- What it costs ---
+# --- Its cost ---
 
 
 def memory_kib(pid: int, what: str) -> int:
@@ -231,7 +231,7 @@ def memory_kib(pid: int, what: str) -> int:
 
 
 def forget_most_memory(pid: int) -> None:
-    Path(f"/proc/{pid}/clear_refs").write_text("5")  # VmHWM begins anew (proc(5))
+    Path(f"/proc/{pid}/clear_refs").write_text("5")  # resets VmHWM (proc(5))
 
 
 def descriptors(pid: int) -> int:
@@ -245,7 +245,7 @@ def answers(port: int) -> bool:
 
 
 def frames_in(live: Live, seconds: float, at_each: object = lambda: None) -> tuple[int, float]:
-    """Frames labelled within that time, and revolutions of the head."""
+    """Returns the frames labelled within that time, and the revolutions of the head."""
     begun, before = time.monotonic(), labelled(live.figures())
     while time.monotonic() - begun < seconds:
         at_each()
@@ -257,7 +257,7 @@ def labelled(figures: dict) -> int:
     return figures["frames"]["count"] - figures["frames"]["levels"]["skipped"]
 
 
-# --- All of it ---
+# --- The trial ---
 
 
 def all_at_once(program: Program, report: Report, drive: Drive, seconds: float, deadline_ms: float, is_short: bool,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Somebody who sends datagrams at a rate of its own: an attacker, a second sensor. A process by itself, so that
-it shares nothing with the trial but the machine: `python3 flood.py TO RATE SECONDS PAYLOADS FROM...`."""
+"""Sends datagrams at a rate of its own, like an attacker or a second sensor. A separate process, which shares only the
+machine with the trial: `python3 flood.py TO RATE SECONDS PAYLOADS FROM...`."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ import time
 from pathlib import Path
 
 TICK_S = 0.001
-PRIORITY = ["chrt", "-f", "60"]  # as the sensor's, which this must not hold up
+PRIORITY = ["chrt", "-f", "60"]  # as the sensor's, which this must not delay
 
-# --- What is sent ---
+# --- The datagrams ---
 
 
 def garbage(packets: list[bytes], count: int = 2000) -> list[bytes]:
-    """Bytes that mean nothing: of any length, of the sensor's length, such as have all that its packets have in common
-    and nothing else, and its packets with a quarter of the rest gone. The same every time."""
+    """Returns meaningless packets: of any length, of the sensor's length, with only the bytes common to all its
+    packets, and its packets with a quarter of the other bytes destroyed. The same every time."""
     dice = random.Random(20240229)
     sample = [packet for packet in packets[:500] if len(packet) == len(packets[0])]
     differing = [at for at, values in enumerate(zip(*sample)) if len(set(values)) > 1]
@@ -47,7 +47,7 @@ def garbage(packets: list[bytes], count: int = 2000) -> list[bytes]:
 
 
 def send(to: tuple[str, int], rate: float, seconds: float, payloads: list[bytes], addresses: list[str]) -> dict:
-    """As many a millisecond as the rate asks for; what a busy machine held up is made good. 0 s: until SIGINT."""
+    """Sends at the rate per millisecond, catching up after delays by a busy machine. 0 s: until SIGINT."""
     sockets = []
     for address in addresses:
         sockets.append(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
@@ -71,14 +71,14 @@ def send(to: tuple[str, int], rate: float, seconds: float, payloads: list[bytes]
 
 
 class Flood:
-    """Such a process; stop() gives what it sent."""
+    """Runs flood.py; stop() returns what it sent."""
 
     def __init__(self, to: str, rate: float, payloads: list[bytes], addresses: list[str], realtime: bool, scratch: Path):
         file = scratch / "flood.pickle"
         file.write_bytes(pickle.dumps(payloads))
         command = [*(PRIORITY if realtime else []), sys.executable, __file__, to, str(rate), "0", str(file), *addresses]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-        self.told: dict = {}  # once it has ended
+        self.told: dict = {}  # set once it has ended
 
     def stop(self) -> dict:
         if not self.told:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""A network that is full of others, and a sensor that is not well: the run must stay up, account for every
-datagram, and label the sensor's frames in time, or say of each why not.
+"""A network with other senders, and a faulty sensor: the run must stay up, account for every datagram, and label the
+sensor's frames in time, or give the cause for each missed one.
 
-The clock that steps is the sensor's. The computer's own is not set here: it would step for everything that runs
-on this machine; the sequence fuzzers of tests/fuzz step it for the chain that live runs."""
+Only the sensor's clock steps. The computer's clock is not set, because that would affect all its programs; the sequence
+fuzzers of tests/fuzz step it for the processing chain of live."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ from .report import Report
 from .scripted_faults import UndisturbedFrames, unmatched
 
 FLOOD_A_SECOND = 20_000
-REACHED_A_SECOND = 18_000  # below this a flood was none
+REACHED_A_SECOND = 18_000  # a slower flood does not count
 SENSOR = "127.0.0.1"
 STRANGERS = [f"127.0.0.{number}" for number in range(2, 10)]
-CALM_S = 1.5  # of the drive, after whoever disturbs it has gone
+CALM_S = 1.5  # of the drive, after the disturbance
 SHORT_DEADLINE_MS = 2000
 LEAST_S = 3
-IN_TIME = 0.95  # of the frames, where nobody has the sensor's address
+IN_TIME = 0.95  # share of the frames, if no other sender has the sensor's address
 
 
 @dataclass(frozen=True)
 class Attack:
-    """`sends`: whoever sends beside the sensor: what, made of its packets, and how many a second, made of how many a
-    second it sends itself. `faults`: a script for the sensor, made of how long it plays."""
+    """A disturbance. `sends` makes the datagrams of another sender from the sensor's packets, `rate` their number per
+    second from the sensor's. `faults` makes the sensor's script from its duration in seconds."""
 
     name: str
     addresses: list[str] | None = None
@@ -55,13 +55,13 @@ class Attack:
 
 
 def reboots(seconds: float) -> str:
-    """Every two seconds it is silent for 0.3 s and counts from the beginning again."""
+    """Returns faults: every two seconds it is silent for 0.3 s and its clock starts again."""
     times = itertools.takewhile(lambda at: at + 0.3 < seconds, itertools.count(2, 2))
     return " ".join(f"pause@{at}s:0.3s clock@{at + 0.3:.1f}s:-2s" for at in times)
 
 
 def clock_steps(seconds: float) -> str:
-    """Twice a second, by a little and by much, forward and back."""
+    """Returns faults: twice a second, a small or large step, forward and back."""
     steps = itertools.cycle(["+0.05s", "-0.05s", "+2s", "-2s", "+1800s", "-1800s"])
     times = itertools.takewhile(lambda at: at < seconds, itertools.count(0.75, 0.5))
     return " ".join(f"clock@{at:.2f}s:{step}" for at, step in zip(times, steps))
@@ -81,8 +81,8 @@ ATTACKS = [
 
 
 def hold(program: Program, report: Report, seconds: float, sensors: list[str], short: bool) -> None:
-    """`short`: a deadline for busy machines, on which neither is judged how fast others send nor what the kernel drops
-    or the segmenter skips does to labels."""
+    """`short` selects a deadline for busy machines, where the rate of other senders and the effect of packets
+    dropped or frames skipped on labels are not judged."""
     if seconds < LEAST_S:
         raise TrialError(f"{seconds:g} s of each: a sensor that reboots every two seconds needs at least {LEAST_S}")
     deadline_ms = SHORT_DEADLINE_MS if short else DEADLINE_MS
@@ -144,13 +144,13 @@ def judge_frames(report: Report, of: str, attack: Attack, undisturbed: Undisturb
 
 
 def touched_by(fault: dict, undisturbed: UndisturbedFrames) -> set[int]:
-    """The frames that a script's fault changes; of a clock that steps, the one in which it does."""
+    """Returns the frames that a script's fault changes; for a clock step, the one with the step."""
     is_step = fault["fault"].startswith("clock")
     return set().union(*(undisturbed.of(first, 1 if is_step else count) for first, count in fault["runs"]))
 
 
 def judge_causes(report: Report, of: str, summary: dict, lost: int) -> None:
-    """Every miss has a cause, and no frame is lost or changed without a loss that is named."""
+    """Checks that every miss has a cause, and that no frame is lost or changed without a counted loss."""
     causes = Counter(summary["misses"]["causes"])
     report.equal(of + "misses by all causes together", causes.total(), summary["misses"]["total"])
     named = sum(losses(summary).values())

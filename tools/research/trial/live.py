@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""A `terracut live` under trial, and the sensor that `terracut send` plays for it.
+"""Runs `terracut live` under trial, with `terracut send` as its sensor.
 
-Every packet of a trial is accounted for: live is woken with the first packets of the drive, which it
-only learns the sensor from, and the drive is sent once its threads wait for packets. So what it counts
-must be what was sent, and its frame numbers are those of a replay.
+Every packet of a trial is accounted for: live gets the first packets of the drive to learn the sensor from, and the
+drive is sent once its threads wait for packets. So it must count exactly the packets sent, and its frame numbers are
+those of a replay.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ from . import machine
 from .capture import Drive, cut_beginning
 from .program import MOUNT, Program, TrialError
 
-# Enough to know a sensor by, and few enough for the smallest receive buffer.
+# Enough to recognise a sensor, and few enough for the smallest receive buffer.
 WAKE_UP_PACKETS = 120
-WAKE_UP_NS = 1_000_000_000  # that they take: live takes a sensor for known once it has heard it for 0.3 s
+WAKE_UP_NS = 1_000_000_000  # their duration: live recognises a sensor after 0.3 s
 LONGEST_WAIT_S = 200
-# Below the live threads', so that it does not stand for their work; above everything that loads the
-# machine, which a real sensor would not share.
+# Below the live threads', so that it does not displace them; above everything that loads the machine, which does not
+# delay a real sensor.
 SENDER_PRIORITY = 60
 
 Others = Callable[[str], contextlib.AbstractContextManager]
 
 
 class Send:
-    """`terracut send` of a drive; wait() gives its report."""
+    """Runs `terracut send` of a drive; wait() returns its report."""
 
     def __init__(self, program: Program, pcap: Path, to: str, *options: object, prefix: list[str] | None = None,
                  limit_s: float = 3600):  # fmt: skip
@@ -61,17 +61,16 @@ class Send:
 
 
 class Live:
-    """A running `terracut live`; leave the `with` or call stop() to end it."""
+    """Runs `terracut live`; leave the `with` or call stop() to end it."""
 
     def __init__(self, program: Program, drive: Drive, *options: object, deadline_ms: float = 50,
                  limit_s: float = 3600, listen: str = "127.0.0.1", prefix: list[str] | None = None,
                  sender_prefix: list[str] | None = None, messages_to: object = None, others: Others | None = None):  # fmt: skip
-        """`messages_to`: what its messages go to in place of a log. `others`: who sends to the address it listens at while
-        it is woken."""
+        """`messages_to` receives its messages in place of a log. `others` sends to its address while it is woken."""
         self.program = program
         self.drive = drive
-        self.port = 0  # once it listens, as what follows
-        self.sends_to_address = "127.0.0.1"  # of this computer, as its sensor sees it
+        self.port = 0  # these are set once it listens
+        self.sends_to_address = "127.0.0.1"  # this computer's address for the sensor
         self.sends_to = ""
         self.name = f"trial-{os.getpid()}"
         self.summary_file = program.scratch / "live.json"
@@ -90,9 +89,9 @@ class Live:
         self.waiting: dict | None = None  # figures before the first packet
 
     def __enter__(self) -> "Live":
-        guard = ["timeout", "--foreground", "-k", "5", str(int(self.limit_s))]  # of FIFO threads nobody must lose hold
+        guard = ["timeout", "--foreground", "-k", "5", str(int(self.limit_s))]  # FIFO threads must always be stoppable
         with self.log.open("w") as log:
-            # What it remembers of its sensor is no other trial's.
+            # Its memory of the sensor is not shared with other trials.
             environment = {**os.environ, "STATE_DIRECTORY": str(self.program.scratch)}
             to = log if self.messages_to is None else self.messages_to
             self.process = subprocess.Popen([*self.prefix, *guard, str(self.program.path), *self.command], stdout=to,
@@ -116,7 +115,7 @@ class Live:
     # --- Start ---
 
     def port_after(self, words: str) -> int:
-        """Of the address that it names after these words, once it does."""
+        """Returns the port of the address that it prints after these words, once it does."""
         line = re.compile(re.escape(words) + r"\S*:(\d+)\b.*\n")
         self._await(lambda: line.search(self.messages()), "said: " + words)
         return int(line.search(self.messages())[1])
@@ -127,7 +126,7 @@ class Live:
     def _wake(self) -> None:
         first = self.program.scratch / "wake_up.pcap"
         span_ns = cut_beginning(self.drive.pcap, WAKE_UP_PACKETS, first)
-        # While it stands still, so that all are there when it goes on: none comes once it counts.
+        # It is stopped meanwhile, so that all packets are there when it continues: none is counted later.
         os.kill(self.pid(), signal.SIGSTOP)
         try:
             with self.others(self.sends_to):
@@ -154,14 +153,14 @@ class Live:
             return False
         if states.get("tc-receive") != "S" or states.get("tc-segment") != "S":
             return False
-        time.sleep(0.3)  # twice the threads' longest wait: what the wake-up left is flushed
+        time.sleep(0.3)  # twice the threads' longest wait: the wake-up's packets are flushed
         self.waiting = self.figures()
         return self.waiting is not None
 
     # --- While it runs ---
 
     def pid(self) -> int:
-        """Of terracut itself, not of what guards it."""
+        """Returns the process id of terracut itself, not of its guard."""
         pid = self.process.pid
         while children := Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
             pid = int(children[0])
@@ -172,12 +171,12 @@ class Live:
                     limit_s=limit_s)  # fmt: skip
 
     def figures(self) -> dict | None:
-        """What `terracut top` sees now."""
+        """Returns the figures that `terracut top` shows now."""
         seen = self.program.run("top", self.name, "--once", "--print-json")
         return json.loads(seen.stdout) if seen.returncode == 0 else None
 
     def until(self, shows: Callable[[dict], bool], what: str) -> dict:
-        """The first figures that satisfy `shows`."""
+        """Waits for the first figures that satisfy `shows`."""
         seen: list[dict] = []
 
         def look() -> bool:
@@ -188,7 +187,7 @@ class Live:
         return seen[0]
 
     def settled(self) -> dict:
-        """Figures once all that was sent is taken in: they stand still, and so does what waits for it."""
+        """Returns the figures once all sent packets are processed: neither they nor the queues change."""
 
         def counts(figures: dict | None) -> object:
             return figures and (figures["link"]["packets"], figures["frames"]["count"], figures["losses"])
@@ -202,7 +201,7 @@ class Live:
         return now
 
     def used(self) -> tuple[float, int]:
-        """Of all its threads: seconds of processor time, and how often they slept and were woken."""
+        """Returns the processor seconds of all its threads, and the number of their wake-ups."""
         seconds, wake_ups = 0.0, 0
         for task in Path(f"/proc/{self.pid()}/task").iterdir():
             seconds += int((task / "schedstat").read_text().split()[0]) / 1e9
@@ -211,7 +210,7 @@ class Live:
         return seconds, wake_ups
 
     def unread_bytes(self) -> int:
-        """Of packets in its socket."""
+        """Returns the bytes of unread packets in its socket."""
         with (Path(f"/proc/{self.pid()}") / "net/udp").open() as table:
             rows = [line.split() for line in table][1:]
         return sum(int(row[4].split(":")[1], 16) for row in rows if int(row[1].split(":")[1], 16) == self.port)
@@ -229,7 +228,7 @@ class Live:
             self.process.send_signal(signal.SIGINT)
 
     def stop(self) -> dict:
-        """Its summary. Waits first, for what was sent last to be taken in."""
+        """Returns its summary, after all sent packets are processed."""
         if self.runs():
             self.settled()
         self.interrupt()
@@ -247,11 +246,11 @@ class Live:
                 self.process.kill()
 
 
-# --- Of a summary ---
+# --- The summary ---
 
 
 def losses(summary: dict) -> dict[str, int]:
-    """What is not zero."""
+    """Returns the losses that are not zero."""
     return {name: count for name, count in summary["losses"].items() if count != 0}
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Minutes at 10 Hz while other programs take every core and the disk, at normal priority."""
+"""Runs minutes at 10 Hz while other programs use every core and the disk, at normal priority."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from .report import Report
 from .stalled import DeafReaders, FrozenDisk, judge_frames
 
 SHARED = ["--receive-priority", "0", "--segment-priority", "0"]
-CALM_S = 10  # after the load: time to recover in
-MOST_MINUTES_WITHOUT_RIGHTS = 3  # what it costs shows by then
+CALM_S = 10  # time to recover after the load
+MOST_MINUTES_WITHOUT_RIGHTS = 3  # enough to show the cost
 
 
 def hold(program: Program, report: Report, minutes: float, sensors: list[str]) -> None:
@@ -50,7 +50,7 @@ def row(run: str, summary: dict, cyclic: str) -> list:
 
 
 def with_rights(program: Program, report: Report, minutes: float, name: str) -> list:
-    """Disk and readers stand still besides, where this machine lets us arrange that."""
+    """Runs with rights, also stalling disk and readers if this machine permits."""
     of, sensor = f"{name}, loaded, with real-time rights: ", SENSORS[name]
     drive = program.drive(name, sensor.returns, "street", DRIVE_S)
     seconds = minutes * 60
@@ -119,13 +119,13 @@ def without_rights(program: Program, report: Report, minutes: float, name: str) 
 
 
 def own_skips(summary: dict) -> int:
-    """Skipped frames that no miss by another cause explains."""
+    """Returns the number of skipped frames not explained by a miss of another cause."""
     causes = summary["misses"]["causes"]
     others = sum(count for cause, count in causes.items() if cause != "own_work")
     return max(0, summary["frames"]["levels"]["skipped"] - others)
 
 
 def judged_all(summary: dict, sent: dict, drive: Drive) -> bool:
-    """Frames counted are the frames sent, but for what lies at the end."""
+    """True if all sent frames were counted, except those at the end."""
     revolutions = sent["sent"] / packet_count(drive.pcap) * DRIVE_S * FRAMES_A_SECOND
     return revolutions - 3 <= summary["frames"]["count"] <= revolutions + 1

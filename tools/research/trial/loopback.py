@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Minutes at 10 Hz through a socket of this machine: an HDL-64E, then an RS-Ruby128 in dual return."""
+"""Runs minutes at 10 Hz through a socket of this machine: an HDL-64E, then an RS-Ruby128 in dual return."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FRAMES_A_SECOND = 10
 class Sensor:
     name: str
     returns: str
-    cpu_bar_ms: float  # of the processor time end to end, 99.9th percentile
+    cpu_bar_ms: float  # limit of the processor time end to end, 99.9th percentile
 
 
 SENSORS = {"hdl64e": Sensor("hdl64e", "single", 15), "ruby128": Sensor("ruby128", "dual", 25)}
@@ -77,10 +77,10 @@ def judge(report: Report, sensor: Sensor, summary: dict, sent: dict, loops: int,
     report.equal(of + "datagrams sent", (sent["sent"], sent["failed"]), (loops * packets, 0))
     judge_accounting(report, of, summary, sent["sent"])
     report.equal(of + "packets taken in", summary["link"]["packets"], sent["sent"])
-    # The drive's clock starts again with every pass; its head rotates on. The stamps say so once a pass.
+    # The drive's clock starts again with every pass while its head rotates on: one clock jump per pass.
     expected = {"clock_jumps": loops - 1} if loops > 1 else {}
     report.equal(of + "losses by cause, but for the clock of a drive that is repeated", losses(summary), expected)
-    # The end of the last revolution is not seen: no packet follows it.
+    # The end of the last revolution is unknown: no packet follows it.
     report.check(of + f"frames of {revolutions} revolutions sent", revolutions - 2 <= frames["count"] <= revolutions, frames["count"])
     report.equal(of + "frames skipped", frames["levels"]["skipped"], 0)
     report.equal(of + "page faults of both real-time threads", faults(summary), 0)

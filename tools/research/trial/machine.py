@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""The machine a trial runs on, and what it is allowed to do there."""
+"""The machine of a trial, and what the trial may do there."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pathlib import Path
 
 @functools.cache
 def line() -> str:
-    """Processor, cores, kernel and distribution in one line."""
+    """Returns processor, cores, kernel and distribution in one line."""
     cpu = "unknown processor"
     virtual = False
     for entry in Path("/proc/cpuinfo").read_text().splitlines():
@@ -37,18 +37,18 @@ def is_root() -> bool:
 
 @functools.cache
 def has_realtime_rights() -> bool:
-    """Whether a process may ask for SCHED_FIFO."""
+    """True if a process may ask for SCHED_FIFO."""
     if shutil.which("chrt") is None:
         return False
     return subprocess.run(["chrt", "-f", "1", "true"], capture_output=True, check=False).returncode == 0
 
 
 def lacks(*programs: str) -> str:
-    """Which of these programs are missing, as a reason to skip; empty: none."""
+    """Returns which of these programs are missing, as a reason to skip; empty if none."""
     missing = [program for program in programs if shutil.which(program) is None]
     return f"not installed: {', '.join(missing)} (./tools/setup --trial)" if missing else ""
 
 
 def load() -> str:
-    """Load averages of the last 1, 5 and 15 minutes."""
+    """Returns the load averages of the last 1, 5 and 15 minutes."""
     return " ".join(f"{value:.1f}" for value in os.getloadavg())

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""What each output of a live run costs, and that readers which stand still delay nothing."""
+"""Measures the cost of each output of a live run, and checks that stalled readers delay nothing."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ MEBI = 1 << 20
 class Output:
     name: str
     options: list[object]
-    reader: Callable[[Live], object] | None  # none: it writes files
-    left_out: tuple[str, ...]  # the causes by which its dropped frames are counted
+    reader: Callable[[Live], object] | None  # None: it writes files
+    left_out: tuple[str, ...]  # causes under which its dropped frames are counted
 
 
 def outputs(program: Program, folder: Path) -> list[Output]:
@@ -47,8 +47,8 @@ def outputs(program: Program, folder: Path) -> list[Output]:
 @dataclass
 class Run:
     summary: dict
-    cpu_ms: float  # of the whole process, a frame
-    resident_mib: float  # at most
+    cpu_ms: float  # of the whole process, per frame
+    resident_mib: float  # the maximum
     bytes_read: list[int]  # by each output's reader, in all
     clouds_read: int  # by the node
     frames: int

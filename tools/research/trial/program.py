@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Runs `terracut`: makes drives, sends them, replays them. The live process itself: live.py."""
+"""Runs `terracut`: makes drives, sends them, replays them. For the live process see live.py."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from pathlib import Path
 from .capture import Drive
 
 
-# That of the simulated drives. Stated, because a live run would find it in other frames than the replay it is compared with.
+# The drives' mount. Stated, because a live run would estimate it from other frames than the compared replay.
 MOUNT = ["--mount-height", "1.73", "--mount-roll", "0", "--mount-pitch", "0"]
 
 
 class TrialError(Exception):
-    """The trial could not be held; the message says why."""
+    """The trial could not be run; the message gives the reason."""
 
 
 class Program:
-    """`scratch`: a folder for drives, which are kept from one trial to the next, and results."""
+    """`scratch` is a folder for results and for drives, which later trials reuse."""
 
     def __init__(self, path: Path, scratch: Path):
         self.path = path
@@ -38,7 +38,7 @@ class Program:
         return done.stdout
 
     def drive(self, sensor: str, returns: str, scene: str, seconds: float) -> Drive:
-        """Simulated once, then kept: delete the folder after a change of the simulator."""
+        """Returns a drive, simulated once and then kept: delete the folder after a change of the simulator."""
         pcap = self.scratch / "drives" / f"{sensor}-{returns}-{scene}-{seconds:g}s.pcap"
         table = pcap.with_suffix(".calibration." + ("csv" if sensor == "ruby128" else "xml"))
         drive = Drive(pcap, table, pcap.with_suffix(".truth"))
@@ -49,7 +49,7 @@ class Program:
         return drive
 
     def replay(self, pcap: Path, calibration: Path, labels: Path | None = None, *options: object) -> dict:
-        """The report of `terracut replay`."""
+        """Returns the report of `terracut replay`."""
         report = self.scratch / "replay.json"
         arguments = ["replay", pcap, "--calibration", calibration, "--json", report, *MOUNT, *options]
         if labels is not None:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Who reads what a live run hands out: one reader for each output, which can be made to stand still."""
+"""Readers of a live run's outputs: one for each output, which can be stalled."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ import threading
 
 from .live import Live
 
-DDS_DOMAIN = 77  # where nobody else is
+DDS_DOMAIN = 77  # unused by others
 SUBPROTOCOL = "foxglove.websocket.v1"
 
 
 class SocketReader:
-    """Takes all that comes through a socket and counts it."""
+    """Reads and counts all bytes of a socket."""
 
     def __init__(self, connection: socket.socket):
         self.bytes = 0
@@ -51,10 +51,10 @@ class SocketReader:
 
 
 class NodeReader:
-    """A `terracut node` that takes the published clouds in: another process, by DDS alone."""
+    """A `terracut node` that receives the published clouds: another process, by DDS alone."""
 
-    bytes = 0  # what a process takes from DDS cannot be seen from without
-    clouds = 0  # that it labelled; known once it has left
+    bytes = 0  # the bytes that a process reads from DDS are not visible from outside
+    clouds = 0  # labelled ones; known once it has ended
 
     def __init__(self, live: Live):
         self.program, self.name = live.program, live.name + "-reader"
@@ -96,7 +96,7 @@ def read_page(live: Live) -> SocketReader:
 
 
 def read_foxglove(live: Live) -> SocketReader:
-    """Subscribed to every topic."""
+    """Subscribes to every topic."""
     port = live.port_after("connect to ws://")
     connection = connected(port)
     key = base64.b64encode(os.urandom(16)).decode()
@@ -114,7 +114,7 @@ def read_foxglove(live: Live) -> SocketReader:
 
 
 def text_message(file) -> bytes:
-    """The next message of a WebSocket's server, put together from its frames (RFC 6455, 5.2)."""
+    """Returns the next message of a WebSocket's server, assembled from its frames (RFC 6455, 5.2)."""
     text, is_last = b"", 0
     while not is_last:
         first, length = file.read(2)
@@ -128,5 +128,5 @@ def text_message(file) -> bytes:
 
 
 def masked(text: bytes) -> bytes:
-    """As a client sends it; the mask of zeros leaves it as it is."""
+    """Returns the text as sent by a client; the mask of zeros leaves it unchanged."""
     return b"\x81" + struct.pack(">BH", 0x80 | 126, len(text)) + bytes(4) + text

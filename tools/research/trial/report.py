@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""What a trial found: points that passed or failed, tables of figures, as text, JSON and Markdown."""
+"""The findings of a trial: checks that passed or failed, and tables of figures, as text, JSON and Markdown."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from . import machine
 
 
 class Report:
-    """Collects one trial's findings. `command`: how to run it again."""
+    """Collects one trial's findings. `command` repeats it."""
 
     def __init__(self, trial: str, command: str):
         self.trial = trial
@@ -21,7 +21,7 @@ class Report:
         self.points: list[dict] = []
         self.tables: list[dict] = []
 
-    # --- What is found ---
+    # --- Findings ---
 
     def check(self, point: str, passed: bool, found: object) -> None:
         self._add("PASS" if passed else "FAIL", point, found)
@@ -39,14 +39,14 @@ class Report:
         self.points.append({"verdict": verdict, "point": point, "found": str(found)})
         print(f"  {verdict}  {point}: {found}", flush=True)
 
-    # --- What is told ---
+    # --- Output ---
 
     @property
     def failed(self) -> bool:
         return any(point["verdict"] == "FAIL" for point in self.points)
 
     def write(self, folder: Path) -> None:
-        """FOLDER/trial.json and FOLDER/trial.md; the tables also to the terminal."""
+        """Writes FOLDER/trial.json and FOLDER/trial.md; prints the tables too."""
         folder.mkdir(parents=True, exist_ok=True)
         for table in self.tables:
             print(f"\n{table['title']}\n")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Every fault that `terracut send --faults` knows: the right counter moves, by the right amount, and the
-labels of what was not touched are those of an offline replay, bit for bit."""
+"""Plays every fault that `terracut send --faults` knows: the right counter must change by the right amount, and the
+labels of untouched frames must equal those of an offline replay, bit for bit."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ from .live import Live, losses
 from .program import Program, TrialError
 from .report import Report
 
-# No frame is to be cut short by the clock: what is compared are labels.
+# The clock must cut no frame short: labels are compared.
 DEADLINE_MS = 10_000
 STRANGER = "127.0.0.2"
-# The recorder's room is for the densest sensor; an HDL-64E's packets fill it more than thrice as slowly.
+# The recorder has room for the densest sensor; an HDL-64E's packets fill it less than a third as fast.
 RECORDER_S = 6
 COLUMNS_A_PACKET = 6  # of an HDL-64E
-# Frames of the drive begin every 100 ms: faults lie in the middle of one, and two frames apart.
+# The drive's frames begin every 100 ms: faults are in the middle of one, and two frames apart.
 FIRST_S, APART_S = 0.54, 0.2
 
 
 @dataclass(frozen=True)
 class Fault:
-    """`counters`: what is counted for each packet that `send` says the fault had; `once`: for the fault."""
+    """`counters` are increments for each affected packet reported by `send`; `once` for the whole fault."""
 
     name: str
     kind: str
     amount: str
     counters: dict[str, int] = field(default_factory=dict)
     once: dict[str, int] = field(default_factory=dict)
-    touches: bool = False  # the labels of its frames
+    touches: bool = False  # changes the labels of its frames
     arriving: int = 0  # packets more, or less, that arrive for each
     foreign_from: str = ""
 
@@ -58,7 +58,7 @@ FAULTS = [
 
 
 def hold(program: Program, report: Report, together: bool) -> None:
-    """One run a fault, or `together`: all in one, which is quicker and says less of which one failed."""
+    """Makes one run per fault, or a single run if `together`, which is faster but does not tell which one failed."""
     seconds = FIRST_S + APART_S * len(FAULTS) + 1
     drive = program.drive("hdl64e", "single", "street", round(seconds, 1))
     undisturbed = UndisturbedFrames(program, drive)
@@ -71,7 +71,7 @@ def hold(program: Program, report: Report, together: bool) -> None:
 
 
 class UndisturbedFrames:
-    """The drive's frames, undisturbed: where each begins, and its labels."""
+    """The drive's frames, undisturbed: their begins and labels."""
 
     def __init__(self, program: Program, drive: Drive):
         folder = fresh_folder(program.scratch / "labels_replay")
@@ -79,7 +79,7 @@ class UndisturbedFrames:
         labels = labels_of(folder)
         self.begin_ns = [frame["first_packet_ns"] for frame in replay["frames"]]
         self.stamps_ns = [stamp for stamp, _ in records(drive.pcap)]
-        # The end of the last two is only known to a replay, which knows that nothing follows.
+        # The ends of the last two are only known to a replay, which sees the end of the file.
         self.labels = [labels[number] for number in range(len(self.begin_ns) - 2)]
         if len(set(self.labels)) != len(self.labels):
             raise TrialError(f"{drive.pcap} has frames with the same labels, which cannot be told apart")
@@ -98,7 +98,7 @@ def run(program: Program, report: Report, drive: Drive, undisturbed: Undisturbed
     options = ["--labels", labels, "--recorder-folder", dumps, "--recorder-seconds", RECORDER_S]
     with Live(program, drive, *options, deadline_ms=DEADLINE_MS, limit_s=120) as live:
         sent = live.send("--faults", script, *stranger).wait()
-        live.settled()  # the last packets may still gather
+        live.settled()  # the last packets may still be collecting
         program.must("dump", live.name)
         summary = live.stop()
 
@@ -115,7 +115,7 @@ def run(program: Program, report: Report, drive: Drive, undisturbed: Undisturbed
     expected = expected_losses(faults, had)
     found = losses(summary)
     if "azimuth_hole_columns" in expected:
-        # A frame has no whole number of columns: one may count as the neighbour's.
+        # A frame has a fractional number of columns: one may count for its neighbour.
         holes, columns = found.pop("azimuth_hole_columns", 0), expected.pop("azimuth_hole_columns")
         report.check(of + "columns missing", abs(holes - columns) <= len(touched), f"{holes} of {columns}")
     report.equal(of + "losses by cause", found, expected)
@@ -141,7 +141,7 @@ def expected_losses(faults: list[Fault], had: list[int]) -> dict[str, int]:
 
 
 def unmatched(sent: list[str], touched: set[int], received: dict[int, str]) -> list[int]:
-    """Untouched frames whose labels are not among the frames', at a later number than those before."""
+    """Returns untouched frames whose labels are not among the received ones, in order of number."""
     number_of = {labels: number for number, labels in received.items()}
     missing, newest = [], -1
     for frame, labels in enumerate(sent):
@@ -157,7 +157,7 @@ def unmatched(sent: list[str], touched: set[int], received: dict[int, str]) -> l
 
 def against_dump(program: Program, report: Report, of: str, drive: Drive, dumps: Path, frames: dict[int, str],
                  summary: dict) -> tuple[list[int], int]:  # fmt: skip
-    """Frames that the flight recorder's capture, replayed, labels differently; and how many were compared."""
+    """Returns the frames that a replay of the flight recorder's capture labels differently, and the number compared."""
     captures = list(dumps.glob("*.pcap"))
     report.equal(of + "dumps written", len(captures), 1)
     if not captures:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Sinks that stand still: a disk whose writes block, and readers that do not read."""
+"""Stalls the outputs: a disk whose writes block, and readers that do not read."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ RETURN_BYTES = 4
 
 
 class FrozenDisk:
-    """A file system of its own whose writes can be made to block, as those of a disk that hangs."""
+    """A file system whose writes can be blocked, like those of a hanging disk."""
 
     def __init__(self, scratch: Path, megabytes: int = 512):
         self.image, self.folder = scratch / "disk.img", scratch / "disk"
@@ -36,7 +36,7 @@ class FrozenDisk:
 
     @staticmethod
     def impossible() -> str:
-        """Why this machine cannot have one; empty: it can."""
+        """Returns why this machine cannot have one; empty if it can."""
         if not machine.is_root():
             return "needs root, to mount and freeze a file system"
         if not Path("/dev/loop-control").exists():
@@ -65,8 +65,8 @@ class FrozenDisk:
 
 
 class DeafReaders:
-    """Everyone who may look at a live process, standing still: `terracut top` stopped while attached, and
-    clients of /metrics (and of --stream, where there is one) that connect, ask, and never read."""
+    """Stalls all viewers of a live process: `terracut top` stopped while attached, and clients of /metrics (and of
+    --stream, if there is one) that connect, request, and never read."""
 
     def __init__(self, live: Live, *ports: int):
         top = [str(live.program.path), "top", live.name, "--interval", "0.1"]
@@ -89,7 +89,7 @@ class DeafReaders:
 
 
 def whole_labels(folder: Path, returns: dict[int, int]) -> list[str]:
-    """The names of label files that do not hold one label a return, and of everything else there."""
+    """Returns the names of label files without exactly one label per return, and of all other files there."""
     wrong = []
     for path in sorted(folder.iterdir()):
         if path.name == ".label.terracut":  # the list of the run's own files
@@ -105,7 +105,7 @@ def line_with(text: str, words: str) -> str:
 
 
 def returns_of(report: dict) -> dict[int, int]:
-    """Of every frame of a replay."""
+    """Returns the returns of every frame of a replay."""
     return {frame["frame"]: frame["returns_labelled"] for frame in report["frames"]}
 
 
@@ -135,7 +135,7 @@ def row(state: str, summary: dict, files: int) -> list:
 
 @contextlib.contextmanager
 def writing_to_a_disk_that_hangs(program: Program, seconds: float):
-    """A live process after a third of its run: its disk has just been frozen. (disk, folder, live, sending)"""
+    """Runs a live process for a third of its run and freezes its disk. Yields (disk, folder, live, sending)."""
     drive = program.drive("hdl64e", "single", "street", DRIVE_S)
     with FrozenDisk(program.scratch) as disk:
         folder = disk.folder / "labels"
@@ -148,7 +148,7 @@ def writing_to_a_disk_that_hangs(program: Program, seconds: float):
 
 
 def thawed(program: Program, report: Report, seconds: float) -> list:
-    """The disk hangs for the middle third of the run."""
+    """Checks that the run survives a disk that hangs for its middle third."""
     of = "disk that hangs for a while: "
     with writing_to_a_disk_that_hangs(program, seconds) as (disk, folder, live, sending):
         time.sleep(seconds / 3)
@@ -172,14 +172,14 @@ def thawed(program: Program, report: Report, seconds: float) -> list:
 
 
 def never_thawed(program: Program, report: Report, seconds: float) -> list:
-    """The disk hangs and stays so: the process must say so and end all the same."""
+    """Checks that the process reports a disk that hangs for good, and ends all the same."""
     of = "disk that hangs for good: "
     with writing_to_a_disk_that_hangs(program, seconds) as (disk, folder, live, sending):
         time.sleep(2 * seconds / 3)
         sent = sending.stop()
         live.settled()
         live.interrupt()
-        # It has ended but for the thread that the kernel holds on to until the disk answers.
+        # It has ended except for the thread that the kernel holds until the disk answers.
         end = time.monotonic() + 20
         while "disk does not answer" not in live.messages() and time.monotonic() < end:
             time.sleep(0.1)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""An hour at 10 Hz: after the first minute memory and open files stay as they are, and nothing is lost."""
+"""Runs an hour at 10 Hz: after the first minute memory and open files must not change, and nothing is lost."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from .program import Program
 from .report import Report
 
 LOOK_EVERY_S = 10
-START_S = 60  # what a run takes in its first minute it may take
+START_S = 60  # growth within the first minute is allowed
 ROWS = 12
 
 
 @dataclass(frozen=True)
 class Sample:
-    """What the kernel says of a process, so many seconds after the first packet."""
+    """The kernel's figures of a process, at some seconds after the first packet."""
 
     at_s: float
     resident_kib: int
@@ -89,7 +89,7 @@ def judge_samples(report: Report, of: str, steady: list[Sample], minutes: float)
 
 
 def spread(samples: list[Sample]) -> list[Sample]:
-    """The first, the last, and some at equal distances between them."""
+    """Returns the first, the last, and some at equal distances between them."""
     step = max(1, len(samples) // ROWS)
     chosen = samples[::step]
     return chosen if chosen[-1] is samples[-1] else [*chosen, samples[-1]]

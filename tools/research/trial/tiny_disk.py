@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""A disk that is soon full, without filling one."""
+"""A disk that is soon full, without filling a real one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 
 class TinyDisk:
-    """A file system of so much memory."""
+    """A file system in a limited amount of memory."""
 
     def __init__(self, folder: Path, kibibytes: int):
         folder.mkdir(exist_ok=True)

@@ -20,7 +20,7 @@ class FilePlace {
   [[nodiscard]] bool is_same_as(const FilePlace& other) const;
   /// True at any depth below `folder`, false for the folder itself.
   [[nodiscard]] bool lies_in(const FilePlace& folder) const;
-  /// Absolute; links are resolved as far as the path exists.
+  /// Returns the absolute path; links are resolved as far as the path exists.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
  private:

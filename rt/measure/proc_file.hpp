@@ -17,7 +17,7 @@ namespace terracut::measure {
 /// allocating anything. Movable.
 class ProcFile {
  public:
-  /// kNotFound or kUnreadable, with the system's reason.
+  /// Errors: kNotFound or kUnreadable, with the system's reason.
   [[nodiscard]] static Expected<ProcFile> open(const char* path);
 
   /// Returns as much of the file as `buffer` holds; empty when it can no longer be read. One system

@@ -19,7 +19,7 @@ namespace terracut::measure {
 /// time.
 class StolenTime {
  public:
-  /// kNotFound or kUnreadable if there is no /proc/stat.
+  /// Errors: kNotFound or kUnreadable if there is no /proc/stat.
   [[nodiscard]] static Expected<StolenTime> open();
 
   /// Returns nanoseconds; nothing if the system no longer tells. No allocation, waits for no disk.

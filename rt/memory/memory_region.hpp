@@ -25,7 +25,7 @@ struct RegionRequest {
 /// thread-safe.
 class MemoryRegion {
  public:
-  /// A region of no memory.
+  /// Makes a region of no memory.
   MemoryRegion() = default;
   MemoryRegion(MemoryRegion&& other) noexcept;
   MemoryRegion& operator=(MemoryRegion&& other) noexcept;

@@ -44,7 +44,7 @@ class LatestSlot {
   LatestSlot(const LatestSlot&) = delete;
   LatestSlot& operator=(const LatestSlot&) = delete;
 
-  /// Writer: the slot to fill, in [0, kSlots). It holds an older value: overwrite all of it.
+  /// Writer: returns the slot to fill, in [0, kSlots). It holds an older value; overwrite all.
   [[nodiscard]] std::size_t writer_slot() const noexcept TERRACUT_NONBLOCKING { return writers_; }
 
   /// Writer: makes writer_slot() the newest and gets another to fill. True if the previous one was
@@ -65,7 +65,7 @@ class LatestSlot {
     return true;
   }
 
-  /// Reader: the slot taken last, in [0, kSlots); before that, one with its initial value.
+  /// Reader: returns the slot taken last, in [0, kSlots); before that, one with its initial value.
   [[nodiscard]] std::size_t reader_slot() const noexcept TERRACUT_NONBLOCKING { return readers_; }
 
  private:
@@ -82,7 +82,7 @@ class LatestSlot {
 template <class T>
 class LatestValue {
  public:
-  /// Writer: the value to fill in place before publish(). Overwrite all of its old content.
+  /// Writer: returns the value to fill in place before publish(). Overwrite all of its old content.
   [[nodiscard]] T& draft() noexcept TERRACUT_NONBLOCKING {
     return values_[slots_.writer_slot()].value;
   }
@@ -102,7 +102,7 @@ class LatestValue {
     return slots_.take_if_new() ? &newest_taken() : nullptr;
   }
 
-  /// Reader: the value that take_if_new() returned last; before that a default-constructed T.
+  /// Reader: returns the value last taken by take_if_new(); before that a default-constructed T.
   [[nodiscard]] const T& newest_taken() const noexcept TERRACUT_NONBLOCKING {
     return values_[slots_.reader_slot()].value;
   }

@@ -35,7 +35,7 @@ template <class T>
 using Expected = tl::expected<T, Error>;
 using Status = Expected<void>;
 
-/// Shorthand for `return fail(ErrorCode::kMalformed, "...")`.
+/// Makes an error: a shorthand for `return fail(ErrorCode::kMalformed, "...")`.
 [[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
   return tl::unexpected<Error>(Error{code, std::move(message)});
 }

@@ -15,7 +15,7 @@ namespace terracut::threads {
 /// Waits for a descriptor or for wake() from elsewhere (an eventfd).
 class WakeEvent {
  public:
-  /// kCapacityExceeded when the process has no descriptor left.
+  /// Errors: kCapacityExceeded when the process has no descriptor left.
   [[nodiscard]] static Expected<WakeEvent> make();
 
   /// May be called from any thread or a signal handler. Keeps errno.

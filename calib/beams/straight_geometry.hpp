@@ -29,7 +29,7 @@ namespace terracut::beams {
 /// allocation, no locks; a few trigonometric functions a call (not meant for the per-packet path).
 class StraightGeometry {
  public:
-  /// `lasers`: of a Ruby128Calibration or a VelodyneCalibration.
+  /// `lasers` are those of a Ruby128Calibration or a VelodyneCalibration.
   template <class Lasers>
   StraightGeometry(const Lasers& lasers, double metres_per_count, double lens_ahead_m = 0)
       : metres_per_count_(metres_per_count), lens_ahead_m_(lens_ahead_m) {
@@ -42,16 +42,16 @@ class StraightGeometry {
     }
   }
 
-  /// The beam: every point() of the laser lies on it.
+  /// Returns the beam, on which every point() of the laser lies.
   [[nodiscard]] Ray ray(int laser, double azimuth_rad) const noexcept;
 
-  /// Where a return lies. `raw_counts` is not restricted to whole counts; 0 is not treated as "no
-  /// return".
+  /// Returns the place of a return. `raw_counts` is not restricted to whole counts; 0 is not
+  /// treated as "no return".
   [[nodiscard]] Point point(int laser, double azimuth_rad, double raw_counts) const noexcept;
 
-  /// The raw counts, not rounded, for which point() lies on the plane through `hit` with `normal`
-  /// (any length) to within 1e-9 m; nothing when they are outside [1, 65535] or the beam runs along
-  /// the plane.
+  /// Returns the raw counts, not rounded, for which point() lies on the plane through `hit` with
+  /// `normal` (any length) to within 1e-9 m; nothing if they are outside [1, 65535] or the beam
+  /// runs along the plane.
   [[nodiscard]] std::optional<double> raw_on_plane(int laser, double azimuth_rad, const Point& hit,
                                                    const Direction& normal) const noexcept;
 
@@ -61,7 +61,7 @@ class StraightGeometry {
   };
 
   double metres_per_count_, lens_ahead_m_;
-  std::vector<Beam> beams_;  ///< By laser.
+  std::vector<Beam> beams_;  ///< Indexed by laser.
 };
 
 }  // namespace terracut::beams

@@ -49,8 +49,8 @@ struct Hdl64eCalibration {
 /// enough to form 64 rows. The error names the laser, the field, the value and the allowed span.
 [[nodiscard]] Status validate(const Hdl64eCalibration& calibration);
 
-/// A 64-bit fingerprint of all values (not of the origin), rounded to the packet stream's units, so
-/// that the same unit's table gives the same hash from a file and from the stream.
+/// Returns a 64-bit fingerprint of all values (not of the origin), rounded to the packet stream's
+/// units, so that the same unit's table gives the same hash from a file and from the stream.
 [[nodiscard]] std::uint64_t fingerprint(const Hdl64eCalibration& calibration);
 
 /// Returns the row of every laser in the range image: row 0 is the lowest elevation (nearest to the

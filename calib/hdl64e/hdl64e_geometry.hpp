@@ -54,22 +54,22 @@ class Hdl64eGeometry {
 
   [[nodiscard]] GeometryModel model() const noexcept { return model_; }
 
-  /// Where a return lies. `raw_counts` is the wire's distance, here not restricted to whole counts
-  /// so that the inverse functions are continuous; 0 is not treated as "no return".
+  /// Returns the place of a return. `raw_counts` is the wire's distance, here not restricted to
+  /// whole counts so that the inverse functions are continuous; 0 is not treated as "no return".
   [[nodiscard]] beams::Point point(int laser, double azimuth_rad, double raw_counts) const noexcept;
 
-  /// The beam, for ray casting: every point() of a laser without two_point lies on it; with
-  /// two_point the nearer ones are up to centimetres beside it (use raw_on_plane() for those).
+  /// Returns the beam, for ray casting: every point() of a laser without two_point lies on it; with
+  /// two_point the nearer ones are up to centimetres beside it (then use raw_on_plane()).
   [[nodiscard]] beams::Ray ray(int laser, double azimuth_rad) const noexcept;
 
-  /// The raw counts, not rounded, for which |point()| == range_m to within 1e-9 m; nothing when
-  /// they are outside [1, 65535].
+  /// Returns the raw counts, not rounded, for which |point()| == range_m to within 1e-9 m; nothing
+  /// if they are outside [1, 65535].
   [[nodiscard]] std::optional<double> raw_for_range(int laser, double azimuth_rad,
                                                     double range_m) const noexcept;
 
-  /// The raw counts, not rounded, for which point() lies on the plane through `hit` with `normal`
-  /// (any length) to within 1e-9 m; nothing when they are outside [1, 65535] or the beam runs along
-  /// the plane. `hit` should be where ray() meets the plane.
+  /// Returns the raw counts, not rounded, for which point() lies on the plane through `hit` with
+  /// `normal` (any length) to within 1e-9 m; nothing if they are outside [1, 65535] or the beam
+  /// runs along the plane. `hit` should be where ray() meets the plane.
   [[nodiscard]] std::optional<double> raw_on_plane(int laser, double azimuth_rad,
                                                    const beams::Point& hit,
                                                    const beams::Direction& normal) const noexcept;

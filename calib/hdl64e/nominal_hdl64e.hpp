@@ -6,8 +6,8 @@
 
 namespace terracut::hdl64e {
 
-/// A made-up but typical HDL-64E for simulation and tests; no real unit has this table, so never
-/// decode a recording with it.
+/// Returns a made-up but typical HDL-64E for simulation and tests; no real unit has this table, so
+/// never decode a recording with it.
 ///
 /// Made by formula: lasers 0..31 (upper block) from +2 to -8.3 deg in steps of about 1/3 deg,
 /// lasers 32..63 (lower block) from -8.8 to -24.9 deg in steps of about 1/2 deg, numbered out of

@@ -50,7 +50,7 @@ class MountCheck {
   /// drive knows it better than its first second. Nothing without such a frame.
   [[nodiscard]] std::optional<Mount> by_drive() const;
 
-  /// The number of frames with a ground so far.
+  /// Returns the number of frames with a ground so far.
   [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
   [[nodiscard]] const Mount& mount() const noexcept { return mount_; }
 

@@ -24,7 +24,7 @@ constexpr double kLowest_m = 0.2,
                  kHighest_m = 6.0;         ///< The range searched: all heights that may be stated.
 constexpr double kSteepest_rad = 0.26;     ///< 15 degrees
 constexpr double kReach_m = 0.10;          ///< Half thickness of the ground in the search.
-constexpr double kLeastShare = 0.2;        ///< Of the points, within that thickness.
+constexpr double kLeastShare = 0.2;        ///< Least share of points within that thickness.
 constexpr std::size_t kLeastPoints = 150;  ///< An RS-Ruby128 3 m up sees some 250 of the strip.
 /// With so many, a plane of 20 % of the points is found in 98 % of frames, and there are more
 /// frames.

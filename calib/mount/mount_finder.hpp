@@ -54,7 +54,8 @@ class MountFinder {
   /// Adds a frame's estimate made elsewhere. True if it is one.
   bool add_estimate(const Expected<MountEstimate>& estimated);
 
-  [[nodiscard]] std::size_t frames() const noexcept { return seen_.size(); }  ///< With a ground.
+  /// Returns the number of frames with a ground.
+  [[nodiscard]] std::size_t frames() const noexcept { return seen_.size(); }
   [[nodiscard]] std::size_t frames_looked_at() const noexcept { return looked_at_; }
 
   /// Returns the mount; kMountNotFound, with the last frame's reason, if fewer than half of the

@@ -23,7 +23,7 @@ struct RingObservation {
 /// the constructor. Cheap, but not real-time: `terracut calibrate` uses it.
 class RingProfileEstimate {
  public:
-  /// Returns that differ from the geometry's distance by more than this factor are left out: they
+  /// Largest factor between a return's distance and the geometry's; others are left out, as they
   /// are not on this plane (kerbs, banks, mislabelled walls).
   static constexpr double kMaxFactor = 1.5;
 

@@ -20,7 +20,7 @@ using Points = std::vector<std::array<float, 3>>;
 
 /// Step between the rotations tried; estimate_mount() searches 15 degrees around each.
 constexpr double kTurn_rad = beams::deg_to_rad(20);
-constexpr int kTurns = 3;  ///< To either side of level.
+constexpr int kTurns = 3;  ///< Number of rotations to either side of level.
 
 /// Accepted heights. Below 0.5 m, returns of nearly level beams look like ground whatever they hit.
 constexpr double kLowestSensor_m = 0.5, kHighestSensor_m = 6.0;
@@ -50,8 +50,7 @@ Mount without_height(Mount mount) {
   return mount;
 }
 
-/// Estimates the ground in the frame that `turn` rotates to, then again in the frame that levels
-/// it.
+/// Estimates the ground in the frame rotated by `turn`, then again in the frame that levels it.
 Expected<MountEstimate> estimate_about(const Mount& turn,
                                        std::span<const std::array<float, 3>> points) {
   const auto rough = estimate_mount(turned(points, without_height(turn)));

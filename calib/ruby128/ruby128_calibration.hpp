@@ -30,7 +30,7 @@ struct Ruby128Channel {
 struct Ruby128Calibration {
   std::array<Ruby128Channel, kRuby128Lasers> channels{};
   std::string origin;    ///< For logs: "angle.csv", "DIFOP packets", "nominal table".
-  bool nominal = false;  ///< Of the model, not of the unit; every summary must warn of it.
+  bool nominal = false;  ///< The model's table, not the unit's: every summary must warn of it.
 };
 
 /// Returns the angle rounded to the unit of angle.csv, thousandths of a degree; the smallest int64
@@ -49,8 +49,8 @@ struct Ruby128Calibration {
 /// kMalformed, or kUnsupported for the table of a Ruby Plus, which passes these checks.
 [[nodiscard]] Status validate(const Ruby128Calibration& calibration);
 
-/// A 64-bit fingerprint of all angles (not of the origin), rounded by angle_cdeg(), so that the
-/// same table gives the same hash from a file and from DIFOP.
+/// Returns a 64-bit fingerprint of all angles (not of the origin), rounded by angle_cdeg(), so that
+/// the same table gives the same hash from a file and from DIFOP.
 [[nodiscard]] std::uint64_t fingerprint(const Ruby128Calibration& calibration);
 
 /// Returns the row of every channel in the range image: row 0 is the lowest elevation, row 127 the

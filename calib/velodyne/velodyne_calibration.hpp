@@ -24,15 +24,15 @@ struct VelodyneLaser {
 /// is NOT in order of elevation.
 struct VelodyneCalibration {
   sensor::SensorModel model{};
-  std::vector<VelodyneLaser> lasers;  ///< As many as the model has.
-  std::string origin;                 ///< For logs: "factory table of the Velodyne VLP-16".
+  std::vector<VelodyneLaser> lasers;  ///< One for each laser of the model.
+  std::string origin;                 ///< For logs: "factory table of the VLP-16".
 };
 
 /// The table in the maker's manual of a model that sensor::has_factory_table(); else without
 /// lasers.
 [[nodiscard]] VelodyneCalibration factory_table(sensor::SensorModel model);
 
-/// kInvalidArgument if the number of lasers is not the model's or an angle is not finite.
+/// Errors: kInvalidArgument if the number of lasers is not the model's or an angle is not finite.
 [[nodiscard]] Status validate(const VelodyneCalibration& calibration);
 
 /// Returns a 64-bit hash of the model and all values (not of the origin), rounded to thousandths of

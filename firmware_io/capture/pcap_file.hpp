@@ -25,8 +25,8 @@ struct PcapRecord {
 /// or pcapng) in file order, whatever they hold. Not thread-safe; blocks on the disk.
 class PcapFile {
  public:
-  /// kNotFound, kUnreadable or kMalformed (empty or no capture; the message says what it looks
-  /// like).
+  /// Errors: kNotFound, kUnreadable or kMalformed (empty or no capture; the message says what it
+  /// looks like).
   [[nodiscard]] static Expected<PcapFile> open(std::filesystem::path path);
 
   /// Reads from memory, which must outlive this object; `name` stands for the path in messages.

@@ -52,8 +52,8 @@ struct PcapCounters {
 /// order, or pcapng), in file order. Stamps are always nanoseconds. Not thread-safe.
 class PcapSource {
  public:
-  /// kNotFound, kUnreadable, kMalformed (empty or no capture; the message says what it looks like)
-  /// or kUnsupported (a link layer without IP).
+  /// Errors: kNotFound, kUnreadable, kMalformed (empty or no capture; the message says what it
+  /// looks like) or kUnsupported (a link layer without IP).
   [[nodiscard]] static Expected<PcapSource> open(std::filesystem::path path,
                                                  PcapFilter filter = {});
 

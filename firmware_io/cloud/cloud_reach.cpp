@@ -40,7 +40,7 @@ double quantile(std::span<const ScanPoint> points, double share, Figure&& figure
 
 /// Guesses why measured points lie too far away.
 std::string_view likely_cause(std::span<const ScanPoint> points) {
-  // Bytes of another layout read as numbers of any size.
+  // Bytes of another layout read as numbers may have any size.
   constexpr double kNoCoordinates = 1e6;
   if (quantile(points, 0.9, distance_m) > kNoCoordinates * quantile(points, 0.1, distance_m)) {
     return "are these bytes of another layout, or big-endian?";

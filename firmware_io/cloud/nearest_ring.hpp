@@ -17,14 +17,13 @@ class NearestRing {
   /// `table` has at least two rings.
   explicit NearestRing(const scan::RingTable& table);
 
-  /// Returns scan::kNoRing for a point without a place, and for points beyond the outermost rings
-  /// by more than a degree or by those rings' distance to their neighbour. Allocates nothing.
+  /// Returns scan::kNoRing for a point without a place, and for one farther outside the outermost
+  /// rings than both a degree and the distance to the next ring. Allocates nothing.
   [[nodiscard]] std::int16_t operator()(const scan::ScanPoint& point) const noexcept;
 
  private:
   struct Line {
-    float slope, offset_m,
-        most_off;  ///< Most height off the line over distance, for points of the ring.
+    float slope, offset_m, most_off;  ///< Most height off the line over distance.
   };
 
   /// Bins over the sine of the elevation, each with its ring.

@@ -87,7 +87,7 @@ class PcdReader {
     char type = '\0';       ///< 'I', 'U' or 'F'.
     std::size_t count = 1;
 
-    /// Padding is named _. Skips fields of several values, and of none (PCL wrote those for years).
+    /// False for padding, named _, and fields of several values or none (old PCL wrote those).
     [[nodiscard]] bool is_kept() const { return count == 1 && name != "_"; }
   };
 

@@ -119,7 +119,7 @@ class Decoder {
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return frames_.shape(); }
   /// Returns the most returns a frame may have, as RangeImage::return_capacity() does.
   [[nodiscard]] std::size_t return_capacity() const noexcept { return frames_.return_capacity(); }
-  /// Returns by row how far its beam is ahead of the head when it fires, in revolutions.
+  /// Returns the lead of each row's beam over the head when it fires, in revolutions.
   [[nodiscard]] std::span<const float> beam_turns() const noexcept { return beam_turns_; }
   /// Returns the measured device time between packets; 0 until about 15 packets have been decoded.
   [[nodiscard]] std::int64_t packet_period_ns() const noexcept { return tracker_.period_ns(); }
@@ -197,7 +197,7 @@ class Decoder {
     return steps_ == 0 ? 0 : steps_ticks_ / steps_;
   }
 
-  /// Returns the complete columns of the oldest frame, less one: beams' columns are rounded.
+  /// Returns the number of complete columns of the oldest frame, less one for rounded beams.
   [[nodiscard]] int complete_columns() const noexcept {
     const std::int64_t complete_ticks =
         placed_ticks_ - frames_.oldest() * packet::kRevolution_ticks;
@@ -232,7 +232,7 @@ class Decoder {
     std::int64_t stamp_ns = 0;
     Placement placed;
     packet::BeamSpread spread;
-    packet::RotorInterval swept;  ///< Where the head is during it, without late columns.
+    packet::RotorInterval swept;  ///< The head's way in it, without late columns.
     int late_columns = 0;
     std::int64_t first_frame = 0, last_frame = 0;  ///< Frames its beams may touch.
     BlindSector::Stride stride;
@@ -320,7 +320,7 @@ class Decoder {
   std::optional<frame::Reject> rejected_;
   std::int64_t frontier_ticks_ = 0;          ///< The head has been seen up to here.
   std::int64_t complete_ticks_ = 0;          ///< Up to here no more returns are expected.
-  std::int64_t placed_ticks_ = 0;            ///< The same, for returns already placed.
+  std::int64_t placed_ticks_ = 0;            ///< As complete_ticks_, for placed returns.
   std::int64_t completes_behind_ticks_ = 0;  ///< Usual distance of complete_ticks_ behind the head.
   std::int64_t steps_ticks_ = 0, steps_ = 0;
   bool has_crossed_ = false;  ///< The last packet has a sector inside.

@@ -83,9 +83,9 @@ class Deskewer {
 
   Config config_;
   std::int64_t columns_;
-  std::int64_t first_shift_ = 0, last_shift_ = 0;  ///< From beam's to head's column, all rows.
+  std::int64_t first_shift_ = 0, last_shift_ = 0;  ///< Range of column shifts, beam to head.
 
-  std::span<std::int64_t> instants_ns_;  ///< By node; a ring buffer.
+  std::span<std::int64_t> instants_ns_;  ///< Indexed by node; a ring buffer.
   std::int64_t first_node_ = 0, next_node_ = 0;
   std::int64_t anew_node_ = kFromTheStart;  ///< Earlier nodes have instants of another clock.
   bool noted_ = false;
@@ -101,7 +101,7 @@ class Deskewer {
   // The frame being deskewed.
   std::span<std::int64_t> node_ns_;
   std::span<vehicle::PlanarPose> node_poses_;
-  std::span<float> cosine_, sine_, x_m_, y_m_;  ///< By column of the head, from first_shift_.
+  std::span<float> cosine_, sine_, x_m_, y_m_;  ///< Per column of the head, from first_shift_.
   std::span<frame::PlanarMotions> by_row_;      ///< Each row's part of those four.
 };
 

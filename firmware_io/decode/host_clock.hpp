@@ -19,7 +19,7 @@ class HostClock {
  public:
   struct Sent {
     std::int64_t instant_ns = 0;
-    bool anew = false;  ///< Not comparable with earlier instants.
+    bool anew = false;  ///< True if not comparable with earlier instants.
   };
 
   /// `wrap_us`: the device clock counts [0, wrap_us).

@@ -26,7 +26,7 @@ namespace terracut::decode {
 /// How the returns of a packet are placed.
 struct PacketPlace {
   std::int64_t rotor_cdeg = 0;  ///< Placement::rotor_cdeg
-  int late_columns = 0;         ///< So many first columns are left out and counted.
+  int late_columns = 0;         ///< Number of first columns left out and counted.
   frame::CellOwner owner{};
 };
 
@@ -121,7 +121,7 @@ class PacketReturns {
     bool is_in_one_frame;
     std::size_t frame;  ///< The frame, if only one.
   };
-  using Numbers = std::array<frame::TileRow<std::uint32_t>, 2>;  ///< By frame and firing.
+  using Numbers = std::array<frame::TileRow<std::uint32_t>, 2>;  ///< Indexed by frame and firing.
 
   void leave_out(int late_columns, const packet::PacketAzimuths& azimuths,
                  frame::LossCounters& losses) noexcept {
@@ -276,7 +276,7 @@ class PacketReturns {
     }
   }
 
-  /// In the order of arrival.
+  /// Places the returns in order of arrival.
   void place_by_firing(const Tile& tile, FrameBuilder& frames) noexcept {
     for (std::size_t i = 0; i < kLasers; ++i) reader_.compute_points(i, all_of(points_[i]));
     const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
@@ -303,9 +303,9 @@ class PacketReturns {
   TileColumns<Sensor> columns_of_;
   SensorTileReader<Sensor> reader_;
   std::span<packet::FiringTile<kLasers>> tile_;  ///< One element.
-  std::span<frame::BeamColumns> beams_;          ///< By laser.
-  std::span<frame::TilePoints> points_;          ///< By laser, where they have no cells.
-  frame::TileRow<std::int64_t> rotor_cdeg_{};    ///< Of each firing.
+  std::span<frame::BeamColumns> beams_;          ///< Indexed by laser.
+  std::span<frame::TilePoints> points_;  ///< Indexed by laser, if their cells do not hold them.
+  frame::TileRow<std::int64_t> rotor_cdeg_{};  ///< Per firing.
   frame::TileHeads heads_{};
   std::size_t firings_ = 0;  ///< Added and not placed yet.
   frame::CellOwner owner_{};

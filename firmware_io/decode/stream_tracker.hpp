@@ -26,8 +26,7 @@ enum class Arrival : std::uint8_t {
 
 struct Placement {
   Arrival arrival = Arrival::kRejected;
-  frame::Reject reject =
-      frame::Reject::kCount;  ///< The reason when kRejected, or if rejected after doubt.
+  frame::Reject reject = frame::Reject::kCount;  ///< The reason if rejected, also after doubt.
   /// Unwrapped azimuth of the first column; while in doubt, counted from the first doubtful packet.
   std::int64_t rotor_cdeg = 0;
   /// Between this packet and the newest before it: packets missing by the stamps, and packets that

@@ -78,8 +78,8 @@ class TileColumns {
 
   int columns_;
   std::array<packet::ColumnAngle, static_cast<std::size_t>(Sensor::kChannels)>
-      offset_;                                                             ///< From the head.
-  std::span<frame::TileRow<std::int32_t>> advance_column_, advance_rest_;  ///< By group.
+      offset_;                                                             ///< To the head.
+  std::span<frame::TileRow<std::int32_t>> advance_column_, advance_rest_;  ///< Indexed by group.
   packet::StepAdvances<Columns> advances_;
 };
 

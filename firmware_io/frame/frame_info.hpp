@@ -31,9 +31,8 @@ struct HeadSweep {
 
 /// Facts about one frame besides its returns.
 struct FrameInfo {
-  std::uint32_t number = 0;  ///< From 0, in order of hand-over.
-  std::int64_t first_packet_ns =
-      0;  ///< Datagram stamp of the first and last packet that touched the frame.
+  std::uint32_t number = 0;          ///< From 0, in order of hand-over.
+  std::int64_t first_packet_ns = 0;  ///< Datagram stamps of the first and last packet touching it.
   std::int64_t last_packet_ns = 0;
   HeadSweep head;
   std::uint32_t packets = 0;  ///< Packets decoded since the last frame was handed over.

@@ -42,8 +42,7 @@ struct LossCounters {
   /// firings count as holes as well.
   std::uint64_t late_returns = 0;
   std::uint64_t skipped_frames = 0;  ///< Frames not segmented for lack of time.
-  std::uint64_t clock_jumps =
-      0;  ///< Device stamp jumps that no loss explains (replay loop, reset).
+  std::uint64_t clock_jumps = 0;     ///< Device stamp jumps without a loss (replay loop, reset).
 
   LossCounters& operator+=(const LossCounters& other) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::uint64_t rejected_total() const noexcept;

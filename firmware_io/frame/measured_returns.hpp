@@ -27,8 +27,8 @@ class MeasuredReturns {
   /// One laser's returns in a tile; one bit a firing.
   struct LaserRow {
     std::int32_t least = 0, most = -1;  ///< No return is in a column outside [least, most].
-    std::uint32_t returns = 0;          ///< Returns that belong to this frame.
-    std::uint32_t owned = 0;            ///< Those of them that own their cells.
+    std::uint32_t returns = 0;          ///< Number of returns of this frame.
+    std::uint32_t owned = 0;            ///< Number of them that own their cells.
     /// Firing f is in column least + f, and no earlier return is in any of these columns.
     bool is_run = false;
   };
@@ -42,7 +42,7 @@ class MeasuredReturns {
     TileHeads heads;           ///< Counted from the start of this frame.
     const std::uint16_t* raw;  ///< Laser by laser, kTileFirings each; 0: no return.
     const std::uint8_t* intensity;
-    /// By laser; columns of this frame begin at `first_column`.
+    /// Indexed by laser; this frame begins at `first_column`.
     std::span<const BeamColumns> beams;
     std::int32_t first_column;
   };

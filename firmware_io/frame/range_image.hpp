@@ -90,7 +90,7 @@ class RangeImage {
   [[nodiscard]] std::uint32_t take_numbers(std::uint32_t count) noexcept {
     return std::exchange(returns_, returns_ + count);
   }
-  /// Does place() for a return whose number was taken before.
+  /// Does place() for a return that already has a number.
   bool place_numbered(int row, int column, const Return& point, CellOwner owner,
                       std::uint32_t number) noexcept {
     const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_) +
@@ -155,7 +155,7 @@ class RangeImage {
   [[nodiscard]] std::span<const float> z_m() const noexcept { return z_m_; }
   [[nodiscard]] std::span<const float> ground_range_m() const noexcept { return ground_range_m_; }
   [[nodiscard]] std::span<const std::uint8_t> intensity() const noexcept { return intensity_; }
-  /// Returns by cell the number of its return in the frame, from 0 in order of arrival.
+  /// Returns the number of each cell's return in the frame, from 0 in order of arrival.
   [[nodiscard]] std::span<const std::uint32_t> return_index() const noexcept {
     return return_index_;
   }
@@ -191,7 +191,7 @@ class RangeImage {
   std::span<std::uint8_t> intensity_;
   std::span<std::uint32_t> return_index_;
   std::span<OverflowReturn> overflow_;
-  std::span<std::int32_t> empty_from_;  ///< By row.
+  std::span<std::int32_t> empty_from_;  ///< Indexed by row.
   std::array<Plane, 6> planes_{};
   std::optional<MeasuredReturns> measured_;
 };

@@ -61,7 +61,7 @@ class Hdl64eSensor {
   void begin_packet(const packet::PacketAzimuths& azimuths) noexcept {
     is_s1_packet_ = azimuths.columns == kColumnsPerPacketS1;
   }
-  /// Within a block of the S1 the head's rotation is unknown.
+  /// Returns 0 for the S1: the head's rotation within a block is unknown.
   [[nodiscard]] std::int32_t step_ticks(const packet::PacketAzimuths& azimuths,
                                         std::size_t) const noexcept {
     return is_s1_packet_ ? 0 : azimuths.step_ticks;

@@ -23,8 +23,7 @@ struct StatusPair {
 
 inline constexpr int kStatusCyclePackets = 16;
 inline constexpr int kTableBytesPerCycle = 7;
-inline constexpr int kFirstTablePlace =
-    9;  ///< Places 0..8 of a cycle have letters, 9..15 table bytes.
+inline constexpr int kFirstTablePlace = 9;  ///< Places 0..8 are letters, 9..15 table bytes.
 inline constexpr int kCyclesPerRound = 260;
 inline constexpr int kStatusRoundPackets = kStatusCyclePackets * kCyclesPerRound;  ///< 4160
 static_assert(kTableBytesPerCycle * kCyclesPerRound == kStreamTableBytes);

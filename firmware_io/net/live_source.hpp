@@ -30,8 +30,8 @@ struct ListenConfig {
 /// (firmware_io/net/receive_counters.hpp).
 class LiveSource {
  public:
-  /// kInvalidArgument for libpcap without an interface; otherwise errors of UdpSource::open() and
-  /// LivePcapSource::open().
+  /// Errors: kInvalidArgument for libpcap without an interface; otherwise errors of
+  /// UdpSource::open() and LivePcapSource::open().
   [[nodiscard]] static Expected<LiveSource> open(const ListenConfig& config,
                                                  memory::FixedMemory& memory);
 

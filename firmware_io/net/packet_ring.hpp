@@ -106,7 +106,7 @@ class PacketRing {
   // Used by the writer alone.
   std::uint64_t next_ = 0;                             ///< Number of the next datagram.
   std::uint64_t next_word_ = 0;                        ///< Where its payload begins.
-  std::size_t next_header_at_ = 0, next_word_at_ = 0;  ///< The same, modulo the ring.
+  std::size_t next_header_at_ = 0, next_word_at_ = 0;  ///< next_ and next_word_ modulo the ring.
 
   std::atomic<std::uint64_t> announced_{0};        ///< Datagrams begun.
   std::atomic<std::uint64_t> announced_words_{0};  ///< Words given to them.

@@ -29,9 +29,9 @@ inline constexpr std::int32_t kPeriodTolerance = 8;
   return step_us < -(wrap_us / 2) ? step_us + wrap_us : step_us;
 }
 
-/// Where the head stood, and when, in one data packet of a spinning sensor: all that ordering
-/// packets and cutting frames needs. The sensor's trait makes it and guarantees that azimuths are
-/// in range and advance.
+/// The head's azimuths and times in one data packet of a spinning sensor: all that ordering packets
+/// and cutting frames needs. The sensor's trait makes it and guarantees that azimuths are in range
+/// and advance.
 struct PacketAzimuths {
   static constexpr int kMaxColumns = 12;
 

@@ -28,7 +28,7 @@ struct RotorInterval {
 
 /// An interval that recurs every revolution, or none.
 struct RotorSector {
-  RotorInterval once;                 ///< In any one revolution; shorter than it.
+  RotorInterval once;                 ///< The interval in one revolution; shorter than it.
   std::int64_t revolution_ticks = 1;  ///< > 0
 
   [[nodiscard]] constexpr bool is_none() const noexcept { return once.ticks() == 0; }

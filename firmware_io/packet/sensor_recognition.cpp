@@ -52,7 +52,7 @@ SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
   return SensorModel::kUnknown;
 }
 
-/// Ruby Plus manual: byte 31 is 5 for the Ruby family, byte 32 is the model.
+/// By the Ruby Plus manual byte 31 is 5 for the Ruby family, byte 32 is the model.
 bool is_ruby_plus(Bytes payload) noexcept {
   return payload[31] == 5 && payload[32] == 1;
 }

@@ -17,12 +17,12 @@ namespace terracut::packet {
 /// compilers vectorise. Agrees with those double functions to within 1 mm + 1e-6 of the range; the
 /// same bits on every machine, as the HDL-64E's PointKernel.
 ///
-/// Real-time safe but for the constructor. One thread.
+/// Real-time safe except the constructor. One thread.
 class StraightPointKernel {
  public:
   static constexpr std::size_t kMostLasers = 128;
 
-  /// `lasers`, kMostLasers at most: as of beams::StraightGeometry.
+  /// `lasers` are those of beams::StraightGeometry, at most kMostLasers.
   template <class Lasers>
   StraightPointKernel(const Lasers& lasers, const mount::Mount& mount, double lens_ahead_m = 0)
       : lens_ahead_m_(static_cast<float>(lens_ahead_m)) {

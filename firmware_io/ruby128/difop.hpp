@@ -63,7 +63,7 @@ struct Difop {
   packet::Be16 rpm_actual;
   std::array<std::uint8_t, 7> reserved7;
   std::array<std::uint8_t, 86> gprmc;
-  std::array<Angle, kRuby128Lasers> elevations;  ///< By channel.
+  std::array<Angle, kRuby128Lasers> elevations;  ///< Indexed by channel.
   std::array<Angle, kRuby128Lasers> azimuth_offsets;
   std::array<std::uint8_t, 10> reserved8;
   std::array<std::uint8_t, 2> tail;

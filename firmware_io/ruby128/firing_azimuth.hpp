@@ -30,9 +30,8 @@ namespace terracut::ruby128 {
 
 // --- Times (docs/reference/sensors.md; a public decoder of the maker) ---
 
-inline constexpr std::int32_t kRubyBlock_ns =
-    55'550;  ///< From one firing of all channels to the next.
-inline constexpr std::int32_t kRubyGroup_ns = 3'236;  ///< From one group of channels to the next.
+inline constexpr std::int32_t kRubyBlock_ns = 55'550;  ///< Between firings of all channels.
+inline constexpr std::int32_t kRubyGroup_ns = 3'236;   ///< From one group of channels to the next.
 inline constexpr int kRubyGroups = 16;
 inline constexpr int kRubyChannelsPerGroup = 4;  ///< For each half of the channels.
 
@@ -52,8 +51,8 @@ static_assert(ruby_channel_ns(63) == 48'540 && ruby_channel_ns(64) == 0);
 /// are adjacent blocks, so that pairs straddle packets: A A B, then B C C.
 enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
 
-/// Tells it by the azimuths of a rotating head. All three equal gives kPairFirst, but such a head
-/// stands still.
+/// Finds the order of blocks from the azimuths of a rotating head. Three equal azimuths give
+/// kPairFirst, but such a head stands still.
 [[nodiscard]] constexpr RubyBlocks ruby_blocks(
     const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg) noexcept {
   if (azimuth_cdeg[0] == azimuth_cdeg[1]) return RubyBlocks::kPairFirst;

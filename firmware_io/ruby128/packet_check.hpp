@@ -14,8 +14,7 @@ namespace terracut::ruby128 {
 
 /// Limits of the head's motion inside a packet; it spins at 5 to 20 Hz, 10 to 40 hundredths of a
 /// degree a firing. A blind sector (field of view) shows as a larger jump.
-inline constexpr int kRubyMinSweep_cdeg =
-    4;  ///< First to last firing; below it the head stands still.
+inline constexpr int kRubyMinSweep_cdeg = 4;  ///< First to last firing; less means a standing head.
 inline constexpr int kRubyMaxStep_cdeg = 100;
 inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to firing.
 

@@ -14,8 +14,8 @@ namespace terracut::scan {
 /// A unit's rings are found from at most so many scans, evenly spread over the recording.
 inline constexpr std::size_t kScansToFit = 40;
 
-/// Calls `read` with kScansToFit indices out of `scans`. Scans that cannot be read are left out. It
-/// is an error only if none can be read: that of one scan, kUnsupported if any was that.
+/// Calls `read` with kScansToFit indices out of `scans`. Scans that cannot be read are left out. If
+/// none can be read, returns the error of one scan, preferably kUnsupported.
 [[nodiscard]] Status read_some_scans(std::size_t scans,
                                      const std::function<Status(std::size_t index)>& read);
 

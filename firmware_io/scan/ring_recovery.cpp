@@ -61,8 +61,8 @@ class Directions {
     const auto bin = static_cast<std::size_t>(azimuth_rad(point.x_m, point.y_m) * kPerRad);
     seen_.set(std::min(bin, kBins - 1));
   }
-  /// A laser sees each direction once a revolution: the halves of a ring torn by jitter overlap
-  /// little.
+  /// True if they overlap little, like the halves of a ring torn by jitter: a laser sees each
+  /// direction once a revolution.
   [[nodiscard]] bool may_be_of_one_laser(const Directions& other) const {
     return 4 * (seen_ & other.seen_).count() < std::min(seen_.count(), other.seen_.count());
   }

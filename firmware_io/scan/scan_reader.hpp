@@ -21,18 +21,18 @@ namespace terracut::scan {
 /// all scans, and scans named by their frame number.
 enum class PutMotionBack {
   kNever,
-  kWhereKnown,  ///< If these are there.
+  kWhereKnown,  ///< If these files are present.
 };
 
 /// Reads the scans of a folder one by one, with the ring of every point.
 class ScanReader {
  public:
   /// Lists the folder (scan_folder.hpp). Errors: of the listing; of SensorMotion::read() if motion
-  /// is put back.
+  /// is restored.
   [[nodiscard]] static Expected<ScanReader> open(const std::filesystem::path& folder,
                                                  PutMotionBack motion = PutMotionBack::kNever);
 
-  /// Returns why the scans are read as recorded; empty if their motion is put back.
+  /// Returns why the scans are read as recorded; empty if their motion is restored.
   [[nodiscard]] const std::string& why_as_recorded() const noexcept { return why_as_recorded_; }
 
   [[nodiscard]] std::size_t size() const noexcept { return folder_.scans.size(); }

@@ -46,7 +46,7 @@ class ScanToImage {
   Summary place(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point,
                 frame::RangeImage& image);
 
-  /// Returns by return of the last place() the index of its point in the cloud.
+  /// Returns the cloud's point index for each return of the last place().
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
     return point_of_return_;
   }

@@ -33,7 +33,7 @@ struct UdpStream {
   std::int64_t last_stamp_ns = 0;
 
   SensorModel sensor = SensorModel::kUnknown;  ///< The model of most of its packets.
-  std::string sensor_hints;             ///< As describe_sensor_hints() of its first such packet, or
+  std::string sensor_hints;             ///< From its first such packet: describe_sensor_hints() or
                                         ///< streams::guess_of_unknown().
   std::optional<Hdl64eFacts> hdl64e;    ///< Set if any packet is an HDL-64E's.
   std::optional<Ruby128Facts> ruby128;  ///< Set if any is an RS-Ruby128's data packet.

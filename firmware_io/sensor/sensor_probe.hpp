@@ -49,7 +49,7 @@ class SensorProbe {
   [[nodiscard]] std::string foreign_models() const;
 
  private:
-  /// The sum of one model's packets.
+  /// Counts and azimuths of one model's packets.
   struct Head {
     std::uint64_t packets = 0, dual_packets = 0;
     std::uint64_t slow_steps = 0;  ///< Steps from packet to packet of the HDL-64E's 57.6 us cycle.

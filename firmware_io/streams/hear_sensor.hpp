@@ -12,16 +12,16 @@
 
 namespace terracut::streams {
 
-/// How long a sensor is waited for, and who is told.
+/// How long to wait for a sensor, and whom to tell.
 struct Waiting {
-  std::optional<double> patience_s;  ///< None: as long as it takes.
+  std::optional<double> patience_s;  ///< None: unlimited.
   std::function<bool()> stop_wanted;
-  /// Told many times a second what is waited for; may be empty.
+  /// Called many times a second with what is waited for; may be empty.
   std::function<void(const std::string& what)> on_waiting;
 };
 
-/// Listens at `data`, and at `device` unless that is null, until `first` has heard enough. The
-/// errors of FirstSeconds::conclude(). Start-up: allocates.
+/// Listens at `data`, and at `device` unless that is null, until `first` has heard enough. Errors
+/// of FirstSeconds::conclude(). Start-up: allocates.
 [[nodiscard]] Expected<SensorOnAir> hear_sensor(FirstSeconds& first, net::LiveSource& data,
                                                 net::LiveSource* device, const Waiting& waiting);
 

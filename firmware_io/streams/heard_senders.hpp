@@ -47,7 +47,7 @@ class HeardSenders {
   }
   /// Returns the sensors whose head is known to rotate.
   [[nodiscard]] std::vector<Sensor> rotating() const;
-  /// Returns those that send data packets steadily, whether their head rotates or not.
+  /// Returns the sensors that send data packets steadily, rotating or not.
   [[nodiscard]] std::vector<Sensor> steady() const;
   /// True if the sensor is one of steady() but not of rotating().
   [[nodiscard]] bool is_steady_but_stands(std::uint32_t address) const;

@@ -52,7 +52,7 @@ class SenderStreams {
   /// The senders of one destination's packets, by a mark (port, link-layer address) that may tell
   /// them apart.
   struct Sources {
-    std::map<std::uint64_t, std::uint64_t> packets;  ///< By mark.
+    std::map<std::uint64_t, std::uint64_t> packets;  ///< Keyed by mark.
     std::uint64_t newest = 0;
     Turns turns;
 
@@ -63,7 +63,7 @@ class SenderStreams {
     std::uint64_t packets = 0;
     Sources ports, macs;
     Turns steps;                            ///< Over all its packets, whoever sent them.
-    std::optional<std::int64_t> newest_us;  ///< By the sensor's clock.
+    std::optional<std::int64_t> newest_us;  ///< On the sensor's clock.
   };
   using Group = std::vector<Destination>;
 
@@ -80,9 +80,9 @@ class SenderStreams {
   Destination newest_;
   std::optional<std::int64_t> newest_us_;
   bool has_clock_ = false;     ///< False for simulators whose stamps are all the same.
-  Turns turns_;                ///< From one destination to another.
-  std::uint64_t packets_ = 0;  ///< Without copies.
-  std::unordered_map<std::uint64_t, Destination> first_at_;  ///< By the payload's hash.
+  Turns turns_;                ///< Changes between destinations.
+  std::uint64_t packets_ = 0;  ///< Number without copies.
+  std::unordered_map<std::uint64_t, Destination> first_at_;  ///< Keyed by the payload's hash.
   std::deque<std::uint64_t> payloads_;  ///< The hashes in `first_at_`, oldest first.
   std::map<std::pair<Destination, Destination>, std::uint64_t> copies_;
 };

@@ -31,7 +31,7 @@ class Decoder {
     int reorder_packets = 2;  ///< Packets up to so many late still find their frame; adds latency.
   };
 
-  /// kInvalidArgument on a setting or mount out of range, kCapacityExceeded if memory is short.
+  /// Errors: kInvalidArgument: a setting or mount out of range; kCapacityExceeded: no memory.
   [[nodiscard]] static Expected<Decoder> make(const Calibration& calibration, const Mount& mount,
                                               const Config& config);
   [[nodiscard]] static Expected<Decoder> make(const Calibration& calibration,
@@ -72,7 +72,7 @@ class Capture {
   ~Capture();
 
   [[nodiscard]] Sensor sensor() const noexcept;
-  /// kNoCalibration if the packets do not hold all of it.
+  /// Errors: kNoCalibration if the packets do not hold all of it.
   [[nodiscard]] const Expected<Calibration>& calibration() const noexcept;
 
   /// Returns the next packet, whose payload is valid until the next call; nothing at the end. An

@@ -62,25 +62,25 @@ class EgoMotion {
   EgoMotion(const EgoMotion&) = delete;
   EgoMotion& operator=(const EgoMotion&) = delete;
 
-  /// Writer only. False if the sample is not used; it is then counted.
+  /// For the writer. False if the sample is not used; it is then counted.
   bool add(const MotionSample& sample) noexcept TERRACUT_NONBLOCKING;
-  /// Any thread.
+  /// May be called on any thread.
   [[nodiscard]] EgoMotionCounters counters() const noexcept TERRACUT_NONBLOCKING;
 
-  /// Reader only: takes over the samples added since the last call.
+  /// For the reader. Takes over the samples added since the last call.
   void take_new() noexcept TERRACUT_NONBLOCKING;
 
-  /// Reader only: tells that the clock of the stamps was set, so that all earlier samples are
+  /// For the reader. Tells that the clock of the stamps was set, so that all earlier samples are
   /// invalid.
   void reset() noexcept TERRACUT_NONBLOCKING;
 
-  /// Reader only: computes the sensor's poses at `instants_ns`, which must not decrease, in its
+  /// For the reader. Computes the sensor's poses at `instants_ns`, which must not decrease, in its
   /// frame at `reference_ns`. `poses` has the same size. False, and `poses` untouched, unless ego
   /// motion is known for the whole span.
   [[nodiscard]] bool poses(std::span<const std::int64_t> instants_ns, std::int64_t reference_ns,
                            std::span<PlanarPose> poses) const noexcept TERRACUT_NONBLOCKING;
 
-  /// Reader only: returns the stamp of the newest sample taken; nothing without one.
+  /// For the reader. Returns the stamp of the newest sample taken; nothing without one.
   [[nodiscard]] std::optional<std::int64_t> newest_ns() const noexcept TERRACUT_NONBLOCKING;
 
  private:

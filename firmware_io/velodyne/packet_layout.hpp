@@ -58,7 +58,7 @@ struct PacketLayout {
                                                      int firings) noexcept {
   return advance_cdeg * packet::kTicksPerCdeg / (firings - 1);
 }
-/// Returns that step at 10 Hz, for packets of one firing before the rate is known.
+/// Returns the step at 10 Hz, for packets of one firing before the rate is known.
 [[nodiscard]] constexpr std::int32_t assumed_step_ticks(const PacketLayout& layout) noexcept {
   return static_cast<std::int32_t>(std::int64_t{packet::kRevolution_ticks} * 10 * layout.column_ns /
                                    1'000'000'000);

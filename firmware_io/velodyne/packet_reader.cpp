@@ -106,8 +106,8 @@ std::int32_t PacketReader::step_of(const packet::PacketAzimuths& azimuths,
   const int firings = layout_.firings(azimuths.dual_return);
   is_step_guessed_ = false;
   if (firings > 1) return mean_step_ticks(advance_cdeg, firings);
-  // A packet of one firing tells no step. The step is then the advance from the packet before, if
-  // that came just before; until there was one, that at 10 Hz.
+  // A packet of one firing has no step of its own. It gets the advance since the packet before, if
+  // that came just before, and until then the step at 10 Hz.
   const std::int64_t since_us =
       packet::clock_step_us(last_.stamp_us, azimuths.device_stamp_us, kClockWrap_us);
   const bool follows =

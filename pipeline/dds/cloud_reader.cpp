@@ -8,7 +8,7 @@
 namespace terracut::dds {
 namespace {
 
-/// More than come while the taking thread is kept from the processor.
+/// More clouds than arrive while the taking thread does not run.
 constexpr int kKeptClouds = 16;
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;

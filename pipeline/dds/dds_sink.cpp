@@ -15,7 +15,7 @@ namespace {
 using ros_messages::CloudOf;
 using ros_messages::CloudPoint;
 
-/// The fields as C structures. Their texts are not const, but nobody writes to them.
+/// Returns the fields as C structures. Their texts are not const, but nobody writes to them.
 std::vector<sensor_msgs_msg_dds__PointField_> cloud_fields(bool with_label) {
   std::vector<sensor_msgs_msg_dds__PointField_> fields;
   for (const ros_messages::CloudField& field : ros_messages::kCloudFields) {

@@ -33,8 +33,7 @@ class AdjacentPoints {
     float row_step_deg = 0.33F;   ///< A row step covers at least this elevation (RowSteps), [0, 5].
     int column_reach = 1;         ///< Columns to each side; "colselzoo" in Algorithm 1; [0, 8].
     float min_rise_m = 0.10F;     ///< kSlope: smaller rises count as noise.
-    float min_upper_height_m =
-        0.04F;  ///< kSlope: least height of the upper return above the ground reference.
+    float min_upper_height_m = 0.04F;  ///< kSlope: least height of the upper return above ground.
     float min_lower_height_m = 0.02F;  ///< kSlope: a lower return above this is marked, too.
   };
 

@@ -227,7 +227,7 @@ GroundSurface::Detour GroundSurface::find_ground_again(
   };
   const LowestReturn lost{ground.height_m, ground.range_m};
   LowestReturn start, last;
-  int start_band = -1;     // of the passable run of places
+  int start_band = -1;     // start of the passable run
   bool connected = false;  // true if the run is passable from the lost ground
   for (int band = lost_band + 1; band < end_band; ++band) {
     const LowestReturn& here = lowest[grid.cell(sector, band)];

@@ -49,12 +49,12 @@ class GroundSurface {
     float regain_length_m = 3.5F;    ///< Passable metres after which lost ground is found again.
     float regain_slope = 0.55F;      ///< Steepest start of that path from the last ground.
     float regain_gap_m = 1e9F;       ///< Longest step on that path.
-    float unconnected_gap_m =
-        3.5F;                      ///< Longest step on a path that starts steeper, as over a car's
-                                   ///< roof: there it ends, and the bank behind begins another.
-    float regain_width_m = 4.0F;   ///< Least width of the strip found again.
-    int interpolate_sectors = 14;  ///< Sectors to each side for interpolating a cell.
-    float traced_weight = 0.30F;   ///< Weight of the prediction against a neighbour's 1/distance.
+    float unconnected_gap_m = 3.5F;  ///< Longest step on a path that starts steeper, as over a
+                                     ///< car's roof: there it ends, and the bank behind begins
+                                     ///< another.
+    float regain_width_m = 4.0F;     ///< Least width of the strip found again.
+    int interpolate_sectors = 14;    ///< Sectors to each side for interpolating a cell.
+    float traced_weight = 0.30F;     ///< Weight of the prediction against a neighbour's 1/distance.
     float max_cross_slope = 0.5F;  ///< Steepest ground across a sector, rise over width, if nothing
                                    ///< tall (`tall_m`) stands there; 0: level across.
   };

@@ -86,10 +86,10 @@ class RingElevationMap {
   RoughGround rough_;
   int traced_ = 0;        // in sectors
   std::size_t seen_ = 0;  // returns in them that own a cell
-  // Returns that own no cell: in the overflow list or by take_extra().
+  // Number of returns without a cell: in the overflow list or by take_extra().
   std::size_t seen_overflow_ = 0;
   bool was_overtaken_ = false;
-  // By grid cell: the lowest return and the highest's height; extremes_ has both during the search.
+  // By grid cell: lowest return and highest height; extremes_ has both during the search.
   std::span<GroundSurface::LowestReturn> lowest_;
   std::span<Extremes> extremes_;
   std::span<float> highest_m_;

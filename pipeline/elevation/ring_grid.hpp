@@ -79,7 +79,7 @@ class RingGrid {
   [[nodiscard]] int sector_of(int column) const noexcept {
     return sector_of_column_[static_cast<std::size_t>(column)];
   }
-  /// Returns for each image column cell(sector, 0) of its sector.
+  /// Returns cell(sector, 0) of the sector of each image column.
   [[nodiscard]] std::span<const std::int32_t> first_cell_of_column() const noexcept {
     return first_cell_of_column_;
   }

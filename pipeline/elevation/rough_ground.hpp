@@ -38,7 +38,7 @@ class RoughGround {
 
   /// Counts of a sector's heights in a row that bend between columns.
   struct Bends {
-    std::int16_t known, rough;  ///< rough: by more than `rough_m`
+    std::int16_t known, rough;  ///< `rough` ones bend by more than `rough_m`.
   };
 
   RoughGround(const Config& config, float obstacle_height_m, const RingGrid& grid,
@@ -57,7 +57,7 @@ class RoughGround {
   void find_highest_near(
       RingGrid::Sectors sectors, const RingGrid& grid, std::span<const float> highest_m,
       std::span<const GroundSurface::EdgeHeights> ground) noexcept TERRACUT_NONBLOCKING;
-  /// Returns for each grid cell the highest return near it, above its ground.
+  /// Returns the highest return near each grid cell, above the cell's ground.
   [[nodiscard]] std::span<const float> highest_near_m() const noexcept { return highest_near_m_; }
   /// Levels the heights of a row in these columns, where `highest_m` is the highest return near
   /// each, above the ground. All points of their sectors and those within reach must be complete.

@@ -63,7 +63,7 @@ void CoarseStages::trace_to(int end, const frame::RangeImage& image) noexcept {
 void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,
                            stage::CellPlanes& planes, stage::StageObserver* observer,
                            int most_blocks) noexcept {
-  if (image.returns() == 0) return;  // a stream begins behind a frame that it has nothing of
+  if (image.returns() == 0) return;  // a stream's first frame has an empty predecessor
   if (!has_begun(image)) begin(image);
   const elevation::RingGrid& grid = map_.grid();
   for (int block = 0; block < most_blocks; ++block) {

@@ -13,7 +13,7 @@
 
 namespace terracut::ground {
 
-/// Returns from which the mount can be found: of the strip before and behind the vehicle, the
+/// The returns from which the mount is found: of the strip before and behind the vehicle, the
 /// surface it stands on. Beside it a crowned road falls away. Farther ground is not one plane where
 /// a slope begins: on the simulated hill, ground to 25 m makes a sensor 3 m up seem 0.7 m higher,
 /// ground to 15 m 0.1 m lower.
@@ -51,7 +51,7 @@ struct NearGround {
 void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,
                       const frame::ImageShape& shape,
                       NearGround& ground) noexcept TERRACUT_NONBLOCKING;
-/// Does the same for an image that has points.
+/// Fills `ground` from an image that has points.
 inline void take_near_ground(const frame::RangeImage& image,
                              NearGround& ground) noexcept TERRACUT_NONBLOCKING {
   take_near_ground(image.points(), image.z_m(), image.shape(), ground);

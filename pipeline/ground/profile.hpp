@@ -43,10 +43,11 @@ struct SegmenterConfig {
   return config;
 }
 
-/// The default: the paper's structure with all measured improvements (docs/reference/method.md).
+/// Returns the default: the paper's structure with measured improvements
+/// (docs/reference/method.md).
 [[nodiscard]] SegmenterConfig terracut_profile() noexcept;
 
-/// The method as printed; docs/reference/method.md says how its open points are set.
+/// Returns the method as printed; docs/reference/method.md says how its open points are set.
 [[nodiscard]] SegmenterConfig paper_profile() noexcept;
 
 }  // namespace terracut::ground

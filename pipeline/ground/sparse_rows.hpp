@@ -13,9 +13,9 @@ struct SegmenterConfig;
 /// the neighbour's wall.
 struct SparseRows {
   float from_deg = 0.5F;              ///< Rows this far apart count as sparse, [0, 90].
-  float step_up_limit_m = 0.23F;      ///< GroundSurface::Config
-  float regain_gap_m = 3.0F;          ///< GroundSurface::Config
-  float min_lower_height_m = 0.015F;  ///< AdjacentPoints::Config
+  float step_up_limit_m = 0.23F;      ///< As in GroundSurface::Config.
+  float regain_gap_m = 3.0F;          ///< As in GroundSurface::Config.
+  float min_lower_height_m = 0.015F;  ///< As in AdjacentPoints::Config.
 };
 
 /// Returns the median gap between beams 10 to 2 degrees below the horizon, which meet level ground

@@ -17,35 +17,33 @@
 namespace terracut::live {
 
 /// Decides how far a frame is refined before its deadline: by the whole method, by a min-cut that
-/// is stopped when time runs out, by the coarse stages alone, or not at all. It expects of a stage
-/// what the stage cost in the last three frames that had it. A stage that is left out is not
-/// measured, so it is left out of at most two frames in a row and then tried, whatever those three
-/// said:
+/// is stopped when time runs out, by the coarse stages alone, or not at all. It predicts a stage's
+/// cost from the last three frames that had it. A stage that is left out is not measured, so it is
+/// left out of at most two frames in a row and then tried, whatever the prediction:
 ///
-///   skipped       where even the cheapest of the three does not fit. A frame that is skipped has
-///                 missed its deadline as surely as one that comes late, so a trial costs no miss;
-///                 if it does come late, it counts as skipped (end()).
-///   cut left out  where the dearest of the three does not fit, because a cut that is begun in vain
-///                 is only wasted, but labels that take longer than was set aside are late. A trial
-///                 that made a frame late doubles the rest before the next one, to 32 frames at
-///                 most: under an overload that lasts one frame in 33 pays for knowing its end.
+///   skipped       if even the cheapest of the three does not fit. A skipped frame has missed its
+///                 deadline as surely as a late one, so a trial costs no miss; if it is late, it
+///                 counts as skipped (end()).
+///   cut left out  if the most expensive of the three does not fit: a cut begun in vain only wastes
+///                 time, but labels that take longer than reserved are late. A trial that made a
+///                 frame late doubles the rest before the next one, to at most 32 frames: during a
+///                 long overload one frame in 33 pays for noticing its end.
 ///
-/// Hence labels are back within three frames of a slow frame or of the end of an overload, and so
-/// is the whole method, unless trials of the cut made frames late before.
+/// So labels return within three frames after a slow frame or an overload, and so does the whole
+/// method, unless trials of the cut made frames late before.
 ///
 /// Real-time safe; one thread. `Clock` as measure::SystemClock.
 template <class Clock>
 class DegradationPolicyOf {
  public:
-  /// `deadline_ns`: from a frame's last packet to its labels.
+  /// `deadline_ns` is the time from a frame's last packet to its labels.
   explicit DegradationPolicyOf(std::int64_t deadline_ns, Clock clock = {}) noexcept
       : clock_(clock),
         deadline_ns_(deadline_ns),
         unseen_stop_ns_(kMargin_ns + std::min(deadline_ns / 8, kUnseenStop_ns)),
         stopping_(unseen_stop_ns_) {}
 
-  /// A frame begins. False: it is to be skipped, because not even the coarse stages would be done
-  /// in time.
+  /// Begins a frame. False: skip it, because not even the coarse stages would be done in time.
   [[nodiscard]] bool begin(std::int64_t last_packet_ns) noexcept TERRACUT_NONBLOCKING {
     due_ns_ = last_packet_ns + deadline_ns_;
     before_cut_ = true;
@@ -61,9 +59,9 @@ class DegradationPolicyOf {
     skipped_ = 0;
     return true;
   }
-  /// The cut's budget for the frame that was begun. It expires early enough for the stages behind
-  /// the cut; asked before the cut, it has expired where a cut could not be finished in time. Valid
-  /// as long as this object is.
+  /// Returns the cut's budget for this frame. It expires early enough for the stages after the cut;
+  /// if asked before the cut, it has expired unless a cut can be finished in time. Valid as long as
+  /// this object is.
   [[nodiscard]] min_cut::CutBudget budget() noexcept TERRACUT_NONBLOCKING {
     return {min_cut::CutBudget::kDefaultOps,
             [](void* degradation) noexcept TERRACUT_NONBLOCKING {
@@ -71,12 +69,11 @@ class DegradationPolicyOf {
             },
             this};
   }
-  /// Whether the frame's labels may be handed on. False for a trial that came late: it counts as
-  /// skipped.
+  /// True if the frame's labels may be handed on. False for a late trial: it counts as skipped.
   [[nodiscard]] bool may_hand_on() const noexcept TERRACUT_NONBLOCKING {
     return !is_trial_ || clock_.realtime_ns() <= due_ns_;
   }
-  /// The frame is done: learns from it. `handing_on_ns`: of processor time, for its labels.
+  /// Ends the frame and learns from it. `handing_on_ns` is the processor time for its labels.
   void end(const stage::StageTimes& times, const stage::SegmentationReport& report,
            std::int64_t handing_on_ns) noexcept TERRACUT_NONBLOCKING {
     using stage::Stage;
@@ -87,7 +84,7 @@ class DegradationPolicyOf {
     labels_.add(labels_ns);
     coarse_.add(cost_ns(Stage::kElevationMap) + cost_ns(Stage::kAdjacentPoints) + labels_ns);
     if (before_cut_) return;
-    // Only a stopped cut shows what it costs to make labels of an unfinished one.
+    // Only a stopped cut shows the cost of labels after an unfinished one.
     if (stopped_cpu_ns_ != 0) {
       stopping_.add(clock_.thread_cpu_ns() - stopped_cpu_ns_ + kMargin_ns);
     }
@@ -110,7 +107,7 @@ class DegradationPolicyOf {
   }
 
  private:
-  /// What something took in the last three frames that had it; at first, what is expected of it.
+  /// The cost of something in the last three frames that had it; at first an estimate.
   class LastThree {
    public:
     explicit LastThree(std::int64_t expected_ns) noexcept {
@@ -132,12 +129,11 @@ class DegradationPolicyOf {
     std::size_t next_ = 0;
   };
 
-  /// To be set aside for what follows a cut.
+  /// Returns the time to reserve for the stages after a cut.
   [[nodiscard]] std::int64_t after_cut_ns() const noexcept {
     return std::max(labels_.most_ns(), stopping_.most_ns());
   }
-  /// The first look of a frame comes before the seeds and the cut, all others where it can be
-  /// stopped.
+  /// The first call of a frame comes before seeds and cut, all others where the cut can be stopped.
   [[nodiscard]] bool expired() noexcept TERRACUT_NONBLOCKING {
     const std::int64_t left_ns = due_ns_ - clock_.realtime_ns();
     if (before_cut_) {
@@ -166,29 +162,28 @@ class DegradationPolicyOf {
     return true;
   }
 
-  /// A stage that was left out of this many frames in a row is tried again.
+  /// A stage left out of so many frames in a row is tried again.
   static constexpr int kMostInARow = 2;
   static constexpr int kMostRest = 32;
-  /// For waking up late and for handing over.
+  /// Reserve for waking up late and for handing over.
   static constexpr std::int64_t kMargin_ns = 500'000;
-  /// What is set aside for making labels of a stopped cut as long as none has been seen, or an
-  /// eighth of the deadline where that is less.
+  /// Time reserved for labels of a stopped cut before one was seen; at most an eighth of the
+  /// deadline.
   static constexpr std::int64_t kUnseenStop_ns = 3'000'000;
 
   Clock clock_;
   std::int64_t deadline_ns_;
   std::int64_t unseen_stop_ns_;
 
-  LastThree coarse_{kMargin_ns};  ///< All but seeds and cut.
-  LastThree labels_{kMargin_ns};  ///< Of them, what follows the cut.
-  LastThree stopping_;            ///< From where a cut was stopped to the end.
-  LastThree cut_{0};  ///< What a cut takes that comes to something, at least: its seeds, and more
-                      ///< than was in vain.
-  int skipped_ = 0;   ///< Frames in a row.
-  int cut_left_out_ = 0;  ///< Frames in a row.
+  LastThree coarse_{kMargin_ns};  ///< All stages but seeds and cut.
+  LastThree labels_{kMargin_ns};  ///< The stages after the cut.
+  LastThree stopping_;            ///< Time from the stop of a cut to the end.
+  LastThree cut_{0};  ///< Least cost of a useful cut: its seeds, and more than was spent in vain.
+  int skipped_ = 0;   ///< Frames skipped in a row.
+  int cut_left_out_ = 0;  ///< Cuts left out in a row.
   int cut_rest_ = kMostInARow;
 
-  // The frame that was begun.
+  // The frame in work.
   std::int64_t due_ns_ = 0;
   bool is_trial_ = false, tries_cut_ = false;
   bool before_cut_ = true;

@@ -14,21 +14,21 @@
 namespace terracut::live {
 
 /// Hands frames from the receiving thread to the segmenting one: always the newest, never a queue.
-/// A frame that was not taken before the next one came is skipped, and counted by who hands over.
+/// A frame that was not taken before the next one came is skipped; the receiving thread counts it.
 ///
-/// Images change hands one for one. The decoder has two open; here are three more: one being read,
+/// Images are exchanged one for one. The decoder has two open; three more are here: one being read,
 /// the newest one, and one that the decoder gets back for its next frame.
 class FrameExchange {
  public:
   static constexpr std::size_t kImages = 2 + queues::LatestSlot::kSlots;
 
-  /// `images`: the decoder's, kImages of them, of which the first two are open.
+  /// `images` are the decoder's, kImages of them; the first two are open.
   explicit FrameExchange(std::span<frame::RangeImage> images) noexcept {
     for (std::size_t i = 0; i < frames_.size(); ++i) frames_[i].image = &images[2 + i];
   }
 
-  /// Receiving thread: hands `frame` over and returns the image to go on with. Where the frame
-  /// before it was never taken, on_skipped(Frame&) is told.
+  /// Receiving thread: hands `frame` over and returns the next image to use. Calls
+  /// on_skipped(Frame&) if the previous frame was never taken.
   template <class OnSkipped>
   frame::RangeImage* hand_over(const run::Frame& frame, OnSkipped&& on_skipped) noexcept {
     run::Frame& slot = frames_[slots_.writer_slot()];
@@ -37,8 +37,8 @@ class FrameExchange {
     if (slots_.publish()) on_skipped(frames_[slots_.writer_slot()]);
     return next;
   }
-  /// Segmenting thread: the newest frame, if there is one it has not had; its own until the next
-  /// call that returns one.
+  /// Segmenting thread: returns the newest frame if it has not been taken yet. It may be used until
+  /// the next call that returns one.
   [[nodiscard]] run::Frame* take_if_new() noexcept TERRACUT_NONBLOCKING {
     return slots_.take_if_new() ? &frames_[slots_.reader_slot()] : nullptr;
   }

@@ -15,7 +15,7 @@ FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publi
       publisher_(publisher),
       slots_(slots),
       ready_(ready),
-      // Frames that nobody takes any more are counted by the slots.
+      // The slots count frames that nobody takes any more.
       thread_([this] { work(); }, [](std::string_view) {}) {}
 
 bool FrameOutlet::finish(std::chrono::milliseconds patience) {

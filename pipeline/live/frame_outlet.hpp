@@ -17,10 +17,10 @@
 
 namespace terracut::live {
 
-/// Takes labelled points from the segmenting thread and hands them out, on a thread of its own
-/// that waits for nobody: to the readers of the stream, and to every other output by its queue. The
-/// stream has no queue: its server makes no call that waits, and a reader that is busy misses the
-/// frame, so it is served right here. While its address is not to be had, it is tried again.
+/// Takes labelled points from the segmenting thread and hands them out on a thread of its own: to
+/// the readers of the stream, and to the queue of every other output. The stream needs no queue:
+/// its server never waits, and a busy reader misses the frame, so it is served on this thread. If
+/// its address is taken, it is tried again.
 class FrameOutlet {
  public:
   using Slots = FramePool<points::LabelledPoint>;
@@ -30,18 +30,19 @@ class FrameOutlet {
     std::int64_t deadline_ns;
   };
 
-  /// `ready` is woken when there is something in `slots`, and at finish(). All must outlive this.
+  /// `ready` is woken when `slots` has a frame, and by finish(). All must outlive this.
   FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
               const threads::WakeEvent& ready);
   ~FrameOutlet() { begin_to_finish(); }
 
-  /// After LiveThreads::stop(). False when it does not end in time, which no peer can bring about.
+  /// To be called after LiveThreads::stop(). False if it does not end in time, which no peer can
+  /// cause.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
   [[nodiscard]] bool has_stream() const noexcept { return stream_.has_value(); }
-  /// Frames that came while the stream's address was not to be had. From any thread.
+  /// Returns the frames that came while the stream's address was taken. From any thread.
   [[nodiscard]] std::uint64_t frames_while_closed() const noexcept { return while_closed_; }
-  /// Of the stream, as of the last frame or second. From one other thread.
+  /// Returns the stream's figures as of the last frame or second. From one other thread.
   [[nodiscard]] const stream::FrameStreamFigures& figures() const noexcept {
     (void)figures_.take_if_new();
     return figures_.newest_taken();
@@ -50,10 +51,10 @@ class FrameOutlet {
  private:
   void begin_to_finish();
   void work();
-  /// Whether it got where it was to go, or is counted there.
+  /// True if the frame reached all outputs or they count it.
   [[nodiscard]] bool hand_out(const Slots::Frame& frame);
   [[nodiscard]] bool stream(const Slots::Frame& frame);
-  /// The stream, where there is one and its address is to be had.
+  /// Returns the stream's server; null if there is none or its address is taken.
   [[nodiscard]] stream::FrameStreamServer* server() {
     return stream_ ? stream_->server.get() : nullptr;
   }
@@ -65,7 +66,7 @@ class FrameOutlet {
   std::atomic<bool> finish_{false};
   std::atomic<std::uint64_t> while_closed_{0};
   mutable queues::LatestValue<stream::FrameStreamFigures> figures_;
-  threads::BackgroundThread thread_;  ///< Last: it uses all of the above.
+  threads::BackgroundThread thread_;  ///< Declared last, as it uses all of the above.
 };
 
 }  // namespace terracut::live

@@ -16,8 +16,8 @@
 
 namespace terracut::live {
 
-/// Carries what the segmenting thread made of every frame, one T a return, to one thread without a
-/// deadline that puts it somewhere. When that one is too slow, frames are left out and counted.
+/// Carries the results of the segmenting thread, one T a return, to one thread without a deadline.
+/// If that thread is too slow, frames are left out and counted.
 ///
 ///   segmenting thread  pass_on() --full--> take()       the other thread
 ///                          ^                  |
@@ -26,11 +26,11 @@ template <class T>
 class FramePool {
  public:
   struct Frame {
-    status::FrameRecord record;  ///< As far as it was known: up to the labels.
+    status::FrameRecord record;  ///< Complete up to the labels.
     std::span<const T> items;
   };
 
-  /// Room for `slots` frames of at most `capacity` returns.
+  /// Takes room for `slots` frames of at most `capacity` returns.
   FramePool(std::string_view name, std::size_t slots, std::size_t capacity,
             memory::FixedMemory& memory)
       : full_(name, slots, memory), free_(name, slots, memory) {
@@ -41,8 +41,8 @@ class FramePool {
     }
   }
 
-  /// Segmenting thread: `fill(std::span<T>)` puts the frame's items, record.info.returns of them,
-  /// to the beginning of its argument. Real-time safe if `fill` is.
+  /// Segmenting thread: passes a frame on. `fill(std::span<T>)` writes the frame's items,
+  /// record.info.returns of them, to the beginning of its argument. Real-time safe if `fill` is.
   template <class Fill>
   void pass_on(const status::FrameRecord& record, Fill&& fill) noexcept {
     std::uint32_t i = 0;
@@ -54,26 +54,27 @@ class FramePool {
     Slot& slot = slots_[i];
     slot.record = record;
     fill(slot.room);
-    (void)full_.try_push(i);  // as many places as slots
+    (void)full_.try_push(i);  // never fails: as many places as slots
   }
 
-  /// Other thread: the next frame, its own until give_back(). False when there is none.
+  /// Other thread: takes the next frame, valid until give_back(). False if there is none.
   [[nodiscard]] bool take(Frame& frame) noexcept {
     if (!full_.try_pop(taken_)) return false;
     const Slot& slot = slots_[taken_];
     frame = {slot.record, slot.room.first(slot.record.info.returns)};
     return true;
   }
-  /// `used`: the frame got where it was to go.
+  /// `used` is true if the frame reached its destination.
   void give_back(bool used) noexcept {
     waiting_.fetch_sub(1, std::memory_order_relaxed);
     if (!used) unused_.fetch_add(1, std::memory_order_relaxed);
     (void)free_.try_push(taken_);
   }
 
-  /// Frames that found no room, or were given back unused. From any thread, as the next.
+  /// Returns the frames that found no room or were given back unused. From any thread, like the
+  /// next.
   [[nodiscard]] std::uint64_t unused() const noexcept { return unused_.load(); }
-  /// Frames passed on and not given back yet: lost, too, if the other thread hangs for good.
+  /// Returns the frames not given back yet; they are lost if the other thread hangs for good.
   [[nodiscard]] std::uint64_t waiting() const noexcept { return waiting_.load(); }
 
  private:

@@ -20,14 +20,14 @@
 
 namespace terracut::live {
 
-/// The segmenting half of a live run: the newest frame in, its labels handed on before the
-/// deadline. One thread with a deadline, which calls work_round() again and again.
+/// The segmenting half of a live run: takes the newest frame and hands its labels on before the
+/// deadline. One thread with a deadline, which calls work_round() repeatedly.
 ///
-/// `Clock`: as measure::SystemClock. `Wait`: as measure::RunQueueWait.
+/// `Clock`: like measure::SystemClock. `Wait`: like measure::RunQueueWait.
 template <class Clock, class Wait>
 class FrameSegmenter {
  public:
-  /// Where things go; all must outlive this. Slots and `near_ground` may be null.
+  /// The receivers of results; all must outlive this. Slots and `near_ground` may be null.
   struct Outlets {
     FrameRecords* records;
     FramePool<frame::Label>* labels;
@@ -36,7 +36,7 @@ class FrameSegmenter {
     LatestNearGround* near_ground = nullptr;
   };
 
-  /// `deadline_ns`: from a frame's last packet to its labels.
+  /// `deadline_ns` is the time from a frame's last packet to its labels.
   FrameSegmenter(std::int64_t deadline_ns, LivePipeline& pipeline, FrameExchange& frames,
                  const Outlets& outlets, Clock clock, Wait wait) noexcept
       : pipeline_(pipeline),
@@ -48,7 +48,7 @@ class FrameSegmenter {
         degradation_(deadline_ns, clock),
         waited_before_ns_(wait_.read_ns()) {}
 
-  /// Segments the newest frame; false where there is none that it has not had.
+  /// Segments the newest frame; false if there is none that it has not had.
   bool work_round() noexcept TERRACUT_NONBLOCKING {
     run::Frame* frame = frames_.take_if_new();
     if (frame == nullptr) return false;
@@ -79,7 +79,7 @@ class FrameSegmenter {
     record.labels_ns = clock_.realtime_ns();
     const std::int64_t labelled_cpu_ns = clock_.thread_cpu_ns();
     if (record.level != status::Level::kSkipped) hand_on(frame);
-    record.labels_ns = clock_.realtime_ns();  // judged by when they were handed on
+    record.labels_ns = clock_.realtime_ns();  // the time of handing on decides
     const std::int64_t handed_on_cpu_ns = clock_.thread_cpu_ns();
     record.segment_cpu_ns += handed_on_cpu_ns - begun_cpu_ns;
     const stage::StageTimes times = stage_clock_.take();

@@ -12,24 +12,24 @@
 
 namespace terracut::live {
 
-/// Carries the near ground of a frame now and then from the segmenting thread to the one that
-/// checks the mount. Each side has one thread; neither waits for the other.
+/// Carries the near ground of some frames from the segmenting thread to the one that checks the
+/// mount. One thread on each side; neither waits for the other.
 class LatestNearGround {
  public:
-  /// Of a sensor's frames, one in so many is looked at: twice a second at 10 Hz.
+  /// One frame in so many is looked at: twice a second at 10 Hz.
   static constexpr std::uint32_t kFramesApart = 5;
 
   explicit LatestNearGround(memory::FixedMemory& memory)
       : slots_(memory.take<ground::NearGround>("near ground", queues::LatestSlot::kSlots)) {}
 
-  /// Segmenting thread: `take(NearGround&)` fills in that of a frame.
+  /// Segmenting thread: `take(NearGround&)` fills in a frame's near ground.
   template <class Take>
   void publish(Take take) noexcept {
     take(slots_[slot_.writer_slot()]);
     (void)slot_.publish();
   }
-  /// Checking thread: the newest, where it has not been returned yet; else null. Valid until the
-  /// next call.
+  /// Checking thread: returns the newest, or null if it was returned already. Valid until the next
+  /// call.
   [[nodiscard]] const ground::NearGround* newest() noexcept {
     return slot_.take_if_new() ? &slots_[slot_.reader_slot()] : nullptr;
   }

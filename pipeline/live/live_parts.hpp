@@ -25,46 +25,46 @@
 
 namespace terracut::live {
 
-/// The vehicle's motion, heard on its CAN bus. `source` was opened for `signals`.
+/// The vehicle's motion from its CAN bus. `source` was opened for `signals`.
 struct VehicleConfig {
   const vehicle::MotionSignals* signals = nullptr;
   can::SocketCanSource* source = nullptr;
   vehicle::EgoMotion::Config motion;
-  int priority = 60;  ///< SCHED_FIFO; 0: shared.
+  int priority = 60;  ///< SCHED_FIFO; 0: shared scheduling.
 };
 
-/// How a live run works; the defaults are those of `terracut live` and of terracut::LiveRun.
+/// The configuration of a live run; the defaults are those of `terracut live` and LiveRun.
 struct LiveConfig {
   decode::Decoder::Config decoder;  ///< LiveParts sets `reorder_packets`, `motion` and `images`.
-  int reorder_packets = 0;          ///< One cable delivers in order.
+  int reorder_packets = 0;          ///< One cable keeps the order.
   ground::SegmenterConfig method = ground::terracut_profile();
   LiveThreads::Config threads;  ///< LiveParts sets `frame_period_ns`.
-  double recorder_seconds = 0;  ///< Packets of this time are kept; 0: none.
+  double recorder_seconds = 0;  ///< Time for which packets are kept; 0: none.
   std::optional<VehicleConfig> vehicle;
 };
 
-/// All that a live run computes with, in fixed memory: the one composition for the program and for
-/// the library. Everything given must outlive it.
+/// The computing parts of a live run in fixed memory, composed alike for the program and the
+/// library. All arguments must outlive it.
 struct LiveParts {
-  static constexpr std::size_t kKeptFrames = 256;  ///< By `monitor`, for traces and dumps.
+  static constexpr std::size_t kKeptFrames = 256;  ///< Kept by `monitor` for traces and dumps.
 
-  std::optional<VehicleMotion> motion;  ///< With LiveConfig::vehicle.
+  std::optional<VehicleMotion> motion;  ///< Set with LiveConfig::vehicle.
   LivePipeline pipeline;
   std::optional<recorder::FlightRecorder> recorder;
   LiveThreads threads;
-  status::DeadlineMonitor monitor;  ///< Of whoever takes the threads' records.
+  status::DeadlineMonitor monitor;  ///< Used by the thread that takes the records.
 
   LiveParts(const LiveConfig& config, const streams::SensorOnAir& sensor,
             const mount::RingProfile& profile, net::LiveSource& source, LiveThreads::Events events,
             memory::FixedMemory& memory);
-  /// Builds it in one region of `memory`, which is locked on request. `grants` gets what the system
-  /// granted. kCapacityExceeded when the process has no descriptor left, or the system no memory.
+  /// Builds the parts in one region of `memory`, which is locked on request. `grants` receives what
+  /// the system granted. kCapacityExceeded if no descriptor or memory is left.
   [[nodiscard]] static Expected<std::unique_ptr<LiveParts>> build(
       const LiveConfig& config, const streams::SensorOnAir& sensor,
       const mount::RingProfile& profile, net::LiveSource& source, memory::FixedMemory& memory,
       bool locks_memory, std::vector<threads::Grant>& grants);
 
-  /// Starts every thread; returns what the system granted and refused them.
+  /// Starts all threads; returns what the system granted and refused them.
   [[nodiscard]] std::vector<threads::Grant> start();
   void stop();
 

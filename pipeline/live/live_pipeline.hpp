@@ -17,8 +17,8 @@
 
 namespace terracut::live {
 
-/// For one thread that needs points of frames which keep their returns as they were measured; null
-/// where they have points. Takes memory.
+/// Makes points for one thread if frames keep their returns as measured, else returns null. Takes
+/// memory.
 [[nodiscard]] inline std::unique_ptr<frame::FramePoints> points_made_of(
     const decode::Decoder& decoder, memory::FixedMemory& memory) {
   auto reader = decoder.make_reader(memory);
@@ -26,16 +26,15 @@ namespace terracut::live {
   return std::make_unique<frame::FramePoints>(decoder.shape(), std::move(reader), memory);
 }
 
-/// What two threads need to make labels of packets. The receiving thread decodes and does the
-/// coarse stages, most of them before the frame has ended; their result travels with the frame's
-/// image. Where a frame ended before its coarse stages were far enough, the segmenting thread does
-/// them.
+/// The objects with which two threads turn packets into labels. The receiving thread decodes and
+/// does the coarse stages, mostly before the frame has ended; their result travels with the frame's
+/// image. If they were not far enough when a frame ended, the segmenting thread does them.
 struct LivePipeline {
-  decode::Decoder decoder;  ///< Receiving thread, as coarse.
-  /// Made of frames that are kept as measured, on each thread where it needs them; else null.
+  decode::Decoder decoder;  ///< Receiving thread, like `coarse`.
+  /// One for each thread, if frames are kept as measured; else null.
   std::unique_ptr<frame::FramePoints> receiving_points, segmenting_points;
   ground::CoarseStages coarse;
-  ground::CoarseStages late_coarse;  ///< Segmenting thread, as fine.
+  ground::CoarseStages late_coarse;  ///< Segmenting thread, like `fine`.
   ground::FineStages fine;
 
   LivePipeline(const calib::SensorCalibration& calibration, const mount::RingProfile& profile,
@@ -54,8 +53,8 @@ struct LivePipeline {
     }
   }
 
-  /// The planes that belong to one of the decoder's images. The thread that holds the image holds
-  /// its planes, too.
+  /// Returns the planes that belong to one of the decoder's images. The thread that holds the image
+  /// holds its planes, too.
   [[nodiscard]] stage::CellPlanes& planes_of(const frame::RangeImage& image) noexcept
       TERRACUT_NONBLOCKING {
     return planes_[static_cast<std::size_t>(&image - first_image_)];

@@ -15,18 +15,19 @@
 
 namespace terracut::live {
 
-/// `priority`: SCHED_FIFO, 0: shared scheduling. `core`: the only one it may run on.
+/// Makes a request. `priority`: SCHED_FIFO, 0: shared scheduling. `core`: the only one it may run
+/// on.
 [[nodiscard]] threads::ThreadRequest thread_request(std::string name, int priority,
                                                     std::optional<int> core);
 
-/// What a thread of a live run says of itself, for others to read once set_up() has returned.
+/// The state of a thread of a live run, for others to read once set_up() has returned.
 struct LiveThreadState {
   std::string scheduling;  ///< As granted: "SCHED_FIFO priority 80, cores 0-3".
-  std::atomic<std::int64_t> minor_faults{0}, major_faults{0};  ///< Since it began its work.
+  std::atomic<std::int64_t> minor_faults{0}, major_faults{0};  ///< Since its work began.
 
-  /// Sets up the calling thread; returns what the system granted and refused it.
+  /// Sets up the calling thread; returns what the system granted and refused.
   [[nodiscard]] std::vector<threads::Grant> set_up(const threads::ThreadRequest& request);
-  /// Of the calling thread, which had those when it began its work.
+  /// Notes the calling thread's faults since `at_start`.
   void note_faults(const measure::PageFaults& at_start) noexcept TERRACUT_NONBLOCKING;
 };
 

@@ -49,7 +49,7 @@ Expected<LiveThreads::Events> LiveThreads::Events::make() {
 
 std::vector<threads::Grant> LiveThreads::start() {
   using Grants = std::vector<threads::Grant>;
-  std::promise<Grants> receive_granted, segment_granted;  // each the thread's own
+  std::promise<Grants> receive_granted, segment_granted;  // for each thread
   std::future<Grants> receive_grants = receive_granted.get_future();
   std::future<Grants> segment_grants = segment_granted.get_future();
   segment_thread_ = std::jthread([this, granted = std::move(segment_granted)]() mutable {

@@ -30,8 +30,8 @@
 
 namespace terracut::live {
 
-/// The two threads of a live run that have a deadline, and the queues through which a third
-/// one hears of them. They allocate nothing, lock nothing and write nothing:
+/// The two threads of a live run with a deadline, and the queues to a third thread. They allocate
+/// nothing, lock nothing and write nothing:
 ///
 ///   FrameReceiver     --FrameExchange-->     FrameSegmenter
 ///   datagrams -> recorder, decoder,          frames -> labels
@@ -43,62 +43,61 @@ namespace terracut::live {
 class LiveThreads {
  public:
   struct Events {
-    threads::WakeEvent frame_ready;   ///< A frame was handed over.
-    threads::WakeEvent points_ready;  ///< A frame's labelled points were passed on.
-    /// kCapacityExceeded when the process has no descriptor left.
+    threads::WakeEvent frame_ready;   ///< Set when a frame was handed over.
+    threads::WakeEvent points_ready;  ///< Set when a frame's labelled points were passed on.
+    /// Errors: kCapacityExceeded when the process has no descriptor left.
     [[nodiscard]] static Expected<Events> make();
   };
 
   struct Config {
     std::int64_t deadline_ns = 50'000'000;           ///< From a frame's last packet to its labels.
-    std::int64_t frame_period_ns = 100'000'000;      ///< Of one revolution of the head.
-    std::int64_t longest_gathering_ns = 20'000'000;  ///< GatheringPolicy::Config
-    bool keeps_labels = false;                       ///< labels()
-    bool keeps_points = false;                       ///< points()
-    bool compares_tables = false;                    ///< told_table()
+    std::int64_t frame_period_ns = 100'000'000;      ///< Duration of one revolution of the head.
+    std::int64_t longest_gathering_ns = 20'000'000;  ///< See GatheringPolicy::Config.
+    bool keeps_labels = false;                       ///< For labels().
+    bool keeps_points = false;                       ///< For points().
+    bool compares_tables = false;                    ///< For told_table().
     threads::ThreadRequest receive, segment;
   };
 
-  /// Takes all memory from `memory`. `recorder` may be null.
-  /// Everything must outlive this.
+  /// Takes all its memory from `memory`. `recorder` may be null. All arguments must outlive this.
   LiveThreads(const Config& config, LivePipeline& pipeline, net::LiveSource& source, Events events,
               recorder::FlightRecorder* recorder, memory::FixedMemory& memory);
-  /// As stop().
+  /// Calls stop().
   ~LiveThreads() { stop(); }
   LiveThreads(const LiveThreads&) = delete;
   LiveThreads& operator=(const LiveThreads&) = delete;
 
-  /// Starts both; returns what the system granted and refused them. Throws std::system_error where
+  /// Starts both threads; returns what the system granted and refused. Throws std::system_error if
   /// it refuses a thread.
   [[nodiscard]] std::vector<threads::Grant> start();
-  /// Ends both, whoever calls it and however often.
+  /// Ends both threads. May be called by anyone and repeatedly.
   void stop();
 
-  /// The record of the next frame to be judged; skipped ones and others in no strict order.
+  /// Takes the record of the next frame to judge. Skipped frames may come out of order.
   [[nodiscard]] bool take_record(status::FrameRecord& record) noexcept {
     return segmented_.take(record) || skipped_.take(record);
   }
-  /// The labels of every frame, by return index; null without Config::keeps_labels.
+  /// Returns the labels of every frame, by return index; null without Config::keeps_labels.
   [[nodiscard]] FramePool<frame::Label>* labels() noexcept { return labels_ ? &*labels_ : nullptr; }
-  /// The labelled points of every frame; null without Config::keeps_points.
+  /// Returns the labelled points of every frame; null without Config::keeps_points.
   [[nodiscard]] FramePool<points::LabelledPoint>* points() noexcept {
     return points_ ? &*points_ : nullptr;
   }
-  /// Woken after every frame that points() was given.
+  /// Woken after every frame given to points().
   [[nodiscard]] const threads::WakeEvent& points_ready() const noexcept {
     return events_.points_ready;
   }
 
-  /// The near ground of a frame now and then (LatestNearGround::kFramesApart), where there is a
-  /// newer one than was taken last; else null. From one thread; valid until its next call.
+  /// Returns the newest near ground (one frame in LatestNearGround::kFramesApart) if it was not
+  /// taken yet, else null. From one thread; valid until its next call.
   [[nodiscard]] const ground::NearGround* near_ground() noexcept { return near_ground_.newest(); }
 
-  /// What the packets tell of the unit's table, with Config::compares_tables.
+  /// Returns what the packets tell about the unit's table, with Config::compares_tables.
   [[nodiscard]] sensor::ToldTable& told_table() noexcept { return told_table_; }
 
-  /// From one thread.
+  /// To be called from one thread.
   [[nodiscard]] const status::InputState& intake() noexcept;
-  /// Frames that nobody judged because the one who takes records was too slow.
+  /// Returns the frames not judged because records were taken too slowly.
   [[nodiscard]] std::uint64_t records_dropped() const noexcept {
     return segmented_.dropped() + skipped_.dropped();
   }
@@ -107,7 +106,7 @@ class LiveThreads {
 
  private:
   static constexpr std::size_t kLabelSlots = 8;
-  static constexpr std::size_t kPointSlots = 2;  // the stream wants the newest, not all
+  static constexpr std::size_t kPointSlots = 2;  // the stream wants only the newest
 
   using Receiver = FrameReceiver<net::LiveSource, measure::SystemClock, measure::RunQueueWait>;
   using Segmenter = FrameSegmenter<measure::SystemClock, measure::RunQueueWait>;

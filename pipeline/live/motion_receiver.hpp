@@ -15,21 +15,20 @@
 
 namespace terracut::live {
 
-/// What the vehicle's bus has told, as of the newest look at it.
+/// Facts from the vehicle's bus, as of the last look.
 struct HeardMotion {
   can::CanReceiveCounters bus;
   vehicle::MotionCounters signals;
   status::MotionState state = status::MotionState::kWaiting;
   std::uint64_t spare_samples = 0;
-  std::int64_t last_sample_ns = 0;  ///< Of those that were not spare.
+  std::int64_t last_sample_ns = 0;  ///< Of samples in use.
 };
 
-/// CAN frames in, samples of the vehicle's motion out. One thread, which calls work_round() again
-/// and again; allocates, locks and writes nothing. A flood of the motion itself is thinned to a
-/// sample every two milliseconds, so that it does not push the motion of the frame's end out of the
-/// decoder's queue.
+/// Turns CAN frames into samples of the vehicle's motion. One thread, which calls work_round()
+/// repeatedly; allocates, locks and writes nothing. A flood of samples is thinned to one every two
+/// milliseconds, so that it does not push the motion at the frame's end out of the decoder's queue.
 ///
-/// `Source`: as can::SocketCanSource. `Clock`: as measure::SystemClock.
+/// `Source`: like can::SocketCanSource. `Clock`: like measure::SystemClock.
 template <class Source, class Clock>
 class MotionReceiver {
  public:
@@ -38,8 +37,8 @@ class MotionReceiver {
                  queues::LatestValue<HeardMotion>& heard, Clock clock) noexcept
       : signals_(signals), motion_(motion), source_(source), heard_(heard), clock_(clock) {}
 
-  /// Waits for frames, at most so long, takes them in, and says what is known. False where none
-  /// came.
+  /// Waits at most `timeout_ns` for frames, processes them, and updates what is known. False if
+  /// none came.
   bool work_round(std::int64_t timeout_ns) noexcept TERRACUT_NONBLOCKING {
     const auto frames = source_.receive(timeout_ns);
     for (const can::CanFrame& frame : frames) take(frame);
@@ -48,7 +47,7 @@ class MotionReceiver {
   }
 
  private:
-  /// No car's speed or yaw rate changes faster than a sample in this time shows.
+  /// Closest samples: no car's speed or yaw rate changes faster than they show.
   static constexpr std::int64_t kClosest_ns = 2'000'000;
 
   void take(const can::CanFrame& frame) noexcept {

@@ -9,36 +9,36 @@
 
 namespace terracut::live {
 
-/// Which packets are decoded where more come than this machine is up to. The kernel's buffer is a
-/// queue of more than a second; without this every label would be that much late, for as long as
-/// the overload lasts. Two rules:
+/// Decides which packets to decode when more come than this machine can handle. The kernel's buffer
+/// is a queue of more than a second; without this every label would be that late as long as the
+/// overload lasts. Two rules:
 ///
-///   a packet is let go   when it is older than a frame and the deadline together: the frame it
-///                        belongs to is due, whatever is done now. After a standstill this drops
-///                        what is of no use and nothing else.
-///   the backlog is       when three frames in a row were handed over after their deadline. This
-///   let go               thread catches up on a standstill within two frames; when it does not,
-///                        it is too slow for what comes. It goes on with the newest packets, and
-///                        the frames after that are in time, until the lag has grown again.
+///   a packet is dropped   when it is older than a frame and the deadline together: its frame is
+///                         late, whatever is done now. After a standstill this drops useless
+///                         packets and no others.
+///   the backlog is        when three frames in a row were handed over after their deadline. After
+///   dropped               a standstill this thread catches up within two frames; otherwise it is
+///                         too slow for the load. It goes on with the newest packets; frames after
+///                         that are in time until the lag has grown again.
 ///
-/// Ages are by CLOCK_REALTIME, as the kernel's stamps are: a step of the clock costs what waits in
-/// the buffer at that moment, at most. One thread; looks at no clock.
+/// Ages are by CLOCK_REALTIME, like the kernel's stamps: a step of the clock costs at most what
+/// waits in the buffer then. One thread; looks at no clock.
 class PacketGate {
  public:
-  /// `frame_period_ns`: of one frame of the head.
+  /// `frame_period_ns` is the duration of one revolution.
   PacketGate(std::int64_t deadline_ns, std::int64_t frame_period_ns) noexcept
       : deadline_ns_(deadline_ns), oldest_useful_ns_(deadline_ns + frame_period_ns) {}
 
-  /// Packets were fetched. `more_may_wait`: in such numbers that more of them may lie ready.
+  /// Notes that packets were fetched. `more_may_wait`: so many that more may be ready.
   void begin_batch(bool more_may_wait) noexcept TERRACUT_NONBLOCKING {
     if (!more_may_wait) lets_backlog_go_ = false;
   }
-  /// Whether a packet of this batch is to be decoded.
+  /// True if a packet of this batch is to be decoded.
   [[nodiscard]] bool lets_in(std::int64_t stamp_ns,
                              std::int64_t now_ns) const noexcept TERRACUT_NONBLOCKING {
     return !lets_backlog_go_ && now_ns - stamp_ns <= oldest_useful_ns_;
   }
-  /// A frame whose last packet has this stamp was handed over.
+  /// Notes that a frame whose last packet has this stamp was handed over.
   void note_frame(std::int64_t last_packet_ns, std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING {
     late_frames_ = now_ns - last_packet_ns > deadline_ns_ ? late_frames_ + 1 : 0;
     if (late_frames_ < kCatchesUpWithin) return;
@@ -50,7 +50,7 @@ class PacketGate {
   static constexpr int kCatchesUpWithin = 3;
 
   std::int64_t deadline_ns_, oldest_useful_ns_;
-  int late_frames_ = 0;  ///< In a row.
+  int late_frames_ = 0;  ///< Successive ones.
   bool lets_backlog_go_ = false;
 };
 

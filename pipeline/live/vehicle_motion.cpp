@@ -13,7 +13,7 @@
 namespace terracut::live {
 namespace {
 
-/// The motion's age is looked at that often when the bus is silent.
+/// How often the age of the motion is checked when the bus is silent.
 constexpr std::int64_t kPatience_ns = 50'000'000;
 constexpr std::chrono::milliseconds kRest{1};
 
@@ -34,7 +34,7 @@ VehicleMotion::~VehicleMotion() {
 }
 
 std::vector<threads::Grant> VehicleMotion::start(int priority) {
-  std::promise<std::vector<threads::Grant>> granted;  // the thread's own
+  std::promise<std::vector<threads::Grant>> granted;  // for the thread
   auto grants = granted.get_future();
   thread_ = std::jthread([this, priority, granted = std::move(granted)]() mutable {
     granted.set_value(thread_state_.set_up(thread_request("tc-can", priority, std::nullopt)));

@@ -20,37 +20,38 @@
 
 namespace terracut::live {
 
-/// Hears the vehicle's CAN bus on a thread of its own and makes motion of it for the decoder:
+/// Listens to the vehicle's CAN bus on a thread of its own and gives the decoder the vehicle's
+/// motion:
 ///
 ///   bus --SocketCanSource--> MotionReceiver --EgoMotion (lock-free)--> the decoder, on its thread
 ///                                 |
 ///                                 '-- LatestValue --> whoever calls show()
 ///
-/// The bus cannot hold up a frame: the decoder takes what motion there is and never waits for any,
-/// and after every batch (64 frames) the thread rests for a millisecond, so that a flood costs no
-/// more than reading three times what a bus of 1 Mbit/s can carry; what is beyond it the kernel
-/// drops, and counts. Frames bear the kernel's stamps, so resting makes nothing less exact.
+/// The bus cannot delay a frame: the decoder uses the motion there is and never waits. After every
+/// batch (64 frames) the thread rests for a millisecond, so that a flood costs no more than three
+/// times the load of a 1 Mbit/s bus; the kernel drops and counts the rest. Frames have the kernel's
+/// stamps, so resting loses no precision.
 ///
 /// The thread allocates, locks and writes nothing.
 class VehicleMotion {
  public:
-  /// `signals` are those that `source` was opened for. Takes the memory of the motion from
-  /// `memory`; `source` and that must outlive this. Errors as EgoMotion.
+  /// `signals` are those that `source` was opened for. Takes the motion's memory from `memory`;
+  /// `source` and `memory` must outlive this. Errors of EgoMotion.
   VehicleMotion(vehicle::MotionSignals signals, const vehicle::EgoMotion::Config& config,
                 can::SocketCanSource& source, memory::FixedMemory& memory);
   ~VehicleMotion();
   VehicleMotion(const VehicleMotion&) = delete;
   VehicleMotion& operator=(const VehicleMotion&) = delete;
 
-  /// Returns what the system granted and refused the thread. `priority`: SCHED_FIFO, 0: shared.
+  /// Starts the thread. Returns what the system granted and refused. `priority`: SCHED_FIFO, 0:
+  /// shared.
   [[nodiscard]] std::vector<threads::Grant> start(int priority);
   void stop();
 
-  /// For one other thread, which reads it.
+  /// Returns the motion, to be read by one other thread.
   [[nodiscard]] vehicle::EgoMotion& motion() noexcept { return motion_; }
 
-  /// Fills in what is known of the bus and the samples, not what comes from frames. From one
-  /// thread.
+  /// Fills in the figures of the bus and the samples, not those from frames. From one thread.
   void show(status::MotionFigures& figures) noexcept;
   [[nodiscard]] const LiveThreadState& thread_state() const noexcept { return thread_state_; }
 

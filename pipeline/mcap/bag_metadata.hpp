@@ -24,7 +24,7 @@ enum class Qos : std::uint8_t {
 struct BagFile {
   std::string name;  ///< Relative to the bag's folder.
   McapFile::Span span;
-  std::vector<std::uint64_t> messages;  ///< By channel.
+  std::vector<std::uint64_t> messages;  ///< Indexed by channel.
 };
 
 /// Returns a bag's metadata.yaml (rosbag2, version 5), by which `ros2 bag` opens its folder.

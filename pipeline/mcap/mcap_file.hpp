@@ -36,7 +36,7 @@ class McapFile {
  public:
   using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-  /// kWriteFailed. `metadata` is stored under the name "terracut" unless it is empty.
+  /// Errors: kWriteFailed. `metadata` is stored under the name "terracut" unless it is empty.
   [[nodiscard]] static Expected<McapFile> create(std::filesystem::path path,
                                                  std::vector<Channel> channels,
                                                  const Metadata& metadata);

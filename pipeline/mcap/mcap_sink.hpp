@@ -62,7 +62,7 @@ class McapSink final : public publish::FrameSink {
   /// A second and a half, as disks stall at times.
   static constexpr std::size_t kQueueFrames = 16;
 
-  /// The file, or the bag's folder.
+  /// Returns the file, or the bag's folder.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return config_.path; }
   [[nodiscard]] std::string_view name() const noexcept override { return "mcap"; }
   [[nodiscard]] std::size_t queue_frames() const noexcept override { return kQueueFrames; }

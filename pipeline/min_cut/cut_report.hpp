@@ -20,9 +20,8 @@ struct CutReport {
   std::uint32_t coarse_by_budget = 0;  ///< In components not solved to the end.
 
   std::uint32_t components = 0;         ///< Connected components left after persistency.
-  std::uint32_t components_solved = 0;  ///< Those solved to the end.
-  std::uint32_t push_relabel_runs =
-      0;  ///< Components too large, or too expensive, for Boykov-Kolmogorov.
+  std::uint32_t components_solved = 0;  ///< Number of components solved to the end.
+  std::uint32_t push_relabel_runs = 0;  ///< Components too costly for Boykov-Kolmogorov.
   std::uint32_t largest_component = 0;  ///< In cells.
 
   std::int64_t persistency_ops = 0;

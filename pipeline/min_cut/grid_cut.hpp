@@ -20,9 +20,9 @@
 
 namespace terracut::min_cut {
 
-/// The minimum of GridProblem's energy: exact, or, when the budget runs out, exact where finished
-/// and coarse, listed and counted elsewhere. At no point is its energy above that of the coarse
-/// labels; where too little is finished, these are the result.
+/// Minimises GridProblem's energy: exactly, or, when the budget runs out, exactly where finished
+/// and coarsely elsewhere, listed and counted. The energy is never above that of the coarse labels;
+/// if too little is finished, these are the result.
 ///
 /// Among labellings of equal energy it returns the one with the most obstacle cells (there is
 /// exactly one: the largest source side). So the labels of a finished component depend on the
@@ -32,18 +32,18 @@ namespace terracut::min_cut {
 class GridCut {
  public:
   struct Config {
-    /// Unknown cells at most that persistency leaves to the solvers, which bounds memory and time.
-    /// Where there are more, those of higher rows keep their coarse label.
+    /// The most unknown cells that persistency may leave to the solvers; bounds memory and time.
+    /// Beyond it, cells of higher rows keep their coarse label.
     std::uint32_t max_unknown = 16'384;
-    /// Components of up to so many nodes are begun by Boykov-Kolmogorov, larger ones by
-    /// push-relabel: rough ground leaves some of 1,000 nodes and more.
+    /// Boykov-Kolmogorov begins components of up to so many nodes, push-relabel larger ones: rough
+    /// ground leaves some of 1,000 nodes and more.
     std::uint32_t bk_most_nodes = 64;
-    /// A component that takes Boykov-Kolmogorov more operations than
-    /// `bk_ops_per_node` * its nodes + `bk_ops_base` is finished by push-relabel. Each in [0, 1e9].
+    /// Push-relabel finishes a component that takes Boykov-Kolmogorov more operations than
+    /// `bk_ops_per_node` * its nodes + `bk_ops_base`. Each in [0, 1e9].
     std::int64_t bk_ops_per_node = 100;
     std::int64_t bk_ops_base = 20'000;
-    /// Share of the unknown cells solved that must be finished (fixed or in solved components) when
-    /// the budget runs out; with less, all of them keep their coarse label. [0, 1].
+    /// Least share of unknown cells that must be finished (fixed or in solved components) when the
+    /// budget runs out; with less, all keep their coarse label. [0, 1].
     float least_finished = 0.5F;
   };
 
@@ -51,11 +51,10 @@ class GridCut {
   /// are out of range (start-up only).
   GridCut(const frame::ImageShape& shape, const Config& config, memory::FixedMemory& memory);
 
-  /// Labels the unknown cells. `labels`: on entry the coarse label of every unknown cell (anything
-  /// but kObstacle counts as ground), on return its final one; other cells are left as they are.
-  /// `problem.shape` must be the constructor's. Unless the cut is discarded, a cell of
-  /// `problem.seeds` that was unknown is decided on return, or its label is the coarse one.
-  /// Real-time safe.
+  /// Labels the unknown cells. On entry `labels` has the coarse label of every unknown cell
+  /// (anything but kObstacle counts as ground), on return its final one; other cells are not
+  /// changed. `problem.shape` must be the constructor's. Unless the cut is discarded, each formerly
+  /// unknown cell of `problem.seeds` is then decided or has its coarse label. Real-time safe.
   template <RegionCosts Costs, EdgeWeights Weights>
   [[gnu::always_inline, nodiscard]] CutReport solve(const GridProblem& problem, const Costs& costs,
                                                     const Weights& weights, const CutBudget& budget,
@@ -72,18 +71,18 @@ class GridCut {
       std::span<frame::Label> labels) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] bool is_worth_keeping(const CutReport& report) const noexcept;
-  /// What `report` says once the labels stay as they came.
+  /// Returns the report of a cut that is not used.
   [[nodiscard]] static CutReport discard(CutReport report) noexcept TERRACUT_NONBLOCKING;
 
-  /// False when the budget ran out before the end.
+  /// False if the budget ran out before the end.
   [[nodiscard]] bool solve_component(std::span<const std::uint32_t> component, OpClock& clock,
                                      CutReport& report) noexcept;
-  /// Proves what it can of an unfinished component, leaves the rest coarse, and returns what the
-  /// labels cost beyond the flow.
+  /// Proves what it can of an unfinished component, leaves the rest coarse, and returns the labels'
+  /// cost beyond the flow.
   [[nodiscard]] std::int64_t finalize_unfinished(std::span<const std::uint32_t> component,
                                                  bool started, std::span<const frame::Label> labels,
                                                  std::span<Seed> seeds, CutReport& report) noexcept;
-  /// The cell of a node gets the node's side.
+  /// Gives the cell of a node the node's side.
   void decide(std::uint32_t index, std::span<Seed> seeds) const noexcept;
 
   Config config_;

@@ -16,25 +16,24 @@
 
 namespace terracut::min_cut {
 
-/// What is known of a cell: before the min-cut one of the first four. Each has a bit of its own, so
-/// that many cells can be tested at once.
+/// The state of a cell; before the min-cut one of the first four. Each has its own bit, so that
+/// many cells can be tested at once.
 enum class Seed : std::uint8_t {
   kNone = 0,      ///< A hole: no return. Cuts the graph.
   kGround = 1,    ///< High-confidence ground: the "background" terminal of paper section III-C.
   kObstacle = 2,  ///< High-confidence obstacle: the "object" terminal.
   kUnknown = 4,   ///< To be labelled.
-  // What the min-cut makes of unknown cells. To their neighbours they are seeds like the others.
+  // States that the min-cut gives unknown cells. Their neighbours treat them as seeds.
   kDecided = 8,
   kDecidedGround = kDecided | kGround,  ///< Has the label of a global optimum.
   kDecidedObstacle = kDecided | kObstacle,
   kPinned = 16,
-  kPinnedGround = kPinned | kGround,  ///< Found no room among the nodes: keeps its coarse label.
+  kPinnedGround = kPinned | kGround,  ///< Found no node free: keeps its coarse label.
   kPinnedObstacle = kPinned | kObstacle,
 };
 
-/// Calls `visit(index)` for each unknown cell, in order. Few cells are, and those lie together: 32
-/// are passed over at once, eight looked at together. `visit` may change the cells it was called
-/// for.
+/// Calls `visit(index)` for each unknown cell, in order. Unknown cells are few and lie together: it
+/// skips 32 cells at once and tests eight together. `visit` may change the cell it is called for.
 template <class Visit>
 [[gnu::always_inline]] inline void for_each_unknown(std::span<const Seed> seeds, Visit visit) {
   static_assert(std::endian::native == std::endian::little, "the first cell is in the low byte");
@@ -57,14 +56,14 @@ template <class Visit>
   }
 }
 
-/// Integer capacity of an energy of 1.0. With 1024 the labels equal those of a solution in double
-/// precision (measured on two scenes; 256 already changes some).
+/// Integer capacity of an energy of 1.0. With 1024 the labels equal those of double precision
+/// (measured on two scenes; 256 already changes some).
 inline constexpr int kCapacityScale = 1024;
-/// Highest edge weight; larger ones are taken as this. Twice the largest B of Eq. 14, and low
-/// enough that a residual capacity, which can reach 2 * weight, fits 16 bits.
+/// Upper limit of edge weights: twice the largest B of Eq. 14, and low enough that a residual
+/// capacity, which can reach 2 * weight, fits 16 bits.
 inline constexpr int kMaxEdgeWeight = 2 * kCapacityScale;
-/// Costs outside [0, kMaxTerminalCost] are clamped to it, in the reported energy too; with 8 edges
-/// folded into it the sum stays far inside 32 bits.
+/// Costs are clamped to [0, kMaxTerminalCost], in the reported energy as well; with 8 edges folded
+/// into it the sum stays far inside 32 bits.
 inline constexpr std::int32_t kMaxTerminalCost = 1 << 28;
 
 /// The energy of paper Eq. 6-15 in integers scaled by kCapacityScale, as views the caller owns.
@@ -75,28 +74,28 @@ inline constexpr std::int32_t kMaxTerminalCost = 1 << 28;
 ///   E(labels) = sum over unknown p of costs(p).<label of p>
 ///             + sum over 8-neighbours p, q with different labels of weight(p, q)
 ///
-/// Pairs of two hard seeds are no part of E: no choice is left for them.
+/// Pairs of two hard seeds are not part of E.
 struct GridProblem {
-  frame::ImageShape shape;  ///< columns >= 3, rows >= 1.
-  std::span<Seed> seeds;    ///< Worked on: unknown cells become what they are found to be.
-  std::span<const float> ground_range_m;  ///< Distance; near cells are solved first.
+  frame::ImageShape shape;                ///< columns >= 3, rows >= 1.
+  std::span<Seed> seeds;                  ///< Input and output: unknown cells get their result.
+  std::span<const float> ground_range_m;  ///< Near cells are solved first.
 };
 
-/// What it costs to give a cell either label, scaled by kCapacityScale.
+/// Costs of giving a cell either label, scaled by kCapacityScale.
 struct LabelCosts {
   std::int32_t ground, obstacle;
 };
 
-/// Costs of the labels, called once for every unknown cell: costs(cell). Must not throw.
+/// Label costs: costs(cell) is called once for every unknown cell. Must not throw.
 template <class C>
 concept RegionCosts = std::is_nothrow_invocable_r_v<LabelCosts, const C&, std::uint32_t>;
 
 /// Edge weights, called once for every unknown cell:
 ///   weights(cell, neighbours, out): out[d] = weight of the edge to neighbours[d], in
 ///   [0, kMaxEdgeWeight], scaled by kCapacityScale.
-/// `out[d]` is ignored where neighbours[d] is a hole or leads outside the rows (there
-/// neighbours[d] == cell). Must be symmetric, bit for bit: the weight from p to q is the weight
-/// from q to p; else the cut is not the minimum. Must not throw.
+/// `out[d]` is ignored if neighbours[d] is a hole or outside the rows (then neighbours[d] == cell).
+/// Must be symmetric, bit for bit: the weight from p to q is the weight from q to p; else the cut
+/// is not the minimum. Must not throw.
 template <class W>
 concept EdgeWeights = std::is_nothrow_invocable_v<const W&, std::uint32_t, const NeighbourCells&,
                                                   std::span<std::uint16_t, kDirections>>;

@@ -13,17 +13,18 @@
 
 namespace terracut::min_cut {
 
-/// Which stretches of the image have an unknown cell in them or next to them: where the graph of a
-/// cut has nodes and edges. By groups of columns, so that the answer may be yes a little too often.
+/// Finds the parts of the image that have an unknown cell in them or next to them, where a cut's
+/// graph has nodes and edges. Works by groups of columns, so the answer may be yes a little too
+/// often.
 ///
 /// Takes its memory in the constructor. One thread; real-time safe.
 class NearUnknown {
  public:
   NearUnknown(frame::ImageShape shape, memory::FixedMemory& memory);
 
-  /// Looks at all seeds of a frame, padding cells included.
+  /// Reads all seeds of a frame, padding cells included.
   void find(std::span<const Seed> seeds) noexcept TERRACUT_NONBLOCKING;
-  /// Whether a cell of these, or a neighbour of one, is unknown.
+  /// True if one of these cells, or a neighbour, is unknown.
   [[nodiscard]] bool is_near(int row, frame::ColumnRange columns) const noexcept {
     const std::size_t row_begin = static_cast<std::size_t>(row) * groups_;
     const int left = columns.begin == 0 ? columns_ - 1 : columns.begin - 1;
@@ -45,8 +46,8 @@ class NearUnknown {
 
   int columns_;
   std::size_t rows_, groups_;
-  std::span<std::uint8_t> unknown_;  // [row][group]: one of the group
-  std::span<std::uint8_t> near_;     // ... of this row or one of the two next to it
+  std::span<std::uint8_t> unknown_;  // [row][group]: the group has an unknown cell
+  std::span<std::uint8_t> near_;     // [row][group]: this row's or an adjacent row's has
 };
 
 }  // namespace terracut::min_cut

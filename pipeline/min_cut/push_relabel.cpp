@@ -9,9 +9,9 @@
 namespace terracut::min_cut {
 namespace {
 
-/// Exact relabelling visits each arc once, some 8 operations a node. Repeating it when lifts have
-/// cost four times that was best over the adversarial families; never repeating it costs one of
-/// them 10-fold.
+/// Relabels exactly after so much lifting. Exact relabelling visits each arc once, some 8
+/// operations a node; repeating it when lifts have cost four times that was best over the
+/// adversarial families, and never repeating it costs one of them 10-fold.
 constexpr std::int64_t kLiftWorkPerNode = 32;
 
 }  // namespace
@@ -139,8 +139,8 @@ void PushRelabel::lift(std::uint32_t index, std::uint32_t distance) noexcept {
     if (distance != kNoWayToSink) enter_level(index);
     return;
   }
-  // A gap: no node at the old distance is left, so none above it has a way to the sink. All active
-  // ones are below: this node was the highest.
+  // A gap: no node is left at the old distance, so none above it has a path to the sink. All active
+  // nodes are below, as this one was the highest.
   nodes_[index].distance = kNoWayToSink;
   for (std::uint32_t level = old + 1; level <= levels_; ++level) {
     for (std::uint32_t at = level_first_[level]; at != kEnd; at = level_next_[at]) {

@@ -13,22 +13,22 @@
 
 namespace terracut::min_cut {
 
-/// Minimum cut of one component after A. V. Goldberg, R. E. Tarjan, "A New Approach to the
-/// Maximum-Flow Problem", J. ACM 35(4), 1988, with the highest-label rule, the gap rule and exact
-/// relabelling now and then. Slower than Boykov-Kolmogorov on street scenes but bounded, O(n^2 sqrt
-/// m); goes on from whatever residual graph it is given. Only the cut is computed: excess that
-/// cannot reach the sink stays where it is, as source capacity.
+/// Finds the minimum cut of one component after A. V. Goldberg, R. E. Tarjan, "A New Approach to
+/// the Maximum-Flow Problem", J. ACM 35(4), 1988, with the highest-label rule, the gap rule and
+/// occasional exact relabelling. Slower than Boykov-Kolmogorov on street scenes but bounded, O(n^2
+/// sqrt m); continues from any residual graph. Only the cut is computed: excess that cannot reach
+/// the sink stays where it is, as source capacity.
 class PushRelabel {
  public:
   PushRelabel(std::size_t max_nodes, memory::FixedMemory& memory);
 
-  /// True when the cut is minimal; `side` then is the answer for each node of the component.
-  /// False when the clock's budget is reached; the residual graph is still valid. Real-time safe.
+  /// True when the cut is minimal; each node of the component then has its final `side`. False when
+  /// the clock's budget is reached; the residual graph is still valid. Real-time safe.
   [[nodiscard]] bool solve(CutGraph& graph, std::span<const std::uint32_t> component,
                            OpClock& clock) noexcept TERRACUT_NONBLOCKING;
 
  private:
-  static constexpr std::uint32_t kEnd = 0xFFFFFFFF;  ///< No node: the end of a list.
+  static constexpr std::uint32_t kEnd = 0xFFFFFFFF;  ///< The end of a list.
 
   void relabel_all(std::span<const std::uint32_t> component) noexcept;
   void discharge(std::uint32_t index) noexcept;
@@ -48,7 +48,7 @@ class PushRelabel {
   std::uint32_t highest_active_ = 0;  ///< No active node above this level.
 
   std::span<CutNode> nodes_;    ///< Of the graph being solved.
-  std::int64_t ops_ = 0;        ///< Since the clock was told.
+  std::int64_t ops_ = 0;        ///< Not yet reported to the clock.
   std::int64_t lift_work_ = 0;  ///< Operations in lifts since the last exact relabelling.
   std::int64_t flow_ = 0;
 };

@@ -19,7 +19,7 @@ std::uint32_t measure_way_to_sink(CutGraph& graph, std::span<const std::uint32_t
     for_each_edge(node.edges, [&](int direction) {
       const std::uint32_t other = node.neighbour[static_cast<std::size_t>(direction)];
       CutNode& neighbour = graph.nodes[other];
-      // Whether it is new is as good as random: written either way, counted if it is.
+      // A branch would be mispredicted: writes the neighbour always and counts it only if new.
       const bool is_new = neighbour.distance == kNoWayToSink &&
                           neighbour.residual[static_cast<std::size_t>(opposite(direction))] != 0;
       queue[end] = other;
@@ -36,7 +36,7 @@ std::uint32_t certify(CutGraph& graph, std::span<const std::uint32_t> component,
   const auto size = static_cast<std::uint32_t>(component.size());
   measure_way_to_sink(graph, component, queue, ops);
 
-  // From here on `side` is kFree where the source reaches, until the sink-side proof is read off.
+  // From here on kFree means reached from the source, until the sink side's proof is evaluated.
   std::uint32_t end = 0;
   for (const std::uint32_t index : component) {
     CutNode& node = graph.nodes[index];

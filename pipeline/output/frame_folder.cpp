@@ -21,19 +21,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Begins the line of a list that says what its files were made of. Earlier versions wrote none.
+/// Begins the line of a list that names the input of its files. Earlier versions wrote none.
 constexpr std::string_view kMadeOf = "of: ";
-/// In a list stands for a line break, which a file's name may hold; a slash it cannot.
+/// Replaces a line break of a name in a list; a file's name may hold a line break but no slash.
 constexpr char kLineBreak = '/';
 
 struct List {
-  std::string made_of;  ///< Empty: unknown.
+  std::string made_of;  ///< The input; empty if unknown.
   std::set<std::string> names;
 };
 
-/// The whole lines of a list; none where there is none.
+/// Returns the complete lines of a list; an empty list if there is none.
 Expected<List> list_in(const fs::path& path) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // ten million frames
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // enough for ten million frames
   List list;
   const auto text = files::read_plain_file(path, kMostBytes);
   if (!text && text.error().code == ErrorCode::kNotFound) return list;
@@ -52,7 +52,7 @@ Expected<List> list_in(const fs::path& path) {
   return list;
 }
 
-/// In one line, as a list has it.
+/// Returns the text as one line of a list.
 std::string one_line(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   return text;
@@ -75,7 +75,7 @@ Status FrameFolder::check() const {
   if (!list) return tl::unexpected(list.error());
   std::set<std::string> foreign;
   std::size_t listed = 0;
-  std::error_code error;  // a folder that cannot be listed cannot be written to either
+  std::error_code error;  // a folder that cannot be listed cannot be written either
   fs::directory_iterator entry(config_.folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     std::string name = entry->path().filename().string();
@@ -114,7 +114,7 @@ Status FrameFolder::begin() {
   if (!list) return tl::unexpected(list.error());
   std::size_t removed = 0;
   for (const std::string& name : list->names) {
-    // Only what place() can have listed.
+    // Only names that place() can have listed.
     if (!name.ends_with(config_.ending)) continue;
     removed += fs::remove(config_.folder / name, error) ? 1 : 0;
     if (error) return write_failed(config_.folder / name, error);
@@ -137,7 +137,7 @@ Status FrameFolder::write_line(const std::string& text) {
   if (written == static_cast<::ssize_t>(line.size())) return {};
   const std::error_code error =
       written < 0 ? last_error() : std::make_error_code(std::errc::no_space_on_device);
-  // What comes when there is room again begins a line of its own.
+  // Removes the partial line, so that a later one begins a line of its own.
   if (written > 0) (void)::ftruncate(list_.get(), end);
   return write_failed(list_path(), error);
 }

@@ -11,9 +11,9 @@
 
 namespace terracut::output {
 
-/// The SemanticKITTI class that stands for a label in prediction files: 40 (road) for ground that
-/// is road or undecided, 49 (other-ground) for ground that is no road, 99 (other-object) for
-/// obstacles, 0 (unlabelled) for kNone, which no return has.
+/// Returns a label's SemanticKITTI class in prediction files: 40 (road) for ground that is road or
+/// undecided, 49 (other-ground) for ground that is not road, 99 (other-object) for obstacles, 0
+/// (unlabelled) for kNone, which no return has.
 [[nodiscard]] constexpr std::uint32_t semantic_kitti_class(frame::Label label) noexcept {
   switch (label) {
     case frame::Label::kGround:

@@ -19,8 +19,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the record below is written as it lies");
 
-/// One point on disk; PCD readers take fields at the offsets that the header's SIZE line adds up
-/// to.
+/// The layout of a point on disk: PCD readers compute field offsets from the header's SIZE line.
 struct PcdPoint {
   float x_m, y_m, z_m;
   float intensity;

@@ -17,13 +17,12 @@
 
 namespace terracut::page {
 
-/// A value that one process publishes and any others read, without the publisher ever noticing
-/// them: a page of shared memory with a sequence lock (sequence_lock.hpp).
+/// Publishes a value of one process to any others, which never delay the publisher: a page of
+/// shared memory with a sequence lock (sequence_lock.hpp).
 ///
 ///     file in memory:  | StatusPageHeader, with the sequence | words of the value ... |
 ///
-/// Readers map the page read-only, so whatever one of them does or suffers, the publisher is not
-/// affected.
+/// Readers map the page read-only, so nothing they do affects the publisher.
 ///
 /// T is trivially copyable, has no pointers in it, and the same layout in all programs that use the
 /// page: `layout` in the header is a number the owner of T raises with every change to it.
@@ -32,8 +31,8 @@ class StatusPagePublisher {
   static_assert(std::is_trivially_copyable_v<T> && std::is_default_constructible_v<T>);
 
  public:
-  /// Makes the page `name`. Until the first publish() readers find nothing published. Errors as
-  /// StatusPageFile::create. Start-up only.
+  /// Makes the page `name`. Before the first publish() readers find no value. Errors of
+  /// StatusPageFile::create(). Start-up only.
   [[nodiscard]] static Expected<StatusPagePublisher> create(
       const std::string& name, std::uint32_t layout,
       const std::filesystem::path& folder = status_page_folder()) {
@@ -42,7 +41,7 @@ class StatusPagePublisher {
     return StatusPagePublisher(std::move(*file));
   }
 
-  /// Wait-free, no system call: memory accesses only. One thread.
+  /// To be called from one thread. Wait-free: memory accesses only, no system call.
   void publish(const T& value) noexcept TERRACUT_NONBLOCKING {
     queues::SequenceLock<T>::write(value, file_.header()->sequence, file_.words());
   }
@@ -54,14 +53,14 @@ class StatusPagePublisher {
   StatusPageFile file_;
 };
 
-/// Reads what a StatusPagePublisher of the same T and layout publishes, in this process or another.
+/// Reads the value of a StatusPagePublisher of the same T and layout, in this process or another.
 /// Movable; one thread an object.
 template <class T>
 class StatusPageReader {
   static_assert(std::is_trivially_copyable_v<T> && std::is_default_constructible_v<T>);
 
  public:
-  /// Errors as StatusPageFile::open. A page whose publisher has died opens like any other: see
+  /// Errors of StatusPageFile::open(). A page whose publisher has died can be opened: see
   /// publisher_lives().
   [[nodiscard]] static Expected<StatusPageReader> open(
       const std::string& name, std::uint32_t layout,
@@ -71,27 +70,27 @@ class StatusPageReader {
     return StatusPageReader(std::move(*file));
   }
 
-  /// The newest whole value. None when nothing was published yet, or when no quiet moment was met
-  /// in kTries tries: the publisher died while writing, or is being held up there. Try later.
+  /// Returns the newest whole value. Nothing if none was published yet, or if all of kTries tries
+  /// met the publisher at work: it died or was held up while writing. Try later.
   [[nodiscard]] std::optional<T> read() const noexcept TERRACUT_NONBLOCKING {
     return queues::SequenceLock<T>::read(file_.header()->sequence, file_.words(), kTries);
   }
 
-  /// How often something was published: tells whether there is news without reading it.
+  /// Returns how often a value was published, which tells of news without reading it.
   [[nodiscard]] std::uint64_t publications() const noexcept TERRACUT_NONBLOCKING {
     return file_.header()->sequence.load(std::memory_order_acquire) / 2;
   }
 
-  /// Whether the process that made this page still has it. False for good once that has ended, by
-  /// whatever way; a new process makes a new page, for which open() must be called again.
+  /// True while the process that made this page has it. False for good once it has ended, in any
+  /// way; a new process makes a new page, for which open() must be called again.
   [[nodiscard]] bool publisher_lives() const noexcept { return file_.publisher_lives(); }
 
   [[nodiscard]] std::int32_t publisher_pid() const noexcept { return file_.header()->pid; }
-  /// When the page was made: nanoseconds since 1970, CLOCK_REALTIME.
+  /// Returns when the page was made: nanoseconds since 1970, CLOCK_REALTIME.
   [[nodiscard]] std::int64_t started_ns() const noexcept { return file_.header()->started_ns; }
 
  private:
-  static constexpr int kTries = 10'000;  // a publication of 1 KiB takes less than one of them
+  static constexpr int kTries = 10'000;  // a publication of 1 KiB takes less than one try
 
   explicit StatusPageReader(StatusPageFile file) : file_(std::move(file)) {}
   StatusPageFile file_;

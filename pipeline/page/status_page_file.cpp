@@ -56,8 +56,8 @@ std::size_t file_bytes(std::size_t value_bytes) {
   return sizeof(StatusPageHeader) + (value_bytes + kWord - 1) / kWord * kWord;
 }
 
-/// A lock of this open file, not of the process: two objects in one process exclude each other
-/// like two processes.
+/// Describes a lock of this open file, not of the process: two objects in one process exclude each
+/// other as two processes do.
 struct flock whole_file(short type) {
   struct flock lock {};
   lock.l_type = type;
@@ -65,7 +65,7 @@ struct flock whole_file(short type) {
   return lock;
 }
 
-/// 0 or errno; EAGAIN when somebody else holds it.
+/// Returns 0 or errno; EAGAIN if somebody else holds the lock.
 int try_lock(int file) {
   struct flock lock = whole_file(F_WRLCK);
   if (::fcntl(file, F_OFD_SETLK, &lock) == 0) return 0;
@@ -85,7 +85,7 @@ std::int32_t pid_in(int file) {
   return pid;
 }
 
-/// Gives the finished page its name: nothing, or what a dead process left, may stand there.
+/// Renames the finished page into place, where there may be nothing or a dead process's page.
 Status put_in_place(const std::filesystem::path& made, const std::filesystem::path& path) {
   for (int tries = 0; tries < 100; ++tries) {
     if (::link(made.c_str(), path.c_str()) == 0) {
@@ -93,8 +93,8 @@ Status put_in_place(const std::filesystem::path& made, const std::filesystem::pa
       return {};
     }
     if (errno != EEXIST) return not_written(path, "naming it", errno);
-    // Whoever holds the lock of the file that is there may replace it: not two processes at once,
-    // and nobody while its publisher lives.
+    // Only the holder of the existing file's lock may replace it: never two processes at once, and
+    // nobody while its publisher lives.
     const files::OwnedDescriptor old(
         ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (!old && errno == ENOENT) continue;
@@ -114,7 +114,7 @@ Status put_in_place(const std::filesystem::path& made, const std::filesystem::pa
                       std::to_string(pid_in(old.get())) + "; choose another name");
     }
     if (error_number != 0) return not_written(path, "locking the one that is there", error_number);
-    if (!is_file_at(old.get(), path)) continue;  // replaced meanwhile: look again
+    if (!is_file_at(old.get(), path)) continue;  // it was replaced meanwhile: look again
     if (::rename(made.c_str(), path.c_str()) == 0) return {};
     return not_written(path, "replacing the one that is there", errno);
   }
@@ -161,7 +161,7 @@ Expected<StatusPageFile> StatusPageFile::create(const std::filesystem::path& fol
                     "disk; choose one that is, such as /dev/shm");
   }
 
-  // Made under another name, so that readers never find half a page.
+  // Made under another name first, so that readers never find half a page.
   const std::filesystem::path made = folder / ("." + name + ".part-" + std::to_string(::getpid()) +
                                                "-" + std::to_string(measure::realtime_ns()));
   files::OwnedDescriptor file(
@@ -171,7 +171,7 @@ Expected<StatusPageFile> StatusPageFile::create(const std::filesystem::path& fol
   const std::unique_ptr<const std::filesystem::path, decltype(remove)> tidy(&made, remove);
 
   const std::size_t bytes = file_bytes(value_bytes);
-  // Taken now: a folder that is full later would kill the process in the midst of a publication.
+  // Reserves the space now: if the folder were full later, publishing would kill the process.
   if (const int error = ::posix_fallocate(file.get(), 0, static_cast<::off_t>(bytes))) {
     return not_written(path, "taking its memory", error);
   }
@@ -205,7 +205,7 @@ Expected<StatusPageFile> StatusPageFile::open(const std::filesystem::path& folde
                 "could not read the status page " + path.string() + ": " + reason(error_number) +
                     (error_number == ENOENT ? "; nobody publishes under this name" : ""));
   };
-  // O_NONBLOCK: who has put a named pipe there shall not make us wait.
+  // O_NONBLOCK: a named pipe there must not make us wait.
   files::OwnedDescriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (!file) return unreadable(errno);
   struct stat status {};

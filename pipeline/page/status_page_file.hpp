@@ -15,8 +15,8 @@
 
 namespace terracut::page {
 
-/// The beginning of a status page, as it lies in the file; numbers in the machine's own byte order.
-/// Behind it, from the next cache line on, the words of the value.
+/// The beginning of a status page file; numbers in the machine's own byte order. The words of the
+/// value follow from the next cache line on.
 struct StatusPageHeader {
   static constexpr std::uint64_t kMagic = 0x65'67'61'70'74'63'72'74;  // "trctpage" in the file
 
@@ -25,56 +25,57 @@ struct StatusPageHeader {
   std::uint32_t layout = 0;         ///< The version of the value's layout.
   std::uint64_t value_bytes = 0;
   std::int64_t started_ns = 0;  ///< When the page was made, since 1970.
-  std::int32_t pid = 0;         ///< Of the publisher, as it sees itself (a container differs).
+  std::int32_t pid = 0;         ///< Of the publisher, in its own namespace (a container differs).
   std::uint32_t reserved = 0;
-  std::atomic<std::uint64_t> sequence{0};  ///< Even: at rest; odd: being written; 0: nothing yet.
+  std::atomic<std::uint64_t> sequence{0};  ///< Even: at rest; odd: being written; 0: no value yet.
   std::uint64_t reserved_too[2]{};
 };
 static_assert(sizeof(StatusPageHeader) == 64);
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free,
               "shared between processes, so nothing but the processor can keep it whole");
 
-/// The folder of status pages: $TERRACUT_STATUS_FOLDER if set, else /dev/shm, which every user of
-/// the machine can look into.
+/// Returns the folder of status pages: $TERRACUT_STATUS_FOLDER if set, else /dev/shm, which every
+/// user of the machine can read.
 [[nodiscard]] std::filesystem::path status_page_folder();
 
-/// Page `name` is the file `name` and this.
+/// The file of page `name` is `name` with this ending.
 inline constexpr std::string_view kStatusPageEnding = ".terracut";
 
-/// Whether a living process holds the lock of a page's file, opened here.
+/// True if a living process holds the lock of the open page file.
 [[nodiscard]] bool has_publisher(int file) noexcept;
 
-/// The file of one status page, mapped into memory. The publisher holds a lock on it as long as it
-/// lives, which the kernel takes away however it ends; by this a page left behind is told from one
-/// in use, even if its process number has been given to another process meanwhile, and between
-/// containers. Readers ask about the lock but never take it. A process that the publisher forks
-/// without a following exec shares the lock. Movable; start-up only.
+/// The file of one status page, mapped into memory. The publisher holds a lock on it, which the
+/// kernel releases however the process ends. So a page in use is told from one left behind, even if
+/// the process number was given to another process, and between containers. Readers query the lock
+/// but never take it. A forked process without a following exec shares the lock. Movable; start-up
+/// only.
 class StatusPageFile {
  public:
   StatusPageFile(StatusPageFile&& other) noexcept;
   StatusPageFile& operator=(StatusPageFile&& other) noexcept;
-  /// The publisher's takes the page away with it.
+  /// The publisher's object removes the page.
   ~StatusPageFile();
 
   /// For the publisher: makes `name`.terracut in `folder`, whole or not at all, readable for all. A
   /// page that a dead process left behind is replaced. Errors: kInvalidArgument for a name that is
-  /// not made of 1 to 64 letters, digits, '-', '_' and '.', or that a living process uses (the
-  /// message says which); kUnsupported for a folder that is not in memory, where publishing could
-  /// wait for a disk; kWriteFailed with the system's reason.
+  /// not made of 1 to 64 letters, digits, '-', '_' and '.', or used by a living process (the
+  /// message says which); kUnsupported for a folder on a disk, where publishing could wait;
+  /// kWriteFailed with the system's reason.
   [[nodiscard]] static Expected<StatusPageFile> create(const std::filesystem::path& folder,
                                                        const std::string& name,
                                                        std::uint32_t layout,
                                                        std::size_t value_bytes);
 
-  /// For readers. Errors: kNotFound when there is no such page; kUnreadable with the system's
-  /// reason, or where anybody could have made it (trusted_file.hpp); kMalformed for a file that is
-  /// no status page; kUnsupported for another layout or size.
+  /// For readers. Errors: kNotFound if there is no such page; kUnreadable with the system's reason,
+  /// or if anybody could have made it (trusted_file.hpp); kMalformed for a file that is no status
+  /// page; kUnsupported for another layout or size.
   [[nodiscard]] static Expected<StatusPageFile> open(const std::filesystem::path& folder,
                                                      const std::string& name, std::uint32_t layout,
                                                      std::size_t value_bytes);
 
   [[nodiscard]] StatusPageHeader* header() const noexcept { return header_; }
-  /// Behind the header; the value in words of eight bytes, the last filled up with zeros.
+  /// Returns the words after the header: the value in words of eight bytes, the last padded with
+  /// zeros.
   [[nodiscard]] std::atomic<std::uint64_t>* words() const noexcept { return words_; }
   [[nodiscard]] bool publisher_lives() const noexcept { return has_publisher(file_.get()); }
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
@@ -83,7 +84,7 @@ class StatusPageFile {
   StatusPageFile() = default;
 
   std::filesystem::path path_;
-  files::OwnedDescriptor file_;  ///< The lock goes with it.
+  files::OwnedDescriptor file_;  ///< Holds the lock.
   bool publishes_ = false;
   std::size_t mapped_bytes_ = 0;
   StatusPageHeader* header_ = nullptr;

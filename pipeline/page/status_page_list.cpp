@@ -18,7 +18,7 @@
 namespace terracut::page {
 namespace {
 
-/// The header without its mapping; none if `file` does not begin with one.
+/// Returns the process of a page's header, without mapping it; nothing if `file` is no page.
 std::optional<std::int32_t> publisher_of(int file) {
   std::byte header[sizeof(StatusPageHeader)];
   std::uint64_t magic = 0;
@@ -38,7 +38,7 @@ std::vector<StatusPageEntry> list_status_pages(const std::filesystem::path& fold
   std::error_code unreadable;
   for (fs::directory_iterator it(folder, unreadable), end; it != end; it.increment(unreadable)) {
     std::string name = it->path().filename().string();
-    // One that begins with a dot is being made.
+    // A name that begins with a dot is a page being made.
     if (name.starts_with('.') || !name.ends_with(kStatusPageEnding)) continue;
     const files::OwnedDescriptor file(
         ::open(it->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));

@@ -11,17 +11,17 @@
 
 namespace terracut::page {
 
-/// A status page that was found.
+/// One status page of a folder.
 struct StatusPageEntry {
   std::string name;
-  std::int32_t pid = 0;     ///< Of its publisher.
-  std::uint32_t owner = 0;  ///< User the file belongs to.
+  std::int32_t pid = 0;     ///< Process number of its publisher.
+  std::uint32_t owner = 0;  ///< The user that owns the file.
   bool publisher_lives = false;
 };
 
-/// All status pages of `folder`, of whatever layout, by name. What cannot be read, is none, or
-/// could have been made by anybody (trusted_file.hpp), is left out. Reads the headers only; touches
-/// neither pages nor locks.
+/// Lists all status pages of `folder`, of any layout, by name. Leaves out files that cannot be
+/// read, are no page, or could have been made by anybody (trusted_file.hpp). Reads only headers;
+/// touches neither values nor locks.
 [[nodiscard]] std::vector<StatusPageEntry> list_status_pages(
     const std::filesystem::path& folder = status_page_folder());
 

@@ -17,9 +17,9 @@ namespace terracut::pictures {
 namespace {
 
 constexpr Colour kRingColour{120, 135, 155};
-constexpr int kOversampling = 2;  // Picture::halved() brings it back
+constexpr int kOversampling = 2;  // undone by Picture::halved()
 
-/// Where metres of the vehicle frame lie in the oversampled picture: x up, y to the left.
+/// Maps metres of the vehicle frame to the oversampled picture: x up, y to the left.
 struct Canvas {
   Picture picture;
   double pixels_per_m;
@@ -32,7 +32,7 @@ struct Canvas {
   }
 };
 
-/// Dots of 3 x 3 oversampled pixels; where several returns fall together the highest is seen.
+/// Draws returns as 3 x 3 oversampled pixels; where several fall together the highest is visible.
 void draw_returns(Canvas& canvas, const ColouredFrame& frame) {
   const int width = canvas.picture.width(), height = canvas.picture.height();
   std::vector<float> top_m(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
@@ -67,7 +67,7 @@ void draw_range_rings(Canvas& canvas, const BirdEyeView& view) {
   }
 }
 
-/// An arrow head of a car's length: tip in front, notched tail.
+/// Draws an arrow head of a car's length: tip in front, notched tail.
 void draw_vehicle(Canvas& canvas) {
   constexpr double kFront_m = 2.4, kTail_m = -1.8, kNotch_m = -0.9, kHalfWidth_m = 1.3;
   for (double x_m = kTail_m; x_m <= kFront_m; x_m += 0.5 / canvas.pixels_per_m) {
@@ -83,7 +83,7 @@ void draw_vehicle(Canvas& canvas) {
   }
 }
 
-/// One ring spacing, with its length written above.
+/// Draws one ring spacing, with its length above.
 void draw_scale_bar(Canvas& canvas, const BirdEyeView& view) {
   const int length = static_cast<int>(view.ring_spacing_m * canvas.pixels_per_m);
   const int margin = canvas.picture.width() / 40;
@@ -105,7 +105,7 @@ Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view) {
   frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
     colours[placed.return_index] = colour_of_return(frame, placed.return_index, placed.point);
   });
-  // Mistakes lie on top of everything: they are what such a picture is looked at for.
+  // Mistakes lie on top of everything, since they are the purpose of such a picture.
   std::vector<std::uint8_t> mistaken;
   for (const Mistake mistake : frame.mistakes) mistaken.push_back(mistake != Mistake::kNone);
   return bird_eye_picture(ColouredFrame{frame.image, colours, mistaken}, view);

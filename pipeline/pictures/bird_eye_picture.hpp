@@ -17,17 +17,17 @@ struct BirdEyeView {
   double ring_spacing_m = 10;  ///< Distance between the range rings, > 0.
 };
 
-/// The frame from above, x (forward) up: colours of frame_colours.hpp, range rings, the vehicle as
-/// an arrow, and at the lower left a scale bar of one ring spacing with its length. Higher returns
-/// lie over lower ones.
+/// Draws the frame from above, x (forward) up: colours of frame_colours.hpp, range rings, the
+/// vehicle as an arrow, and at the lower left a scale bar of one ring spacing with its length.
+/// Higher returns cover lower ones.
 [[nodiscard]] Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view = {});
 
-/// The same in colours of one's own, one a return.
+/// A frame with its own colours, one a return.
 struct ColouredFrame {
   const frame::RangeImage& image;
-  std::span<const Colour> colours;  ///< By return index.
-  /// By return index: returns of a higher level lie over those of a lower one, however high these
-  /// are. Empty: all of one level.
+  std::span<const Colour> colours;  ///< One per return.
+  /// By return index: returns of a higher level cover those of a lower one, whatever their heights.
+  /// Empty: all of one level.
   std::span<const std::uint8_t> level;
 };
 [[nodiscard]] Picture bird_eye_picture(const ColouredFrame& frame, const BirdEyeView& view = {});

@@ -8,10 +8,9 @@
 namespace terracut::pictures {
 namespace {
 
-constexpr int kSwatchGlyphs =
-    4;  // A swatch with the gap behind it is as wide as so many characters.
+constexpr int kSwatchGlyphs = 4;  // Width of a swatch and its gap, in characters.
 
-/// Where an entry of the legend stands: pixels from the left, lines from the first.
+/// The place of a legend entry: pixels from the left, lines from the first.
 struct Place {
   int left = 0, line = 0;
 };

@@ -14,11 +14,11 @@ namespace terracut::pictures {
 /// What a colour, or a range of colours, stands for.
 struct LegendEntry {
   std::string text;
-  std::vector<Colour> colours;  ///< From left to right over its swatch; at least one.
+  std::vector<Colour> colours;  ///< Colours of its swatch from left to right; at least one.
 };
 
-/// `picture` with a band below it that holds the title and, under it, the legend; what is wider
-/// than the picture goes on in a further line.
+/// Returns `picture` with a band below it that holds the title and the legend; long ones continue
+/// on further lines.
 [[nodiscard]] Picture with_caption(const Picture& picture, std::string_view title,
                                    std::span<const LegendEntry> legend);
 

@@ -16,15 +16,15 @@ namespace terracut::pictures {
 /// How a return's label compares with the truth, for pictures that show mistakes.
 enum class Mistake : std::uint8_t {
   kNone,
-  kMissedObstacle,  ///< Truth says obstacle, the label ground.
-  kFalseObstacle,   ///< Truth says ground, the label obstacle.
+  kMissedObstacle,  ///< The truth is obstacle, the label ground.
+  kFalseObstacle,   ///< The truth is ground, the label obstacle.
 };
 
-/// A labelled frame as the pictures need it. Both spans go by return index.
+/// A labelled frame as the pictures need it. All spans are by return index.
 struct LabelledFrame {
   const frame::RangeImage& image;
   std::span<const frame::Label> labels;  ///< One a return.
-  std::span<const Mistake> mistakes;     ///< One a return, or empty where no truth is known.
+  std::span<const Mistake> mistakes;     ///< One a return; empty if the truth is unknown.
 };
 
 inline constexpr Colour kPictureBackground{14, 17, 23};
@@ -32,12 +32,12 @@ inline constexpr Colour kTextColour{240, 244, 248};
 inline constexpr Colour kMissedObstacleColour{255, 30, 30};
 inline constexpr Colour kFalseObstacleColour{255, 221, 0};
 
-/// Ground is sand, brighter where more light came back. Obstacles go by height, coral at the ground
-/// over violet to blue above 4 m; beside mistakes they are all slate, so that the mistakes stand
-/// out.
+/// Returns a colour. Ground is sand, brighter with more returned light. Obstacles go by height,
+/// from coral at the ground over violet to blue above 4 m; if mistakes are shown they are all
+/// slate, so that mistakes stand out.
 [[nodiscard]] Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
                                       const frame::Return& point) noexcept;
-/// What the colours of such a frame mean, in the order of the labels.
+/// Explains the colours of such a frame, in the order of the labels.
 [[nodiscard]] std::vector<LegendEntry> legend_of(const LabelledFrame& frame);
 
 }  // namespace terracut::pictures

@@ -8,17 +8,16 @@
 
 namespace terracut::pictures {
 
-inline constexpr int kGlyphWidth = 6;   ///< Of one character and the gap behind it, at scale 1.
-inline constexpr int kGlyphHeight = 7;  ///< Above the lower edge of g, p, q and y.
+inline constexpr int kGlyphWidth = 6;   ///< A character and the gap after it, at scale 1.
+inline constexpr int kGlyphHeight = 7;  ///< Without the descenders of g, p, q and y.
 
-/// How many pixels wide `text` is drawn.
+/// Returns the width of `text` in pixels.
 [[nodiscard]] constexpr int text_width(std::string_view text, int scale) noexcept {
   return static_cast<int>(text.size()) * kGlyphWidth * scale;
 }
 
 /// Writes `text` with its upper left corner at (x, y), each pixel of a glyph scale x scale pixels,
-/// scale >= 1. Glyphs are those of ASCII; any other byte is drawn as '?'. What lies outside the
-/// picture leaves no trace.
+/// scale >= 1. Has glyphs of ASCII; any other byte is drawn as '?'. Clips at the picture's edges.
 void draw_text(Picture& picture, int x, int y, std::string_view text, int scale,
                Colour colour) noexcept;
 

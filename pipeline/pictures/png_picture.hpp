@@ -18,11 +18,11 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// `from` at share 0, `to` at share 1; share is clamped to [0, 1].
+/// Mixes two colours: `from` at share 0, `to` at share 1; share is clamped to [0, 1].
 [[nodiscard]] Colour mix(Colour from, Colour to, double share) noexcept;
 
-/// height x width pixels, row-major from the top left, three bytes each without padding.
-/// Drawing outside the picture is allowed and leaves no trace.
+/// A picture of height x width pixels, row-major from the top left, three bytes each without
+/// padding. Drawing is clipped at its edges.
 class Picture {
  public:
   Picture(int width, int height, Colour background);
@@ -32,21 +32,21 @@ class Picture {
   [[nodiscard]] Colour at(int x, int y) const noexcept { return pixels_[index(x, y)]; }
 
   void set(int x, int y, Colour colour) noexcept;
-  /// Lays `colour` over the pixel with the given opacity in [0, 1].
+  /// Blends `colour` over the pixel with the given opacity in [0, 1].
   void blend(int x, int y, Colour colour, double opacity) noexcept;
   /// Fills [left, left + width) x [top, top + height).
   void rectangle(int left, int top, int width, int height, Colour colour) noexcept;
-  /// A smooth-edged ring line of the given width, or a disc where radius <= width / 2.
+  /// Draws a smooth-edged ring line of the given width, or a disc if radius <= width / 2.
   void circle(double centre_x, double centre_y, double radius, double width, Colour colour,
               double opacity) noexcept;
 
-  /// The picture at half the size, each pixel the mean of four: smooths edges drawn at twice the
-  /// size.
+  /// Returns the picture at half the size, each pixel the mean of four: smooths edges drawn at
+  /// twice the size.
   [[nodiscard]] Picture halved() const;
 
-  /// The bytes of a PNG file (8-bit RGB). kWriteFailed when libpng cannot make it.
+  /// Returns the bytes of a PNG file (8-bit RGB). kWriteFailed if libpng cannot make it.
   [[nodiscard]] Expected<std::vector<std::byte>> png() const;
-  /// Writes that file, whole or not at all.
+  /// Writes a PNG file, whole or not at all.
   [[nodiscard]] Status write_png(const std::filesystem::path& path) const;
 
  private:

@@ -15,13 +15,13 @@
 namespace terracut::pictures {
 namespace {
 
-/// Keeps far returns readable while depth edges between near and far objects show.
+/// Dims with distance: far returns stay readable, and depth edges show.
 Colour dimmed(Colour colour, double range_m) noexcept {
   constexpr double kFar_m = 80, kMostDimming = 0.55;
   return mix(colour, kPictureBackground, kMostDimming * std::min(range_m / kFar_m, 1.0));
 }
 
-/// Ticks every 45 degrees from straight ahead, with numbers.
+/// Draws ticks every 45 degrees from straight ahead, with numbers.
 void draw_azimuth_scale(Picture& picture) {
   constexpr int kTick = 6, kScale = 2;
   const int top = picture.height() - kAzimuthScaleHeight;
@@ -37,7 +37,7 @@ void draw_azimuth_scale(Picture& picture) {
   }
 }
 
-/// A lone empty column between two returns is a gap of the sampling, not of the scene.
+/// Fills a single empty column between two returns: a gap of the sampling, not of the scene.
 void close_lone_gaps(Picture& picture) noexcept {
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 1; x + 1 < picture.width(); ++x) {
@@ -49,7 +49,7 @@ void close_lone_gaps(Picture& picture) noexcept {
   }
 }
 
-/// Whether columns go counter-clockwise, as those of packets of a sensor upside down do.
+/// True if columns go counter-clockwise, as with packets of a sensor upside down.
 bool is_mirrored(const frame::RangeImage& image) noexcept {
   std::int64_t clockwise = 0;
   frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
@@ -68,8 +68,8 @@ Picture range_image_picture(const LabelledFrame& frame) {
                   kPictureBackground);
   const bool mirrored = is_mirrored(frame.image);
   frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
-    // Column 0 is straight ahead and columns go clockwise, so half a revolution further is the
-    // middle.
+    // Column 0 is straight ahead and columns go clockwise, so the middle is half a revolution
+    // further.
     const int from_left = (placed.column + shape.columns / 2) % shape.columns;
     const int x = mirrored ? shape.columns - 1 - from_left : from_left;
     const int y = (shape.rows - 1 - placed.row) * kPixelsPerRow;

@@ -7,14 +7,13 @@
 
 namespace terracut::pictures {
 
-inline constexpr int kPixelsPerRow =
-    6;  ///< Rows are far fewer than columns: each is drawn this high.
+inline constexpr int kPixelsPerRow = 6;  ///< Height of a row: rows are far fewer than columns.
 
-/// The range image as a panorama, columns x (rows * kPixelsPerRow) pixels and below them
-/// kAzimuthScaleHeight with the azimuth: straight ahead in the middle, left of the vehicle on the
-/// left, sky up (row 0, the lowest laser, at the bottom).
-/// Colours of frame_colours.hpp, dimmed with distance. Cells without a return stay background,
-/// except a single one between two returns, which is drawn like its left neighbour.
+/// Draws the range image as a panorama, columns x (rows * kPixelsPerRow) pixels, and below it
+/// kAzimuthScaleHeight pixels with the azimuth: straight ahead in the middle, left of the vehicle
+/// on the left, sky up (row 0, the lowest laser, at the bottom). Colours of frame_colours.hpp,
+/// dimmed with distance. Cells without a return stay background, except a single one between two
+/// returns, which is drawn like its left neighbour.
 inline constexpr int kAzimuthScaleHeight = 28;
 [[nodiscard]] Picture range_image_picture(const LabelledFrame& frame);
 

@@ -8,14 +8,14 @@
 
 namespace terracut::points {
 
-/// A labelled return inside the program. What leaves it (the stream's readers, the page, MCAP, DDS,
-/// Foxglove, Python, LiveRun) is made of these.
+/// A labelled return inside the program. All outputs (stream, page, MCAP, DDS, Foxglove, Python,
+/// LiveRun) are made of these.
 struct LabelledPoint {
   float x_m = 0, y_m = 0, z_m = 0;  ///< Vehicle frame (calib/mount/mount.hpp).
   std::uint8_t intensity = 0;       ///< As the sensor sends it.
   frame::Label label = frame::Label::kNone;
-  std::uint16_t row = 0;  ///< Of the range image; 0 is the lowest laser.
-  float time_s = 0;       ///< After the first firing of the frame's first packet.
+  std::uint16_t row = 0;  ///< Row of the range image; 0 is the lowest laser.
+  float time_s = 0;       ///< Time after the first firing of the frame's first packet.
 
   bool operator==(const LabelledPoint&) const = default;
 };

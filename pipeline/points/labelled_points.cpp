@@ -8,11 +8,11 @@
 namespace terracut::points {
 namespace {
 
-/// Neighbours in arrival are the lasers of one firing, which lie one above the other in the image:
-/// four points of a cache line come from four rows. In strips of this width those lines are still
-/// in the second-level cache when the next row comes to them, and runs along a row are still long
-/// enough to be fetched ahead. tests/bench/labelled_stream_bench.cpp: whole rows cost one and a
-/// half times to twice as much on 128 rows, strips of 16 columns three times as much on 64.
+/// Returns are packed in strips of this width. Successive returns are the lasers of one firing, one
+/// above the other in the image, so the four points of a cache line come from four rows. In a strip
+/// those lines are still in the second-level cache when the next row needs them, and runs along a
+/// row are long enough to be prefetched. tests/bench/labelled_stream_bench.cpp: whole rows cost one
+/// and a half to two times as much on 128 rows, strips of 16 columns three times as much on 64.
 constexpr int kColumnsAtOnce = 256;
 
 LabelledPoint labelled_point(const frame::Return& point, int row, frame::Label label,
@@ -21,7 +21,7 @@ LabelledPoint labelled_point(const frame::Return& point, int row, frame::Label l
           time_s};
 }
 
-/// Of a row: its beam is in a column this long after the one before.
+/// The times of a row: its beam reaches each column so long after the last one.
 struct RowTimes {
   float first_s = 0, step_s = 0;
 

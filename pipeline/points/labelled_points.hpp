@@ -12,14 +12,14 @@
 
 namespace terracut::points {
 
-/// When the returns of a frame were measured, as its packets tell: the head turned evenly from its
-/// first packet to its last. Of the default, all at 0: a cloud without times.
+/// The times of a frame's returns from its packets: the head rotated evenly from the first packet
+/// to the last. The default, all at 0, is for clouds without times.
 struct FrameTiming {
   frame::HeadSweep head;
   double duration_s = 0;              ///< From the first packet to the last.
   std::span<const float> beam_turns;  ///< decode::Decoder::beam_turns(); one a row, or empty.
 
-  /// Of a frame of the decoder whose beams these are.
+  /// Makes the timing of a frame whose decoder has these beams.
   [[nodiscard]] static FrameTiming of(const frame::FrameInfo& info,
                                       std::span<const float> beam_turns) noexcept {
     constexpr double kSecond_ns = 1e9;
@@ -30,9 +30,9 @@ struct FrameTiming {
 
 /// Writes the returns of a labelled frame to the first `image.returns()` elements of `points`, in
 /// order of arrival: the n-th is the n-th of a .label file. `labels` has one entry a return, by
-/// return index. False, and nothing written, when there are not as many labels as returns or not
-/// room for all of them. Times are right to half a column and to how unevenly the head turns; of
-/// the default `timing`, 0. Real-time safe.
+/// return index. False, and nothing written, if there are not as many labels as returns or too
+/// little room. Times are right to half a column and to the head's unevenness; all 0 with the
+/// default `timing`. Real-time safe.
 [[nodiscard]] bool pack_labelled_points(
     const frame::RangeImage& image, std::span<const frame::Label> labels,
     std::span<LabelledPoint> points, const FrameTiming& timing = {}) noexcept TERRACUT_NONBLOCKING;

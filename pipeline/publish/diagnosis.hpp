@@ -11,7 +11,7 @@
 
 namespace terracut::publish {
 
-/// How one part of a run does now, as diagnostic_msgs/DiagnosticStatus has it.
+/// The present state of one part of a run, as diagnostic_msgs/DiagnosticStatus has it.
 struct Diagnosis {
   enum class Severity : std::uint8_t { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
 
@@ -22,11 +22,11 @@ struct Diagnosis {
   std::vector<std::pair<std::string, std::string>> values{};
 };
 
-/// Judges the figures of a run, about once a second: what was lost is a warning in the second in
-/// which it was, not for ever after. One thread.
+/// Judges the figures of a run, about once a second: a loss is a warning only in the second in
+/// which it happened. One thread.
 class Diagnoses {
  public:
-  /// Of deadline, input, losses, clock, threads and mount.
+  /// Returns deadline, input, losses, clock, threads and mount.
   [[nodiscard]] std::vector<Diagnosis> of(const status::MonitorSnapshot& figures);
 
  private:

@@ -12,15 +12,15 @@
 
 namespace terracut::publish {
 
-/// Frames that are used again, with the memory of their points, when nobody holds them any more.
-/// Threads without a deadline.
+/// Recycles frames with the memory of their points once nobody holds them any more. Threads without
+/// a deadline.
 class FrameBuffers {
  public:
-  /// So many at most at the same time.
+  /// Makes at most `count` frames at a time.
   explicit FrameBuffers(std::size_t count);
 
-  /// One that nobody else has, with points of a former frame perhaps; waits for it where all are
-  /// in use. May outlive this.
+  /// Returns a frame that nobody else has, which may still have old points; waits if all are in
+  /// use. May outlive this.
   [[nodiscard]] std::shared_ptr<LabelledFrame> take();
 
  private:

@@ -13,8 +13,8 @@
 
 namespace terracut::publish {
 
-/// An output of labelled frames. All but name(), queue_frames() and losses() is called on one
-/// thread of its own without a deadline (Publisher), which it may hold up for as long as it likes.
+/// An output of labelled frames. All functions but name(), queue_frames() and losses() are called
+/// on one thread of its own without a deadline (Publisher), which they may block for any time.
 class FrameSink {
  public:
   FrameSink() = default;
@@ -22,22 +22,23 @@ class FrameSink {
   FrameSink& operator=(const FrameSink&) = delete;
   virtual ~FrameSink() = default;
 
-  /// Stable lower_snake_case, as in figures: "mcap".
+  /// Returns a stable lower_snake_case name, as in figures: "mcap".
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
-  /// How many frames may wait for it, >= 1. More help where it stops now and then, as disks do.
+  /// Returns how many frames may wait for it, >= 1. More help if it stalls at times, as disks do.
   [[nodiscard]] virtual std::size_t queue_frames() const noexcept { return 2; }
 
-  /// `frame` is valid until it returns. After an error it gets nothing more, not even finish().
+  /// Takes a frame, valid during the call. After an error nothing more is called, not even
+  /// finish().
   [[nodiscard]] virtual Status put(const LabelledFrame& frame) = 0;
-  /// The run's figures, about once a second. Errors as of put().
+  /// Takes the run's figures, about once a second. Errors as of put().
   [[nodiscard]] virtual Status put_figures(const status::MonitorSnapshot& /*figures*/) {
     return {};
   }
-  /// After the last frame.
+  /// Called after the last frame.
   [[nodiscard]] virtual Status finish() { return {}; }
 
-  /// What it lost since the start by causes of its own, frames for its readers for example, under
-  /// names that begin with name(). From any thread.
+  /// Returns losses of its own since the start, such as frames for its readers, under names that
+  /// begin with name(). From any thread.
   [[nodiscard]] virtual std::vector<status::NamedCount> losses() const { return {}; }
 };
 

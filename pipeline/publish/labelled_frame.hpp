@@ -12,11 +12,11 @@ namespace terracut::publish {
 
 /// A labelled frame on its way to outputs without a deadline.
 struct LabelledFrame {
-  status::FrameRecord record;                 ///< As far as it was known: up to the labels.
+  status::FrameRecord record;                 ///< Complete up to the labels.
   std::vector<points::LabelledPoint> points;  ///< In order of arrival.
 };
 
-/// One frame for all outputs; nobody changes it any more.
+/// One frame shared by all outputs, no longer changed.
 using SharedFrame = std::shared_ptr<const LabelledFrame>;
 
 }  // namespace terracut::publish

@@ -12,13 +12,13 @@
 
 namespace terracut::publish {
 
-/// Hands every labelled frame to every output, each with a queue and a thread of its own: an output
-/// that stops holds up no other. One that fails says so once, by name, and the others go on.
+/// Hands every labelled frame to every output. Each has its own queue and thread, so a stalled
+/// output delays no other. One that fails is reported once, by name, and the others go on.
 ///
 ///   whoever labels  buffer(), fill it, put()  --->  queue  ->  thread  ->  FrameSink
 ///                                             `-->  queue  ->  thread  ->  FrameSink
 ///
-/// From one thread without a deadline, but for what says otherwise.
+/// For one thread without a deadline, unless stated otherwise.
 class Publisher {
  public:
   using Sinks = std::vector<std::unique_ptr<FrameSink>>;
@@ -27,22 +27,23 @@ class Publisher {
 
   [[nodiscard]] bool has_sinks() const noexcept { return !workers_.empty(); }
 
-  /// Room for the next frame. With kWait, waits until an output is done with one; else never.
+  /// Returns room for the next frame. With kWait, waits until an output is done with one; otherwise
+  /// never waits.
   [[nodiscard]] std::shared_ptr<LabelledFrame> buffer() { return buffers_.take(); }
-  /// Nobody may change it any more.
+  /// Hands out a frame, which nobody may change any more.
   void put(const SharedFrame& frame);
-  /// From one other thread perhaps.
+  /// May be called from one other thread.
   void put_figures(const status::MonitorSnapshot& figures);
 
-  /// After the last frame: writes what waits. `patience`: how long an output may be at one frame, or
-  /// at its end; none: as long as it takes. False when an output does not answer; then the process
-  /// must end without destroying this.
+  /// To be called after the last frame: writes all that waits. `patience` is the time an output may
+  /// take for one frame, or to end; none: unlimited. False if an output does not answer; then the
+  /// process must end without destroying this.
   [[nodiscard]] bool finish(std::optional<std::chrono::milliseconds> patience);
 
-  /// The first error of any output. From any thread, as the next.
+  /// Returns the first error of any output. From any thread, like the next function.
   [[nodiscard]] Status outcome() const;
-  /// By output: frames left out (NAME_frames_left_out), and what it counts itself. `over`: what
-  /// waits by now is lost as well.
+  /// Returns each output's left-out frames (NAME_frames_left_out) and its own counts. With `over`,
+  /// frames that still wait count as lost.
   [[nodiscard]] std::vector<status::NamedCount> losses(bool over = false) const;
 
  private:

@@ -13,14 +13,14 @@
 
 namespace terracut::publish {
 
-/// Something that may not be to be had now, a port that another program has or a disk without room:
-/// it is opened when it is asked for, and where that fails, again now and then. One thread, without
-/// a deadline.
+/// Holds an object that may be unavailable, such as a port that another program has or a disk
+/// without room. Opens it on demand and, if that fails, again at intervals. One thread, without a
+/// deadline.
 template <class T>
 class Reopened {
  public:
   using Open = std::function<Expected<T>()>;
-  /// Told once why it is not to be had any more, and once when it is there again.
+  /// Called once with the reason when it becomes unavailable, and once when it is available again.
   using OnNews = std::function<void(const Status&)>;
   struct Config {
     Open open;
@@ -30,7 +30,7 @@ class Reopened {
 
   explicit Reopened(Config config) : config_(std::move(config)) {}
 
-  /// Null where it is not to be had. What open() throws is an error like any other.
+  /// Returns null if it is unavailable. An exception of open() counts as an error.
   [[nodiscard]] T* get() {
     if (thing_ || measure::monotonic_ns() < due_ns_) return thing_ ? &*thing_ : nullptr;
     auto opened = caught();
@@ -43,13 +43,13 @@ class Reopened {
     return &*thing_;
   }
 
-  /// It does not work any more: away with it.
+  /// Drops an object that no longer works.
   void give_up(const Error& error) {
     thing_.reset();
     fail(error);
   }
 
-  /// Null where it is not open.
+  /// Returns null if it is not open.
   [[nodiscard]] T* opened() noexcept { return thing_ ? &*thing_ : nullptr; }
 
  private:

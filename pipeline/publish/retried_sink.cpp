@@ -12,7 +12,7 @@
 namespace terracut::publish {
 namespace {
 
-/// By name.
+/// Adds counts of the same name.
 void add(std::vector<status::NamedCount>& counts, const std::vector<status::NamedCount>& more) {
   for (const status::NamedCount& each : more) {
     const auto same = std::ranges::find_if(counts, [&](const status::NamedCount& count) {

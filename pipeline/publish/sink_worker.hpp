@@ -18,16 +18,16 @@
 
 namespace terracut::publish {
 
-/// What becomes of a frame that an output has no room for.
+/// What happens to a frame for which an output has no room.
 enum class WhenFull : std::uint8_t {
-  kWait,        ///< Whoever brings it waits: of recordings nothing is to be lost.
-  kDropOldest,  ///< The one that waits longest is left out, and counted: nothing waits.
+  kWait,        ///< The producer waits: a recording must not lose frames.
+  kDropOldest,  ///< The oldest waiting frame is left out and counted.
 };
 
 /// An output with its queue and its thread.
 class SinkWorker {
  public:
-  /// Told once that, and why, an output gets nothing more; on its thread.
+  /// Called once, on its thread, with the reason why an output gets nothing more.
   using OnFailure = std::function<void(std::string_view sink, const Error& error)>;
 
   SinkWorker(std::unique_ptr<FrameSink> sink, WhenFull when_full, OnFailure on_failure);
@@ -35,31 +35,31 @@ class SinkWorker {
   SinkWorker& operator=(const SinkWorker&) = delete;
   ~SinkWorker() { begin_to_finish(); }
 
-  // From one thread.
+  // For one thread:
 
   void put(SharedFrame frame);
-  /// In place of those that the sink has not had yet.
+  /// Replaces figures that the sink has not had yet.
   void put_figures(std::shared_ptr<const status::MonitorSnapshot> figures);
-  /// What waits is written, then it ends.
+  /// Writes all that waits, then ends.
   void begin_to_finish();
-  /// False when it did not end; then the process must end without destroying this.
+  /// False if it did not end; then the process must end without destroying this.
   [[nodiscard]] bool ends_within(std::chrono::milliseconds patience) {
     return thread_.ends_within(patience);
   }
 
-  // From any thread.
+  // For any thread:
 
   [[nodiscard]] const FrameSink& sink() const noexcept { return *sink_; }
-  /// Frames that were left out for want of room, or came after a failure.
+  /// Returns the frames left out for lack of room or after a failure.
   [[nodiscard]] std::uint64_t left_out() const;
-  /// Frames that wait or are in work: lost, too, if the sink hangs for good.
+  /// Returns the frames that wait or are in work; they are lost if the sink hangs for good.
   [[nodiscard]] std::uint64_t waiting() const;
-  /// The first error; after it the sink got nothing more.
+  /// Returns the first error, after which the sink got nothing more.
   [[nodiscard]] std::optional<Error> failure() const;
 
  private:
   void work();
-  /// The next piece of work; none: it is over.
+  /// The next piece of work; empty at the end.
   struct Work {
     SharedFrame frame;
     std::shared_ptr<const status::MonitorSnapshot> figures;
@@ -71,7 +71,7 @@ class SinkWorker {
   WhenFull when_full_;
   OnFailure on_failure_;
 
-  mutable std::mutex mutex_;  ///< Between threads without a deadline.
+  mutable std::mutex mutex_;  ///< Shared by threads without a deadline.
   std::condition_variable came_, went_;
   std::deque<SharedFrame> frames_;
   std::shared_ptr<const status::MonitorSnapshot> figures_;
@@ -79,7 +79,7 @@ class SinkWorker {
   bool is_working_ = false, finish_ = false;
   std::optional<Error> failure_;
 
-  threads::BackgroundThread thread_;  ///< Last: it uses all of the above.
+  threads::BackgroundThread thread_;  ///< Declared last, as it uses all of the above.
 };
 
 }  // namespace terracut::publish

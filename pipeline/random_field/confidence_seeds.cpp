@@ -14,7 +14,7 @@ namespace terracut::random_field {
 
 namespace {
 
-/// One more than the highest row whose beam meets the ground.
+/// Returns the highest row whose beam meets the ground, plus one.
 int rows_that_see_ground(const mount::RingProfile& profile) {
   int rows = 0;
   for (std::size_t row = 0; row < profile.rings.size(); ++row) {
@@ -30,7 +30,7 @@ int rows_to_cut(CutRows rows, const mount::RingProfile& profile, const frame::Im
   return all ? shape.rows : rows_that_see_ground(profile);
 }
 
-/// The seed that keeps the label of the stages before.
+/// Returns the seed that keeps the label of earlier stages.
 min_cut::Seed kept(frame::Label label) noexcept {
   switch (label) {
     case frame::Label::kNone:
@@ -44,14 +44,14 @@ min_cut::Seed kept(frame::Label label) noexcept {
   return min_cut::Seed::kNone;
 }
 
-/// The windows around the cells of a row, and what makes ground in them trusted.
+/// The windows around the cells of a row, and the thresholds for trusted ground.
 struct TrustedWindows {
-  const std::uint8_t *ground_in_column, *returns_in_column;  ///< From the first window on.
-  int columns;                                               ///< Of a window.
+  const std::uint8_t *ground_in_column, *returns_in_column;  ///< Starting at the first window.
+  int columns;                                               ///< Columns of a window.
   float ground_share, max_height_m;
 };
 
-// A row of labels enters the counts of its columns, or leaves them.
+// Adds a row of labels to the counts of its columns; uncount() removes it.
 TERRACUT_VECTOR_CLONES void count(const frame::Label* labels, std::size_t columns,
                                   std::uint8_t* ground, std::uint8_t* returns) noexcept {
   for (std::size_t i = 0; i < columns; ++i) {
@@ -82,8 +82,8 @@ template <class Sum>
   }
 }
 
-/// Where so much of a window is ground, and the return so low, that a ground label is trusted.
-/// `Sum` holds what is in a window.
+/// Finds the returns whose ground label is trusted: enough of the window is ground, and the return
+/// is low. `Sum` must hold the count of a window.
 template <class Sum>
 [[gnu::always_inline]] inline void find_trusted_ground(const TrustedWindows& windows,
                                                        const float* __restrict height_m,
@@ -113,7 +113,7 @@ TERRACUT_VECTOR_CLONES void find_trusted_ground_large(const TrustedWindows& wind
   find_trusted_ground(windows, height_m, ground, returns, trusted);
 }
 
-/// Where a return is steep or high enough for an obstacle label to be trusted.
+/// Finds the returns whose obstacle label is trusted: they are steep or high enough.
 TERRACUT_VECTOR_CLONES void find_trusted_obstacles(const std::uint8_t* __restrict steep,
                                                    const float* __restrict height_m,
                                                    float min_height_m,
@@ -126,7 +126,7 @@ TERRACUT_VECTOR_CLONES void find_trusted_obstacles(const std::uint8_t* __restric
   }
 }
 
-/// The label itself where it is trusted, else unknown. No branches: they would be mispredicted
+/// Keeps a trusted label and makes the others unknown. Has no branches: they would be mispredicted
 /// wherever ground and obstacles alternate.
 TERRACUT_VECTOR_CLONES void choose(const frame::Label* __restrict label,
                                    const std::uint8_t* __restrict trusted_ground,
@@ -213,7 +213,7 @@ void ConfidenceSeeds::count_in_columns(const stage::CellPlanes& planes, int row)
   const auto columns = static_cast<std::size_t>(shape_.columns);
   std::uint8_t* ground = &ground_in_column_[reach];
   std::uint8_t* returns = &returns_in_column_[reach];
-  // Windows move upwards only, so every row enters once and leaves once.
+  // Windows only move upwards, so every row enters once and leaves once.
   for (; counted_end_ < window_end_[static_cast<std::size_t>(row)]; ++counted_end_) {
     count(labels_of(counted_end_), columns, ground, returns);
   }

@@ -11,18 +11,18 @@
 
 namespace terracut::random_field {
 
-/// Which rows of the range image the MRF decides on.
+/// The rows of the range image that the MRF decides.
 enum class CutRows : std::uint8_t {
-  kAuto,  ///< kAll for images of up to 64 rows, kGround for denser ones: they have the time.
+  kAuto,  ///< kAll for images of up to 64 rows, kGround for denser ones.
   kAll,   ///< Every row.
   /// Rows whose beam meets the mount's ground plane within the profile's range limit (the paper's
-  /// 70 of the RS-Ruby128's 128). Above them the stages before have the last word.
+  /// 70 of the RS-Ruby128's 128). Rows above keep the label of earlier stages.
   kGround,
 };
 
-/// Stage 3a: which returns initialise the MRF as "object" and "background", and which stay unknown
-/// (paper, section III-D). Obstacles of the stages before are trusted where they are high or steep;
-/// ground is trusted where the share of ground in a window around it exceeds k.
+/// Stage 3a: chooses the returns that initialise the MRF as "object" and "background"; the others
+/// stay unknown (paper, section III-D). Obstacles of earlier stages are trusted if they are high or
+/// steep; ground is trusted if the share of ground in a window around it exceeds k.
 class ConfidenceSeeds {
  public:
   struct Config {
@@ -30,11 +30,10 @@ class ConfidenceSeeds {
     int window_rows = 2;               ///< Window reach up and down, row steps; [0, 8].
     float row_step_deg = 0.25F;        ///< A row step covers at least this (RowSteps), [0, 5].
     int window_columns = 3;            ///< Window reach to each side, columns; [0, 16].
-    float max_ground_height_m = 1e9F;  ///< Ground seeds lie no higher above the reference.
+    float max_ground_height_m = 1e9F;  ///< Ground seeds are no higher above the reference.
     float min_obstacle_height_m =
-        0.30F;  ///< Obstacles this high are seeds; lower ones only if steep.
-    bool trust_all_obstacles =
-        false;  ///< Every obstacle of the stages before is a seed, as printed.
+        0.30F;                         ///< Obstacles this high are seeds; lower ones only if steep.
+    bool trust_all_obstacles = false;  ///< Makes all obstacles of earlier stages seeds, as printed.
     CutRows rows = CutRows::kAuto;
   };
 
@@ -42,11 +41,11 @@ class ConfidenceSeeds {
   ConfidenceSeeds(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                   memory::FixedMemory& memory);
 
-  /// Seeds of every cell from `planes`. Real-time safe.
+  /// Chooses the seed of every cell from `planes`. Real-time safe.
   void select(const stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] std::span<const min_cut::Seed> seeds() const noexcept { return seeds_; }
-  /// For the cut, which decides the unknown ones in place.
+  /// Returns the seeds for the cut, which decides the unknown ones in place.
   [[nodiscard]] std::span<min_cut::Seed> mutable_seeds() noexcept { return seeds_; }
   /// Rows 0 .. cut_rows() - 1 may hold unknown returns.
   [[nodiscard]] int cut_rows() const noexcept { return cut_rows_; }
@@ -60,15 +59,15 @@ class ConfidenceSeeds {
   Config config_;
   frame::ImageShape shape_;
   int cut_rows_;
-  std::span<std::int32_t> window_begin_, window_end_;  // rows of the window, by row: [begin, end)
+  std::span<std::int32_t> window_begin_, window_end_;  // by row: the window's rows [begin, end)
   int counted_begin_ = 0, counted_end_ = 0;            // rows in the sums below
   std::span<min_cut::Seed> seeds_;
-  // Of one row: sums over the window's rows, the seam's columns repeated at both ends ...
+  // Sums of one row's windows over their rows, with the seam's columns repeated at both ends.
   std::span<std::uint8_t> ground_in_column_;
   std::span<std::uint8_t> returns_in_column_;
-  // ... and over the whole window, in bytes where those hold most_in_window_.
+  // Sums over whole windows, in bytes if those hold most_in_window_.
   std::span<std::uint16_t> sums_;
-  int most_in_window_ = 0;                                     // returns
+  int most_in_window_ = 0;                                     // in returns
   std::span<std::uint8_t> trusted_ground_, trusted_obstacle_;  // of the row being judged
 };
 

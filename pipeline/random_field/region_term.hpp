@@ -14,7 +14,7 @@
 
 namespace terracut::random_field {
 
-/// Where the costs of calling an unknown return ground or obstacle come from.
+/// The source of the costs of calling an unknown return ground or obstacle.
 enum class RegionRule : std::uint8_t {
   /// -lambda ln of the seeds' height histograms: Eq. 10-13, read as cost(obstacle) = -ln D_obj and
   /// cost(ground) = -ln D_bkg (as printed, both use D_obj).
@@ -33,25 +33,25 @@ class RegionTerm {
     float lambda = 1.0F;  ///< Weight against the boundary term, > 0.
     // kHistogram
     float bins_per_metre = 10.0F;  ///< k of Eq. 10.
-    float empty_bin_count = 1.0F;  ///< Floor of every bin (an empty one would cost infinity), > 0.
+    float empty_bin_count = 1.0F;  ///< Least count of a bin (empty ones would cost infinity), > 0.
     // kHeightRamp
     float even_height_m = 0.13F;  ///< Ground and obstacle cost the same at this height.
-    float ramp_m = 0.15F;         ///< Beyond this far from it the cost stays at lambda.
+    float ramp_m = 0.15F;         ///< Beyond this distance from it the cost stays at lambda.
   };
 
   explicit RegionTerm(const Config& config) noexcept : config_(config) {}
 
-  /// Looks at a frame: the cells asked for from now on are its. kHistogram needs `points` of all
-  /// seeds, kHeightRamp none. Real-time safe.
+  /// Sets the frame whose cells are asked for. kHistogram needs `points` of all seeds, kHeightRamp
+  /// none. Real-time safe.
   void look_at(const frame::PointPlanes& points, const stage::CellPlanes& planes,
                std::span<const min_cut::Seed> seeds) noexcept TERRACUT_NONBLOCKING;
 
-  /// What the height of a cell says, [-1, 1], obstacle to ground: the ramp of kHeightRamp.
+  /// Returns what a cell's height suggests, [-1, 1], obstacle to ground: the ramp of kHeightRamp.
   [[nodiscard]] float lean(std::uint32_t cell) const noexcept {
     return -std::clamp((height_m_[cell] - config_.even_height_m) / config_.ramp_m, -1.0F, 1.0F);
   }
 
-  /// Costs of an unknown cell, scaled by kCapacityScale.
+  /// Returns the costs of an unknown cell, scaled by kCapacityScale.
   [[nodiscard]] min_cut::LabelCosts operator()(std::uint32_t cell) const noexcept {
     if (config_.rule == RegionRule::kHistogram) {
       const std::size_t bin = bin_of(z_m_[cell]);
@@ -68,7 +68,7 @@ class RegionTerm {
   using BinCosts = std::array<std::int32_t, kMaxBins>;
   void count_seeds(std::span<const min_cut::Seed> seeds) noexcept;
   [[nodiscard]] BinCosts costs_of(const Histogram& counts) const noexcept;
-  /// Eq. 10; heights outside the histogram count in its end bins.
+  /// Returns the bin of Eq. 10; heights outside the histogram count in its end bins.
   [[nodiscard]] std::size_t bin_of(float z_m) const noexcept {
     const float bin = (z_m - lowest_ground_m_) * config_.bins_per_metre + 0.5F;
     return static_cast<std::size_t>(std::clamp(bin, 0.0F, static_cast<float>(kMaxBins - 1)));

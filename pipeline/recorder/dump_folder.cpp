@@ -30,15 +30,15 @@ constexpr std::string_view kCaptureEnding = ".pcap";
 constexpr std::string_view kFrameTimesEnding = ".frames.json";
 constexpr std::string_view kEndings[] = {kCaptureEnding, kFrameTimesEnding, ".calibration.xml",
                                          ".calibration.csv"};
-constexpr std::string_view kStampShape = "00000000T000000.000Z";  // 0: any digit
+constexpr std::string_view kStampShape = "00000000T000000.000Z";  // 0 stands for any digit
 constexpr std::uint64_t kBlock = 4096;
-constexpr std::uint64_t kMostSerial = 1'000'000'000'000;  // there is always a next one
+constexpr std::uint64_t kMostSerial = 1'000'000'000'000;  // so that there is always a next one
 
 bool is_digit(char c) noexcept {
   return c >= '0' && c <= '9';
 }
 
-/// `2026-11-21 12:34:56.789` UTC as `20261121T123456.789Z`: sorts by time, has no ':'.
+/// Formats `2026-11-21 12:34:56.789` UTC as `20261121T123456.789Z`: sorts by time, has no ':'.
 std::string stamp_text(std::int64_t now_ns) {
   const auto seconds = static_cast<std::time_t>(now_ns / 1'000'000'000);
   std::tm utc{};
@@ -53,11 +53,11 @@ bool begins_with_stamp(std::string_view text) noexcept {
                     [](char shape, char c) { return shape == '0' ? is_digit(c) : shape == c; });
 }
 
-/// A file of an own dump, as its name tells.
+/// A file of one of our dumps, by its name.
 struct OwnFile {
-  std::uint64_t serial = 0;           ///< 0: of a version that gave none.
-  std::string dump;                   ///< The name without its ending: all files share it.
-  std::optional<::pid_t> written_by;  ///< A temporary file, of this process.
+  std::uint64_t serial = 0;           ///< 0: from a version without serial numbers.
+  std::string dump;                   ///< The name without ending, which all its files share.
+  std::optional<::pid_t> written_by;  ///< Set for a temporary file: the process that wrote it.
 };
 
 std::optional<OwnFile> own_file(std::string_view file, std::string_view name) {
@@ -94,13 +94,13 @@ std::optional<OwnFile> own_file(std::string_view file, std::string_view name) {
   return own;
 }
 
-/// Nobody writes a temporary file of this process any more. This process itself writes none while
-/// it makes room; in a container the dead one before it often had the same number.
+/// True if the process that wrote a temporary file is gone. This process writes none while it makes
+/// room, so its own number counts as gone: in a container a dead predecessor often had it.
 bool is_abandoned_by(::pid_t pid) noexcept {
   return pid == ::getpid() || (::kill(pid, 0) != 0 && errno == ESRCH);
 }
 
-/// What an own dump takes on the disk.
+/// The size of one of our dumps on the disk.
 struct OldDump {
   std::vector<fs::path> files;
   std::uint64_t bytes = 0;
@@ -115,7 +115,7 @@ struct OldDump {
 };
 
 struct Holdings {
-  /// By serial number and name, hence oldest first.
+  /// By serial number and name, so the oldest is first.
   std::map<std::pair<std::uint64_t, std::string>, OldDump> dumps;
   OldDump leftovers;  ///< Temporary files of processes that are gone.
 
@@ -242,7 +242,7 @@ tl::expected<std::filesystem::path, RefusedDump> DumpFolder::make_room(std::uint
     }
     ++deleted_;
   }
-  // Never a number that was given before, though its dump may be gone by now.
+  // Never gives a number again, even if its dump is gone.
   newest_serial_ = std::max(newest_serial_, held.newest_serial());
   while (true) {
     fs::path capture = folder / fmt::format("{}-{:06}-{}-{}{}", limits_.name, ++newest_serial_,

@@ -13,7 +13,7 @@
 
 namespace terracut::recorder {
 
-/// At most `burst` dumps at once, and one more for every `interval_s` that passes.
+/// Allows `burst` dumps at once, and one more for every `interval_s` that passes.
 struct DumpRate {
   double interval_s = 60;  ///< (0, 1e6]
   int burst = 1;           ///< [1, 1000]
@@ -21,21 +21,22 @@ struct DumpRate {
 
 struct DumpLimits {
   DumpFolderLimits folder;
-  /// A recorder that misses every deadline must not keep the disk busy.
+  /// Limited, as a process that misses every deadline must not keep the disk busy.
   DumpRate missed_deadline{.interval_s = 60, .burst = 1};
   DumpRate asked{.interval_s = 10, .burst = 3};
 };
 
-/// What became of all requests for a dump.
+/// Counts the requests for a dump by outcome.
 struct DumpCounters {
-  std::array<std::uint64_t, kDumpReasons> wanted{};  ///< By DumpReason.
+  std::array<std::uint64_t, kDumpReasons> wanted{};  ///< Indexed by DumpReason.
   std::uint64_t written = 0;
-  std::array<std::uint64_t, kDumpRefusals> refused{};  ///< By DumpRefusal.
-  std::uint64_t deleted = 0;                           ///< Old dumps, to make room for new ones.
+  std::array<std::uint64_t, kDumpRefusals> refused{};  ///< Indexed by DumpRefusal.
+  std::uint64_t deleted = 0;  ///< Old dumps deleted to make room for new ones.
 };
 
-/// Whether a dump may be written, and what became of it: rate limits, the folder's quota, the floor
-/// of free space. Each refusal is counted under its name: wanted = written + refused.
+/// Decides whether a dump may be written, by rate limits, the folder's quota and the least free
+/// space, and counts the outcomes. Each refusal is counted under its name: wanted = written +
+/// refused.
 ///
 /// One thread, the one that dumps.
 class DumpPolicy {
@@ -43,23 +44,23 @@ class DumpPolicy {
   /// std::invalid_argument for a limit out of its range.
   explicit DumpPolicy(const DumpLimits& limits);
 
-  /// First, before anything is copied: kTooSoon by the rate limit of `reason`. Consumes one of the
-  /// dumps it grants, whatever becomes of it: an attempt costs as much as a dump.
-  /// `monotonic_ns`: a clock nobody sets.
+  /// Makes the first check, before anything is copied: kTooSoon by the rate limit of `reason`. Uses
+  /// up one of the dumps allowed, whatever becomes of it: an attempt costs as much as a dump.
+  /// `monotonic_ns` is a clock that nobody sets.
   [[nodiscard]] tl::expected<void, RefusedDump> admit(DumpReason reason, std::int64_t monotonic_ns);
 
-  /// Then, with its size known: as DumpFolder::make_room().
+  /// Makes the second check, with the size known: calls DumpFolder::make_room().
   [[nodiscard]] tl::expected<std::filesystem::path, RefusedDump> make_room(
       std::uint64_t bytes, DumpReason reason, std::int64_t realtime_ns);
 
-  /// Counts a refusal that the recorder found itself, and hands it back.
+  /// Counts a refusal that the recorder found itself, and returns it.
   [[nodiscard]] tl::unexpected<RefusedDump> refuse(RefusedDump refused);
   void note_written() noexcept { ++counters_.written; }
 
   [[nodiscard]] const DumpCounters& counters() const noexcept { return counters_; }
 
  private:
-  /// The dumps granted by a rate, counted down and refilled.
+  /// The dumps a rate allows, counted down and refilled.
   struct Allowance {
     DumpRate rate;
     double left = 0;

@@ -18,17 +18,17 @@
 
 namespace terracut::recorder {
 
-/// The times of the last frames, to lie beside a dump.
+/// The times of the last frames, to be written beside a dump.
 struct DumpFrames {
   std::span<const status::FrameRecord> times;
   std::span<const std::string_view> stages;  ///< Names for FrameRecord::stage_cpu_ns.
 };
 
 /// Keeps the last seconds of datagrams in fixed memory and writes them to disk when something went
-/// wrong: a pcap that `terracut replay` reads, so that the frame can be looked at again, and the
-/// times of its frames as JSON beside it (`X.pcap` and `X.frames.json`).
+/// wrong: a pcap for `terracut replay`, to look at the frame again, and the times of its frames as
+/// JSON beside it (`X.pcap` and `X.frames.json`).
 ///
-/// Two threads: one adds, another one dumps. A dump first copies the ring to memory of its own (so
+/// Two threads: one adds, another one dumps. A dump first copies the ring to its own memory (so
 /// twice the ring's size is taken at start), then writes from there: a stalled disk loses nothing.
 class FlightRecorder {
  public:
@@ -36,16 +36,16 @@ class FlightRecorder {
   FlightRecorder(const net::PacketRingSize& size, memory::FixedMemory& memory)
       : ring_(size, memory), window_(size, memory) {}
 
-  /// Receive thread: wait-free, allocates nothing, touches no file.
+  /// For the receive thread: wait-free, allocates nothing, touches no file.
   void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING { ring_.add(datagram); }
 
-  /// Writes both files, whole or not at all; neither is ever seen without its contents, and the
-  /// capture never without its times. Never from a real-time thread: it blocks on the disk.
-  /// kNothingCameOut when no datagram was held; else the errors of PcapWriter.
+  /// Writes both files, whole or not at all; neither is ever visible without its content, nor the
+  /// capture without its times. Not for real-time threads: blocks on the disk. kNothingCameOut if
+  /// no datagram is held; else the errors of PcapWriter.
   [[nodiscard]] Expected<DumpReport> dump(const std::filesystem::path& capture, DumpReason reason,
                                           const DumpFrames& frames);
 
-  /// The same, where and if `policy` allows it; the outcome is counted there.
+  /// Dumps where and if `policy` allows it; the policy counts the outcome.
   [[nodiscard]] tl::expected<DumpReport, RefusedDump> dump(DumpPolicy& policy, DumpReason reason,
                                                            const DumpFrames& frames);
 

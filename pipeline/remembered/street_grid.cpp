@@ -7,7 +7,7 @@
 namespace terracut::remembered {
 namespace {
 
-/// Rounded down. Places lie within what a drive covers.
+/// Rounds down. Places lie within what a drive covers.
 std::int64_t whole(double squares) noexcept {
   const auto towards_zero = static_cast<std::int64_t>(squares);
   return static_cast<double>(towards_zero) > squares ? towards_zero - 1 : towards_zero;
@@ -55,14 +55,14 @@ void StreetGrid::begin_frame(const frame::Place& place) noexcept {
   const double x = place.x_m * squares_per_metre_, y = place.y_m * squares_per_metre_;
   const std::int64_t to_x = whole(x) - kSide / 2, to_y = whole(y) - kSide / 2;
   ++frame_;
-  if (frame_ == 0) is_empty_ = true;  // numbers begin again
+  if (frame_ == 0) is_empty_ = true;  // the counter has wrapped
   const auto far = [](std::int64_t by) { return by <= -kSide || by >= kSide; };
   if (is_empty_ || far(to_x - square_x_) || far(to_y - square_y_)) {
     forget(0, kAll, 0, kAll);
     frame_ = std::max<std::uint32_t>(frame_, 1);
     is_empty_ = false;
   } else {
-    // What comes into the window on one side was on the other.
+    // Rows and columns that enter the window on one side have left it on the other.
     const std::int64_t by_x = to_x - square_x_, by_y = to_y - square_y_;
     const auto count = [](std::int64_t by) {
       return static_cast<std::uint32_t>(by < 0 ? -by : by);

@@ -12,14 +12,14 @@
 
 namespace terracut::remembered {
 
-/// What the frames before said of the street around the vehicle: boxes, squares of the ground plane
-/// cut into layers of height above the ground that was found there. Heights are not those of the
-/// mount's plane, so that neither a nod of the vehicle nor a hill moves what is remembered.
+/// Remembers what earlier frames saw of the street around the vehicle, in boxes: squares of the
+/// ground plane, cut into layers of height above the ground found there. Since heights are not
+/// above the mount's plane, neither a nod of the vehicle nor a hill moves the memory.
 ///
-/// The squares stand still while the vehicle drives over them; they are stored modulo kSide, and
-/// what the window leaves behind is forgotten as it moves. A box keeps the mean of what the returns
-/// of a frame said, in [-kSure, kSure], obstacle to ground, and of the frames before that a share
-/// that shrinks from frame to frame.
+/// The squares stand still while the vehicle drives over them; they are stored modulo kSide and
+/// forgotten once outside the window. A box keeps the mean evidence of a frame's returns, in
+/// [-kSure, kSure], obstacle to ground, and a share of that of earlier frames, which shrinks from
+/// frame to frame.
 ///
 /// Takes its memory in the constructor. One thread; real-time safe.
 class StreetGrid {
@@ -27,45 +27,45 @@ class StreetGrid {
   struct Config {
     float square_m = 0.4F;  ///< [0.1, 2]
     float layer_m = 0.1F;   ///< [0.02, 1]
-    float keep = 0.5F;      ///< Share of what was remembered that is left a frame later, [0, 1).
+    float keep = 0.5F;      ///< Share of the memory left a frame later, [0, 1).
   };
-  static constexpr int kSide = 256, kLayers = 8;  ///< Squares to a side; layers.
-  static constexpr int kLayersBelow = 2;          ///< Of them, below the ground.
+  static constexpr int kSide = 256, kLayers = 8;  ///< Squares to a side, and layers.
+  static constexpr int kLayersBelow = 2;          ///< Layers below the ground.
   static constexpr int kSure = 127;
   static constexpr std::uint32_t kOutside = UINT32_MAX;
 
   StreetGrid(const Config& config, memory::FixedMemory& memory);
 
-  /// Forgets everything.
   void clear() noexcept TERRACUT_NONBLOCKING;
-  /// A frame begins, in which the sensor stands there; of the same journey as the frame before,
-  /// unless everything was forgotten.
+  /// Begins a frame with the sensor at `place`, on the same journey as the last frame unless
+  /// everything was forgotten.
   void begin_frame(const frame::Place& place) noexcept TERRACUT_NONBLOCKING;
 
-  /// The square of a place in the frame, kOutside beyond the window.
+  /// Returns the square of a place in the frame, kOutside beyond the window.
   [[nodiscard]] std::uint32_t square_of(float x_m, float y_m) const noexcept {
     const float x = (cosine_ * x_m - sine_ * y_m) * per_metre_ + x_;
     const float y = (sine_ * x_m + cosine_ * y_m) * per_metre_ + y_;
-    // Comparisons with NaN are false.
+    // The condition is also true for NaN.
     if (!(x >= 0 && x < float{kSide} && y >= 0 && y < float{kSide})) return kOutside;
     const auto column = static_cast<std::uint32_t>(x) + origin_x_;
     const auto row = static_cast<std::uint32_t>(y) + origin_y_;
     return (row % kSide) * kSide + column % kSide;
   }
-  /// The box of a return in a square, by its height above the ground; kOutside above and below.
+  /// Returns the box of a return in a square, by its height above the ground; kOutside above and
+  /// below.
   [[nodiscard]] std::uint32_t box_of(std::uint32_t square, float height_m) const noexcept {
     const float layer = height_m * layers_per_metre_ + float{kLayersBelow};
     if (!(layer >= 0 && layer < float{kLayers})) return kOutside;
     return square * kLayers + static_cast<std::uint32_t>(layer);
   }
 
-  /// What the frames before said of a box, fading; 0 where nothing is known.
+  /// Returns the fading evidence of earlier frames for a box; 0 if there is none.
   [[nodiscard]] int said_before(std::uint32_t box) const noexcept {
     const Box& known = boxes_[box];
     if (known.frame == frame_) return known.before;
     return faded(known);
   }
-  /// What a return of this frame says of its box, [-kSure, kSure].
+  /// Adds a return's evidence to its box, [-kSure, kSure].
   void add(std::uint32_t box, int says) noexcept {
     Box& known = boxes_[box];
     if (known.frame != frame_) known = {.before = faded(known), .frame = frame_};
@@ -76,20 +76,20 @@ class StreetGrid {
 
  private:
   static constexpr int kMostReturns = 250;
-  static constexpr std::uint32_t kOldest = 16;  ///< Frames; older is forgotten.
+  static constexpr std::uint32_t kOldest = 16;  ///< In frames; older memory is forgotten.
 
-  /// `before` and the mean of `sum` are kept apart until another frame comes.
+  /// `before` and the mean of `sum` are kept apart until the next frame.
   struct Box {
     std::int16_t sum = 0;
     std::uint8_t returns = 0;
     std::int8_t before = 0;
-    std::uint32_t frame = 0;  ///< That added to it last; 0: none.
+    std::uint32_t frame = 0;  ///< The last frame that added to it; 0: none.
   };
 
   [[nodiscard]] std::int8_t faded(const Box& box) const noexcept {
     const std::uint32_t age = frame_ - box.frame;
     if (box.frame == 0 || age > kOldest) return 0;
-    // What was said last weighs as much as is not kept of what was said before it.
+    // The newest frame's evidence gets the weight that the older evidence loses.
     const int mean = box.sum / (box.returns == 0 ? 1 : int{box.returns});
     const int known = (box.before * keep_ + mean * (kOne - keep_)) / kOne;
     return static_cast<std::int8_t>(known * fade_[age - 1] / kOne);
@@ -100,13 +100,13 @@ class StreetGrid {
   static constexpr int kOne = 256;
 
   float per_metre_, layers_per_metre_;
-  int keep_;                ///< Of kOne.
-  int fade_[kOldest] = {};  ///< keep_ to the powers 0, 1, ..., of kOne.
+  int keep_;                ///< Share kept per frame, in units of 1 / kOne.
+  int fade_[kOldest] = {};  ///< keep_ to the powers 0, 1, ..., times kOne.
   std::uint32_t frame_ = 0;
   bool is_empty_ = true;
   std::int64_t square_x_ = 0, square_y_ = 0;     ///< The window's lowest corner, in squares.
-  std::uint32_t origin_x_ = 0, origin_y_ = 0;    ///< ... modulo kSide.
-  float cosine_ = 1, sine_ = 0, x_ = 0, y_ = 0;  ///< From the frame to the window, in squares.
+  std::uint32_t origin_x_ = 0, origin_y_ = 0;    ///< square_x_, square_y_ modulo kSide.
+  float cosine_ = 1, sine_ = 0, x_ = 0, y_ = 0;  ///< Frame to window, in squares.
   double squares_per_metre_;
   std::span<Box> boxes_;
 };

@@ -10,7 +10,7 @@ namespace {
 using min_cut::Seed;
 
 constexpr int kSurely = StreetGrid::kSure / 2;
-/// Fewer certain returns over a certain memory say nothing about the motion.
+/// With fewer certain returns over certain memory, the motion is not judged.
 constexpr std::uint32_t kEnoughToTell = 500;
 
 }  // namespace

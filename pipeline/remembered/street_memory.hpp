@@ -18,19 +18,19 @@
 
 namespace terracut::remembered {
 
-/// The street as the frames before saw it, as a prior in the energy of the random field.
+/// Gives the random field's energy a prior from earlier frames.
 ///
-/// It tips what a frame by itself leaves nearly open, and nothing else: seeds stay seeds, but for
-/// obstacles that are steep and low, which become unknown where the frames before surely saw
-/// ground; a prior is worth no more than a clear height; and nothing is drawn towards ground beside
-/// anything tall that stands there now. So what appears, leaves or moves is decided by its own
-/// frame. What is remembered of a cell is the mean of its label and of what its own height says, so
-/// that a label against a clear height lasts for a few frames; against one that says less than a
-/// third (up to 0.18 m, where ground was remembered) it stays.
+/// The prior decides only cells that the frame itself leaves nearly open. Seeds stay seeds, except
+/// steep, low obstacles, which become unknown where earlier frames surely saw ground. A prior
+/// weighs no more than a clear height, and beside anything tall now nothing is drawn towards
+/// ground. So objects that appear, leave or move are decided by their own frame. The memory of a
+/// cell is the mean of its label and of the evidence of its height: a label against a clear height
+/// lasts a few frames; against evidence of less than a third (up to 0.18 m, where ground was
+/// remembered) it stays.
 ///
-/// The motion is doubted where what is certain in this frame contradicts what was certain before:
-/// then everything is forgotten, and the frame is labelled by itself. Motion that is merely wrong
-/// seldom gets there.
+/// If what is certain in this frame contradicts what was certain before, the motion is taken to be
+/// wrong: everything is forgotten, and the frame is labelled by itself. Slightly wrong motion is
+/// seldom noticed.
 ///
 /// Takes its memory in the constructor. One thread; real-time safe.
 class StreetMemory {
@@ -38,33 +38,33 @@ class StreetMemory {
   struct Config {
     bool enabled = true;
     StreetGrid::Config grid;
-    float weight = 1.0F;           ///< Of a sure memory, against a full region term of 1; [0, 10].
-    float reopen_height_m = 0.35F;  ///< Steep obstacles up to this height may become unknown ...
-    float reopen_share = 0.2F;     ///< ... where memory says ground at least so surely, [0, 1].
-    float tall_m = 0.35F;          ///< Beside what is so tall nothing is drawn towards ground.
-    /// Share of certain returns that contradict a certain memory, from which on the motion is
+    float weight = 1.0F;           ///< Of a sure memory, relative to a region term of 1; [0, 10].
+    float reopen_height_m = 0.35F;  ///< Highest steep obstacle that may become unknown.
+    float reopen_share = 0.2F;     ///< How surely memory must say ground for that, [0, 1].
+    float tall_m = 0.35F;          ///< Beside anything this tall nothing is drawn to ground.
+    /// Share of certain returns contradicting a certain memory at which the motion is taken to be
     /// wrong.
     float max_contradiction = 0.2F;
   };
 
   StreetMemory(const Config& config, frame::ImageShape shape, memory::FixedMemory& memory);
 
-  /// Nothing is known of the frames before.
+  /// Forgets all earlier frames.
   void forget() noexcept TERRACUT_NONBLOCKING;
 
-  /// Before the cut, for a frame whose sensor stands at `place`: finds what is remembered of its
-  /// unknown cells, and makes those unknown that it says. `points`: of all cells.
+  /// Called before the cut, for a frame whose sensor stands at `place`: finds the memory of its
+  /// unknown cells, and makes seeds unknown that it contradicts. `points` of all cells.
   void look_back(const frame::Place& place, const frame::PointPlanes& points,
                  const stage::CellPlanes& planes,
                  std::span<min_cut::Seed> seeds) noexcept TERRACUT_NONBLOCKING;
-  /// The prior of an unknown cell, scaled by kCapacityScale.
+  /// Returns the prior of an unknown cell, scaled by kCapacityScale.
   [[nodiscard]] min_cut::LabelCosts operator()(std::uint32_t cell) const noexcept {
     const std::int32_t for_ground = prior_[cell];
     return for_ground > 0 ? min_cut::LabelCosts{0, for_ground}
                           : min_cut::LabelCosts{-for_ground, 0};
   }
-  /// After the cut: remembers the frame that was looked back from. `lean(cell)`: what an unknown
-  /// cell's own height says, [-1, 1], obstacle to ground.
+  /// Called after the cut: remembers the frame given to look_back(). `lean(cell)` is the evidence
+  /// of an unknown cell's own height, [-1, 1], obstacle to ground.
   template <class Lean>
   void remember(const stage::CellPlanes& planes, Lean&& lean) noexcept {
     for (std::size_t cell = 0; cell < box_.size(); ++cell) {
@@ -81,7 +81,7 @@ class StreetMemory {
   [[nodiscard]] const stage::MemoryReport& report() const noexcept { return report_; }
 
  private:
-  /// What a cell was by its frame alone.
+  /// The state of a cell by its frame alone.
   enum Own : std::uint8_t { kCertain, kOpen, kLow };
 
   void find_boxes(const frame::PointPlanes& points, const stage::CellPlanes& planes,
@@ -92,11 +92,11 @@ class StreetMemory {
 
   Config config_;
   StreetGrid grid_;
-  std::uint32_t journey_ = 0;        ///< 0: nothing is remembered.
-  std::span<std::uint32_t> box_;     ///< By cell.
-  std::span<std::int16_t> prior_;    ///< By cell: for ground; against it where negative.
-  std::span<std::uint8_t> own_;      ///< By cell: Own.
-  std::span<std::uint8_t> is_tall_;  ///< By square: something tall stands there in this frame.
+  std::uint32_t journey_ = 0;        ///< 0: no memory.
+  std::span<std::uint32_t> box_;     ///< Indexed by cell.
+  std::span<std::int16_t> prior_;    ///< Per cell: positive for ground, negative against it.
+  std::span<std::uint8_t> own_;      ///< Per cell: an Own.
+  std::span<std::uint8_t> is_tall_;  ///< Per square: something tall is there in this frame.
   std::uint32_t agreed_ = 0, contradicted_ = 0;
   stage::MemoryReport report_;
 };

@@ -16,13 +16,13 @@ namespace {
 
 constexpr float kFar_m = std::numeric_limits<float>::max();
 constexpr float kUnknown_m = std::numeric_limits<float>::quiet_NaN();
-constexpr float kLeastSpacing_m = 0.001F;  // right at the sensor
+constexpr float kLeastSpacing_m = 0.001F;  // limit close to the sensor
 constexpr auto kMostOver = static_cast<float>(GroundPatches::kMostPatchesOver);
 
-// The loops of the next two have no branches, so that the compiler makes vector code of them.
+// The loops of the next two have no branches, so that the compiler vectorises them.
 
-/// Where in a row there is ground, where its neighbours are ground as well, and how far each height
-/// departs from the middle of its neighbours'; that says something only in the latter.
+/// Finds the ground of a row, the ground whose neighbours are ground as well (is_bend), and how far
+/// each height departs from the mean of its neighbours', which is valid only with is_bend.
 TERRACUT_VECTOR_CLONES void find_bends(const float* z_m, const frame::Label* label,
                                        std::size_t columns, std::uint8_t* __restrict is_ground,
                                        std::uint8_t* __restrict is_bend,
@@ -34,15 +34,15 @@ TERRACUT_VECTOR_CLONES void find_bends(const float* z_m, const frame::Label* lab
   for (std::size_t i = 1; i + 1 < columns; ++i) {
     bend_m[i] = std::fabs(z_m[i] - 0.5F * (z_m[i - 1] + z_m[i + 1]));
   }
-  for (const std::size_t i : {std::size_t{0}, columns - 1}) {  // columns close to a circle
+  for (const std::size_t i : {std::size_t{0}, columns - 1}) {  // the image is cyclic
     const std::size_t before = i > 0 ? i - 1 : columns - 1, after = i + 1 < columns ? i + 1 : 0;
     is_bend[i] = is_ground[before] & is_ground[i] & is_ground[after];
     bend_m[i] = std::fabs(z_m[i] - 0.5F * (z_m[before] + z_m[after]));
   }
 }
 
-/// How far away is what stands lower than `clearance_height_m`; else kFar_m. The height of a cell
-/// without a return is NaN: not lower than anything.
+/// Gives the range of cells lower than `clearance_height_m`, else kFar_m. A cell without a return
+/// has a NaN height, which is not lower.
 TERRACUT_VECTOR_CLONES void find_low(const float* range_m, const float* height_m,
                                      std::size_t columns, float clearance_height_m,
                                      float* __restrict low_m) noexcept {
@@ -52,7 +52,7 @@ TERRACUT_VECTOR_CLONES void find_low(const float* range_m, const float* height_m
   }
 }
 
-/// GroundPatches::patches_over() of many.
+/// Does patches_over() for many ranges.
 TERRACUT_VECTOR_CLONES void count_over(float length_m, const float* range_m, std::size_t count,
                                        float spacing_rad, std::int32_t* patches) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -66,7 +66,7 @@ TERRACUT_VECTOR_CLONES void count_over(float length_m, const float* range_m, std
 
 constexpr std::size_t kReadAhead = 8;
 
-/// The columns of a patch. `kWidth`: how many, where the compiler shall know it; else 0.
+/// The columns of a patch. `kWidth` is their number if known at compile time, else 0.
 template <std::size_t kWidth>
 struct ColumnsOf {
   explicit ColumnsOf(std::size_t how_many) : count(how_many) {}
@@ -82,7 +82,7 @@ struct ColumnsOf {
     for (std::size_t i = 1; i < size(); ++i) least = std::min(least, values[i]);
     return least;
   }
-  /// How many of the values are 1; the others are 0. Reads kReadAhead values beyond the first.
+  /// Counts the values that are 1; the others are 0. Reads kReadAhead values beyond the first.
   [[nodiscard]] std::size_t count_of(const std::uint8_t* values) const noexcept {
     if constexpr (kWidth > 0 && kWidth <= 8) {  // all at once: the product's top byte is the sum
       std::uint64_t bytes = 0;
@@ -99,7 +99,7 @@ struct ColumnsOf {
   std::size_t count;
 };
 
-/// What is known of the columns of a row, each plane at its first column.
+/// The column planes of a row, each from its first column on.
 struct RowOfColumns {
   const float *x_m, *y_m, *z_m, *range_m;
   const std::uint8_t *is_ground, *is_bend;
@@ -108,8 +108,8 @@ struct RowOfColumns {
   const std::uint32_t* return_index;
   std::size_t stride;
 
-  /// Asks for what the next row will need of some columns: six planes do not fit the cache that the
-  /// stages before have used.
+  /// Prefetches the next row's values for some columns: six planes do not fit the cache that
+  /// earlier stages have used.
   void fetch_ahead(std::size_t column) const noexcept {
     for (const float* plane : {x_m, y_m, z_m, range_m, height_m}) {
       __builtin_prefetch(plane + column + stride);
@@ -117,7 +117,7 @@ struct RowOfColumns {
   }
 };
 
-/// What is told of the patches of a row, each plane at its first patch.
+/// The patch planes of a row, each from its first patch on.
 struct RowOfPatches {
   float *x_m, *y_m, *z_m, *range_m;
   std::uint8_t *has_ground, *has_obstacle;
@@ -125,7 +125,7 @@ struct RowOfPatches {
   std::uint32_t* arrival;
 };
 
-/// Sum of the values that are marked by 1; others are marked by 0, and may be NaN.
+/// Returns the sum of the values marked by 1; those marked by 0 may be NaN.
 template <class Columns>
 float sum_of_marked(const float* values, const std::uint8_t* marks, std::size_t marked,
                     Columns width) noexcept {

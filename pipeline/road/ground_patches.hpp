@@ -13,76 +13,76 @@
 
 namespace terracut::road {
 
-/// Short pieces of rings: a few columns of one row, with what their ground returns have in common.
-/// Heights along a ring come from one laser, so they are exact to millimetres where those of
-/// different lasers are not; a piece is short enough for a kerb to lie between two of them.
+/// Short pieces of rings: a few columns of one row, with the means of their ground returns. Heights
+/// along a ring are exact to millimetres, as they come from one laser. A piece is so short that a
+/// kerb lies between two of them.
 ///
-/// Patches are numbered row by row, `per_row()` each; columns close to a circle. The last patch of
-/// a row may be shorter.
+/// Patches are numbered row by row, `per_row()` each, cyclic in columns. The last patch of a row
+/// may be shorter.
 class GroundPatches {
  public:
   struct Config {
     float width_deg = 1.0F;            ///< Azimuth a patch covers, to the nearest whole column.
-    float clearance_height_m = 2.0F;   ///< Obstacles higher above the ground are no obstacles here.
-    float roughness_window_m = 0.50F;  ///< Roughness is a mean so far to either side.
+    float clearance_height_m = 2.0F;   ///< Obstacles higher above the ground are ignored.
+    float roughness_window_m = 0.50F;  ///< Roughness is averaged so far to either side.
   };
 
   GroundPatches(const Config& config, frame::ImageShape shape, memory::FixedMemory& memory);
 
-  /// Takes the patches of a labelled image. Real-time safe.
+  /// Computes the patches of a labelled image. Real-time safe.
   void collect(const frame::RangeImage& image,
                const stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] int rows() const noexcept { return shape_.rows; }
   [[nodiscard]] int per_row() const noexcept { return per_row_; }
-  /// What a patch tells, one value for each. The place is the mean over its ground returns, 0 where
-  /// it has none; metres in the vehicle frame.
+  /// The following return one value a patch. The place is the mean over its ground returns, 0 if it
+  /// has none; metres in the vehicle frame.
   [[nodiscard]] std::span<const float> x_m() const noexcept { return x_m_; }
   [[nodiscard]] std::span<const float> y_m() const noexcept { return y_m_; }
   [[nodiscard]] std::span<const float> z_m() const noexcept { return z_m_; }
-  /// Horizontal; without ground that of the nearest obstacle, without either NaN.
+  /// Returns horizontal ranges; without ground that of the nearest obstacle, without either NaN.
   [[nodiscard]] std::span<const float> range_m() const noexcept { return range_m_; }
-  /// Mean departure of a return's height from the middle of its two neighbours' on the ring, over
-  /// roughness_window_m. 0 where unknown.
+  /// Returns the mean departure of a return's height from the mean of its two neighbours on the
+  /// ring, over roughness_window_m. 0 if unknown.
   [[nodiscard]] std::span<const float> roughness_m() const noexcept { return roughness_m_; }
   [[nodiscard]] std::span<const std::uint8_t> has_ground() const noexcept { return has_ground_; }
-  /// 1 where there is an obstacle that stands lower than clearance_height_m.
+  /// Returns 1 where an obstacle is lower than clearance_height_m.
   [[nodiscard]] std::span<const std::uint8_t> has_obstacle() const noexcept {
     return has_obstacle_;
   }
-  /// 1 where a ring's last returns of the frame and its first ones meet: in this patch or between
-  /// it and the next. The vehicle moved on between them, so heights do not fit together there.
+  /// Returns 1 where the frame's last returns of a ring meet its first ones: in this patch or
+  /// between it and the next. The vehicle moved in between, so heights do not match there.
   [[nodiscard]] std::span<const std::uint8_t> is_seam() const noexcept { return is_seam_; }
   [[nodiscard]] int columns_per_patch() const noexcept { return columns_per_patch_; }
-  /// Number of a patch along its row; the row goes on beyond both its ends.
+  /// Wraps a patch number that is beyond either end of its row.
   [[nodiscard]] int wrapped(int index) const noexcept {
     while (index < 0) index += per_row_;
     while (index >= per_row_) index -= per_row_;
     return index;
   }
-  /// The same for the patches next to one.
+  /// The next two return the wrapped numbers of the adjacent patches.
   [[nodiscard]] int after(int index) const noexcept { return index + 1 < per_row_ ? index + 1 : 0; }
   [[nodiscard]] int before(int index) const noexcept {
     return index > 0 ? index - 1 : per_row_ - 1;
   }
-  /// From one patch of a ring to the next, metres.
+  /// Returns the distance from one patch of a ring to the next, metres.
   [[nodiscard]] float spacing_m(float range_m) const noexcept { return range_m * spacing_rad_; }
-  static constexpr int kMostPatchesOver = 8;  ///< Bounds windows near the sensor, and the work.
-  /// How many patches of a ring it takes to cover `length_m`, to the nearest; at least 1, at most
+  static constexpr int kMostPatchesOver = 8;  ///< Limits windows near the sensor, and so the work.
+  /// Returns how many patches of a ring cover `length_m`, rounded; at least 1, at most
   /// kMostPatchesOver.
   [[nodiscard]] int patches_over(float length_m, float range_m) const noexcept TERRACUT_NONBLOCKING;
-  /// The same for all patches of a row.
+  /// Does the same for all patches of a row.
   void count_patches_over(float length_m, std::size_t row,
                           std::span<std::int32_t> patches) const noexcept TERRACUT_NONBLOCKING;
 
-  /// Sums over returns of which both neighbours on the ring are ground as they are.
+  /// Sums over returns whose neighbours on the ring are ground as well.
   struct Bends {
     float sum_m = 0;
     float count = 0;
   };
 
  private:
-  /// Finds the seam in a row and resets the bends across it. `returns`: of the frame.
+  /// Finds the seam in a row and resets the bends across it. `returns` is the number in the frame.
   void find_seam(std::size_t row, std::uint32_t returns) noexcept;
   void smooth_roughness(std::size_t row) noexcept;
 
@@ -93,13 +93,13 @@ class GroundPatches {
   float spacing_rad_;
   std::span<float> x_m_, y_m_, z_m_, range_m_, roughness_m_;
   std::span<std::uint8_t> has_ground_, has_obstacle_, is_seam_;
-  // Of the row in work:
+  // For the row in work:
   std::span<std::uint8_t> is_ground_, is_bend_;  // by column
   std::span<float> bend_m_, low_m_;              // by column, see find_bends() and find_low()
-  std::span<Bends> bends_;                       // by patch, kMostPatchesOver more on both sides
-  std::span<Bends> bends_before_;                // the same, those before each of them
-  std::span<std::uint32_t> arrival_;  // by patch, number of its first ground return in the frame
-  std::span<std::int32_t> reach_;     // by patch, patches of the window to either side
+  std::span<Bends> bends_;            // by patch, with kMostPatchesOver more on both sides
+  std::span<Bends> bends_before_;     // running sums of bends_ before each patch
+  std::span<std::uint32_t> arrival_;  // by patch: index of its first ground return in the frame
+  std::span<std::int32_t> reach_;     // by patch: reach of its window to either side, in patches
 };
 
 }  // namespace terracut::road

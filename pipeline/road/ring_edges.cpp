@@ -11,37 +11,39 @@
 namespace terracut::road {
 namespace {
 
-/// Patches of a ring whose ranges differ by more lie on different surfaces.
+/// Patches of a ring on one surface have ranges that differ by less.
 constexpr float kSameSurface_m = 1.0F;
-/// How far to either side of an edge the ring is looked at for going on as steeply.
+/// How far to either side of an edge the ring is checked for an equally steep slope.
 constexpr float kBeside_m = 1.5F;
 constexpr float kNoGround_m = std::numeric_limits<float>::max();
-/// What steps the same way in so large a share of the rings runs through the sensor ...
+/// A step in at least this share of the rings, in the same direction, runs through the sensor.
 constexpr float kMostRings = 0.8F;
-/// ... if they are so many: fewer may all be near. An HDL-64E on a car has 30 on open ground.
+/// The least number of rings for that: fewer may all be near. An HDL-64E on a car has 30 on open
+/// ground.
 constexpr float kEnoughRings = 24;
 
-/// The planes of a row, each at its first patch; there is a margin before it and after the last.
+/// The planes of a row, each from its first patch on, with a margin at both ends.
 struct Row {
   const float *x_m, *y_m, *z_m, *range_m;
 };
 
-/// Sums over some patches to one side of each patch of a row.
+/// Sums over patches on one side of each patch of a row.
 struct Sums {
   float *x_m, *y_m, *z_m, *count;
 };
 
-/// A factor, so that what depends on conditions below is arithmetic and the loops are vector code.
+/// Turns a condition into a factor: arithmetic instead of branches lets the compiler vectorise
+/// loops.
 inline float one_if(bool condition) noexcept {
   return condition ? 1.0F : 0.0F;
 }
 
-/// std::max() of values: with references to memory loops are not vector code.
+/// std::max() by value: loops with references to memory are not vectorised.
 inline float greater(float one, float other) noexcept {
   return one > other ? one : other;
 }
 
-/// Adds the patch `beside` places away to the sums of each, where it lies on the same surface.
+/// Adds the patch `beside` places away to each patch's sums if it is on the same surface.
 TERRACUT_VECTOR_CLONES void add_patch(const Row row, int beside, int count, float* __restrict x_m,
                                       float* __restrict y_m, float* __restrict z_m,
                                       float* __restrict patches) noexcept {
@@ -55,7 +57,7 @@ TERRACUT_VECTOR_CLONES void add_patch(const Row row, int beside, int count, floa
   }
 }
 
-/// Makes means of the sums; that of no patches is the patch itself.
+/// Turns sums into means; a patch without any is its own mean.
 TERRACUT_VECTOR_CLONES void find_means(const Row row, int count, const Sums sums,
                                        float* __restrict x_m, float* __restrict y_m,
                                        float* __restrict z_m) noexcept {
@@ -68,8 +70,8 @@ TERRACUT_VECTOR_CLONES void find_means(const Row row, int count, const Sums sums
   }
 }
 
-/// Adds the slope against the terrain from one mean to the other to those patches whose
-/// windows reach over `reach` patches.
+/// Adds the slope between the means, relative to the terrain, for patches whose windows reach over
+/// `reach` patches.
 TERRACUT_VECTOR_CLONES void find_slopes(const Sums left, const Sums right,
                                         const TerrainSlope::Gradient* terrain,
                                         const std::int32_t* reaches, int reach, int count,
@@ -85,9 +87,8 @@ TERRACUT_VECTOR_CLONES void find_slopes(const Sums left, const Sums right,
   }
 }
 
-/// Counts for each patch the rings in which there is ground to both sides of it, no farther away
-/// than `most_range_m`, and those that rise, or fall, across it by more than `step_m`, also against
-/// what they do beside it.
+/// Counts for each patch the rings with ground on both sides within `most_range_m`, and those that
+/// rise or fall across it by more than `step_m`, also relative to their slope beside it.
 TERRACUT_VECTOR_CLONES void add_steps(const Row row, float most_range_m, float step_m, int count,
                                       float* __restrict rings, float* __restrict rises,
                                       float* __restrict falls) noexcept {
@@ -104,7 +105,8 @@ TERRACUT_VECTOR_CLONES void add_steps(const Row row, float most_range_m, float s
   }
 }
 
-/// The ranges of patches with ground, and kNoGround_m for the others. False if there is none.
+/// Takes the ranges of patches with ground, and kNoGround_m for the others. False if none has
+/// ground.
 TERRACUT_VECTOR_CLONES bool take_ranges(const float* range_m, const std::uint8_t* has_ground,
                                         std::size_t count, float* __restrict taken_m) noexcept {
   std::uint8_t is_any = 0;
@@ -241,7 +243,7 @@ bool RingEdges::goes_on_beside(const GroundPatches& ground, int index) const noe
   const int beside = ground.patches_over(kBeside_m, range_m_[padded(index)]);
   const int left = index - reach, right = index + reach;
   const auto is_as_steep = [&](float slope) {
-    return std::fabs(slope - across) < config_.bend;  // not where that is unknown
+    return std::fabs(slope - across) < config_.bend;  // false if that is unknown
   };
   return is_as_steep(slope_between(index, {left - beside, left - (beside + 1) / 2},
                                    {left - beside / 2, left})) ||

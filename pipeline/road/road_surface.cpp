@@ -13,15 +13,15 @@ namespace terracut::road {
 namespace {
 
 constexpr float kFar_m = std::numeric_limits<float>::max();
-/// How many rows without ground the way leads across.
+/// The most rows without ground that a path may cross.
 constexpr int kRowsAcross = 3;
-/// Lone barriers are told by the barriers so many rows and patches around them.
+/// A barrier is lone if few barriers lie within so many rows and patches around it.
 constexpr int kAround = 2;
-/// A surface that comes as near to its edges as the vehicle ends this far beyond the vehicle's
-/// side: growing back runs along rings and columns, and not always straight.
+/// Growing back reaches so many times half the vehicle's width, as it runs along rings and columns
+/// and not always straight.
 constexpr float kGrowBack = 1.3F;
 
-/// How many of 2 kAround + 1 values, beginning with each, are 1.
+/// Counts the ones among 2 kAround + 1 values, beginning with each.
 TERRACUT_VECTOR_CLONES void count_around(const std::uint8_t* values, std::size_t count,
                                          std::uint8_t* around) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -31,10 +31,10 @@ TERRACUT_VECTOR_CLONES void count_around(const std::uint8_t* values, std::size_t
   }
 }
 
-/// How many bytes for_each() looks at together; what it is given must be a multiple of them.
+/// The number of bytes that for_each() tests together; its input must be a multiple of them.
 constexpr std::size_t kTogether = sizeof(std::uint64_t);
 
-/// Calls `act` with the index of each byte that is not 0, in their order.
+/// Calls `act` with the index of each byte that is not 0, in order.
 template <class Act>
 void for_each(std::span<const std::uint8_t> bytes, Act act) noexcept {
   for (std::size_t first = 0; first < bytes.size(); first += kTogether) {
@@ -57,8 +57,8 @@ TERRACUT_VECTOR_CLONES void find_rough(const float* roughness_m, float most_m, s
   for (std::size_t i = 0; i < count; ++i) is_rough[i] = roughness_m[i] > most_m ? 1 : 0;
 }
 
-/// Makes of the distance to a barrier along a ring how far the barrier blocks other rings where
-/// they pass; less than nothing where that is not at all.
+/// Converts the distance to a barrier along a ring into the range over which the barrier blocks
+/// other rings passing there; negative if it does not.
 TERRACUT_VECTOR_CLONES void find_reaches(float half_width_m, std::size_t count,
                                          float* distance_m) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -68,9 +68,9 @@ TERRACUT_VECTOR_CLONES void find_reaches(float half_width_m, std::size_t count,
   }
 }
 
-/// Finds which patches of a row lie within the ranges that barriers before it block, and adds what
-/// the row's own barriers do. A patch outside ends them: what is behind it, is behind something
-/// else. Patches without a range (NaN) change nothing.
+/// Finds the patches of a row within the ranges that earlier barriers block, and adds the row's own
+/// barriers. A patch outside a blocked range ends it: what lies behind it is behind something else.
+/// Patches without a range (NaN) change nothing.
 TERRACUT_VECTOR_CLONES void block_ranges(const float* range_m, const float* reach_m,
                                          std::size_t count, float* __restrict from_m,
                                          float* __restrict to_m,
@@ -169,8 +169,8 @@ void RoadSurface::find_barriers() noexcept {
 }
 
 void RoadSurface::open_seams() noexcept {
-  // A step makes the ground rough as far as that is looked for, and its upper side may be labelled
-  // obstacle. All of it is narrower than the vehicle: what else is in the way there, is beside it.
+  // A step makes the ground around it rough, and its upper side may be labelled obstacle. All of
+  // this is narrower than the vehicle; other obstacles in the way lie beside it.
   for (int index = 0; index < ground_.per_row(); ++index) {
     if (!edges_.runs_through_sensor(index)) continue;
     for (int row = 0; row < ground_.rows(); ++row) {
@@ -186,7 +186,8 @@ void RoadSurface::open_seams() noexcept {
 }
 
 void RoadSurface::drop_lone_barriers() noexcept {
-  // Kerbs and grass show in several rings; what shows in one is a laser's noise. Obstacles stay.
+  // Kerbs and grass show in several rings; a barrier in only one is a laser's noise. Obstacles
+  // stay.
   const auto per_row = static_cast<std::size_t>(ground_.per_row());
   for (int row = 0; row < ground_.rows(); ++row) {
     const std::size_t first = at(row, 0);
@@ -239,7 +240,7 @@ void RoadSurface::measure_along_rings() noexcept {
 void RoadSurface::measure_from(int row, int index, int step) noexcept {
   const float half_width_m = 0.5F * config_.vehicle_width_m;
   const float barrier_m = ground_.range_m()[at(row, index)];
-  // No patch that counts is nearer to the sensor, so none is nearer to its neighbours.
+  // No relevant patch is nearer to the sensor, so none has a smaller spacing.
   const float least_spacing_m = ground_.spacing_m(barrier_m - half_width_m);
   float since = 1;
   for (; since * least_spacing_m < half_width_m; ++since) {
@@ -337,7 +338,7 @@ void RoadSurface::grow_back() noexcept {
       growing[i] = (from[i] >= State::kGrown) & (is_one_open | is_other_open);
     }
   };
-  // Along the rings first, then from row to row.
+  // Grows along the rings first, then from row to row.
   for (int row = 0; row < ground_.rows(); ++row) {
     const State* const state = &state_[at(row, 0)];
     is_active_[0] = is_active_[per_row - 1] = 1;

@@ -10,10 +10,10 @@
 namespace terracut::road {
 namespace {
 
-/// In which line of squares a coordinate lies; beyond the first and the last line, in these.
+/// Returns the line of squares of a coordinate, limited to the first and last one.
 inline std::int32_t line_of(float coordinate_m, float square_m, float side) noexcept {
   const float line = coordinate_m / square_m + 0.5F * side;
-  const float not_before = line > 0.0F ? line : 0.0F;  // neither is NaN
+  const float not_before = line > 0.0F ? line : 0.0F;  // this removes NaN
   return static_cast<std::int32_t>(not_before < side - 1 ? not_before : side - 1);
 }
 
@@ -43,7 +43,7 @@ void TerrainSlope::fit(const GroundPatches& ground) noexcept {
   find_squares(ground.x_m().data(), ground.y_m().data(), square_.size(), config_.square_m, side_,
                square_.data());
   std::fill(sums_.begin(), sums_.end(), Sums{});
-  // Patches that follow each other mostly lie in the same square, whose sums are kept at hand.
+  // Successive patches mostly lie in the same square, so its sums are kept locally.
   Sums at_hand;
   std::int32_t square = 0;
   for (std::size_t i = 0; i < square_.size(); ++i) {
@@ -53,7 +53,7 @@ void TerrainSlope::fit(const GroundPatches& ground) noexcept {
       square = square_[i];
       at_hand = sums_[static_cast<std::size_t>(square)];
     }
-    // Patches lie the denser the nearer; weighed by range, every square metre says about as much.
+    // Patches are denser nearby; weighting by range makes every square metre count alike.
     const auto weight = static_cast<double>(ground.range_m()[i]);
     const auto x = static_cast<double>(ground.x_m()[i]);
     const auto y = static_cast<double>(ground.y_m()[i]);
@@ -95,7 +95,7 @@ TerrainSlope::Gradient TerrainSlope::gradient_around(int line_x, int line_y) con
     }
   }
   if (all.weight <= 0) return {};
-  // Least squares. What is known in one direction only stays level across it.
+  // Least squares, regularised: a slope known only in one direction stays level across it.
   constexpr double kLevel_m2 = 4.0;
   const double x = all.x / all.weight, y = all.y / all.weight, z = all.z / all.weight;
   const double xx = all.xx / all.weight - x * x + kLevel_m2;

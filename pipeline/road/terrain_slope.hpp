@@ -12,17 +12,17 @@
 
 namespace terracut::road {
 
-/// How the terrain inclines at large: planes through the smooth ground of squares and the eight
-/// around each. What it is for: an edge is where the ground rises against the terrain, whether the
-/// road lies on a hill, is banked, or the sensor is mounted tilted.
+/// The slope of the terrain at large: planes through the smooth ground of squares and the eight
+/// around each. Edges are judged relative to it, so that a hill, a banked road or a tilted sensor
+/// makes none.
 class TerrainSlope {
  public:
   struct Config {
     float square_m = 5.0F;           ///< Side of a square; a plane covers three by three of them.
-    float max_roughness_m = 0.006F;  ///< Rougher ground has no say: banks beside the road.
+    float max_roughness_m = 0.006F;  ///< Rougher ground, such as banks beside the road, is ignored.
   };
 
-  /// Rise over run towards x and y.
+  /// Rise over run along x and y.
   struct Gradient {
     float along_x = 0, along_y = 0;
     [[nodiscard]] float rise_m(float dx_m, float dy_m) const noexcept {
@@ -30,17 +30,17 @@ class TerrainSlope {
     }
   };
 
-  /// `patches`: how many the ground to come has.
+  /// `patches` is the number of patches of the ground to come.
   TerrainSlope(const Config& config, std::size_t patches, memory::FixedMemory& memory);
 
   /// Fits the planes. Real-time safe.
   void fit(const GroundPatches& ground) noexcept TERRACUT_NONBLOCKING;
 
-  /// The gradient where (x, y) is; beyond kReach_m that of the nearest square.
+  /// Returns the gradient at (x, y); beyond kReach_m that of the nearest square.
   [[nodiscard]] const Gradient& at(float x_m, float y_m) const noexcept {
     return gradients_[static_cast<std::size_t>(square_of(x_m, y_m))];
   }
-  /// The same where a patch of the ground last fitted is.
+  /// Returns the gradient at a patch of the ground last fitted.
   [[nodiscard]] const Gradient& at_patch(std::size_t patch) const noexcept {
     return gradients_[static_cast<std::size_t>(square_[patch])];
   }
@@ -57,7 +57,7 @@ class TerrainSlope {
   [[nodiscard]] Gradient gradient_around(int line_x, int line_y) const noexcept;
 
   Config config_;
-  int side_;  // squares
+  int side_;  // in squares
   std::span<Sums> sums_;
   std::span<Gradient> gradients_;
   std::span<std::int32_t> square_;  // by patch

@@ -13,14 +13,14 @@
 
 namespace terracut::ros_messages {
 
-/// Writes a message as ROS 2 serialises it: OMG CDR, little-endian, version 1, with its
-/// encapsulation in front. Numbers lie at multiples of their size behind that.
+/// Writes a message in ROS 2's serialisation: OMG CDR, little-endian, version 1, with its
+/// encapsulation header. After that, numbers are aligned to their size.
 class CdrWriter {
  public:
   static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie");
   static constexpr std::size_t kEncapsulationBytes = 4;
 
-  /// A message begins in `bytes`, whose content goes. It must outlive this.
+  /// Begins a message in `bytes`, replacing its content. `bytes` must outlive this.
   explicit CdrWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {
     bytes_.assign({std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}});
   }
@@ -32,15 +32,15 @@ class CdrWriter {
     append(std::as_bytes(std::span(&number, 1)));
   }
   void add(bool flag) { add(static_cast<std::uint8_t>(flag)); }
-  /// With its terminating zero, which counts.
+  /// Adds a text with its terminating zero, which counts in its length.
   void add(std::string_view text) {
     add(static_cast<std::uint32_t>(text.size() + 1));
     append(std::as_bytes(std::span(text)));
     bytes_.push_back(std::byte{0});
   }
-  /// How many elements of a sequence follow.
+  /// Adds the number of elements of a sequence; they follow.
   void add_length(std::size_t elements) { add(static_cast<std::uint32_t>(elements)); }
-  /// Bytes of a sequence<uint8>, to be filled; valid until the next call.
+  /// Adds a sequence<uint8> and returns its bytes to be filled; valid until the next call.
   [[nodiscard]] std::span<std::byte> add_byte_sequence(std::size_t count) {
     add_length(count);
     bytes_.resize(bytes_.size() + count);

@@ -11,7 +11,7 @@
 
 namespace terracut::ros_messages {
 
-/// diagnostic_msgs/DiagnosticArray in place of what is in `message`.
+/// Writes diagnostic_msgs/DiagnosticArray to `message`, replacing its content.
 void write_diagnostic_array(std::int64_t stamp_ns, std::span<const publish::Diagnosis> diagnoses,
                             std::vector<std::byte>& message);
 

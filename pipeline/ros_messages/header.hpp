@@ -10,24 +10,24 @@
 
 namespace terracut::ros_messages {
 
-/// The instant for which a frame's points are true, CLOCK_REALTIME: that to which they were
-/// deskewed, else when its first packet was stamped.
+/// Returns the instant for which a frame's points are valid, CLOCK_REALTIME: the one to which they
+/// were deskewed, else the stamp of its first packet.
 [[nodiscard]] constexpr std::int64_t stamp_ns_of(const status::FrameRecord& record) noexcept {
   const frame::DeskewInfo& deskew = record.info.deskew;
   return deskew.state == frame::DeskewState::kDone ? deskew.reference_ns
                                                    : record.info.first_packet_ns;
 }
 
-/// builtin_interfaces/Time.
+/// Adds builtin_interfaces/Time.
 inline void add_time(CdrWriter& to, std::int64_t time_ns) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   const std::int64_t rest_ns = time_ns % kSecond_ns;
-  const bool is_before_1970 = rest_ns < 0;  // nanoseconds count forward there, too
+  const bool is_before_1970 = rest_ns < 0;  // nanoseconds count forward before 1970, too
   to.add(static_cast<std::int32_t>(time_ns / kSecond_ns - (is_before_1970 ? 1 : 0)));
   to.add(static_cast<std::uint32_t>(rest_ns + (is_before_1970 ? kSecond_ns : 0)));
 }
 
-/// std_msgs/Header.
+/// Adds std_msgs/Header.
 inline void add_header(CdrWriter& to, std::int64_t stamp_ns, std::string_view frame_id) {
   add_time(to, stamp_ns);
   to.add(frame_id);

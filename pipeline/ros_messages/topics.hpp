@@ -13,7 +13,7 @@
 
 namespace terracut::ros_messages {
 
-/// What a run tells ROS' tools, a topic each.
+/// One of the topics for ROS' tools.
 struct Topic {
   std::string_view name;
   const Schema& schema;
@@ -29,8 +29,8 @@ inline constexpr std::array<Topic, 6> kTopics{
     Topic{"/diagnostics", kDiagnosticArray, std::nullopt},
     Topic{"/tf_static", kTfMessage, std::nullopt}};
 
-/// CLOCK_REALTIME at which a frame is said to have been published: when its labels were there, or,
-/// in recordings, its last packet.
+/// Returns the CLOCK_REALTIME at which a frame counts as published: when its labels were ready or,
+/// in recordings, its last packet came.
 [[nodiscard]] constexpr std::int64_t publish_time_ns_of(
     const status::FrameRecord& record) noexcept {
   return record.labels_ns != 0 ? record.labels_ns : record.info.last_packet_ns;

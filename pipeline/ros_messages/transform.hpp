@@ -10,8 +10,8 @@
 
 namespace terracut::ros_messages {
 
-/// tf2_msgs/TFMessage in place of what is in `message`: where the points' frame lies in the
-/// sensor's, by the mount.
+/// Writes tf2_msgs/TFMessage to `message`, replacing its content: the pose of the points' frame in
+/// the sensor's, from the mount.
 void write_mount_transform(std::int64_t stamp_ns, const publish::RunFacts& facts,
                            std::vector<std::byte>& message);
 

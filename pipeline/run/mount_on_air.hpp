@@ -13,18 +13,17 @@
 
 namespace terracut::run {
 
-/// Shows a finder the frames of a sensor that is heard, a second of them; where these do not show
-/// well enough how it stands, the next second's instead, for so long, and not beyond stop_wanted().
-/// `on_waiting` is told many times a second what is waited for. `config`: of frames with points.
-/// Start-up: allocates.
+/// Shows a finder one second of frames from a live sensor. If they do not show the mount for
+/// certain, shows it the next second's instead, until `patience` is over or stop_wanted(). Calls
+/// `on_waiting` many times a second with what is waited for. `config` must be for frames with
+/// points. Start-up: allocates.
 [[nodiscard]] mount::MountFinder mount_on_air(
     net::LiveSource& source, const streams::SensorOnAir& sensor,
     const decode::Decoder::Config& config, std::chrono::seconds patience,
     const std::function<bool()>& stop_wanted,
     const std::function<void(const std::string& what)>& on_waiting = [](const std::string&) {});
 
-/// A vehicle that stands where no ground is seen is waited for so long; then there have to be
-/// labels.
+/// How long to wait for a vehicle that stands where no ground is seen; after that labels must come.
 inline constexpr std::chrono::seconds kGroundPatience{10};
 
 }  // namespace terracut::run

@@ -17,8 +17,8 @@
 
 namespace terracut::run {
 
-/// The way from packets to labels on one thread: packets are pushed in, frames come out, and
-/// whoever takes a frame may have it labelled.
+/// Turns packets into labels on one thread: packets are pushed in, frames come out, and each may be
+/// labelled.
 ///
 ///   pipeline.push(datagram);
 ///   while (Frame* frame = pipeline.next()) {
@@ -30,10 +30,10 @@ namespace terracut::run {
 /// memory (throws std::invalid_argument on a bad setting); nothing else allocates, locks or throws.
 class PacketPipeline {
  public:
-  /// What the time of decoding is made of.
+  /// How the time of decoding is measured.
   enum class Timing : std::uint8_t {
-    kPackets,  ///< Of each packet's own; the caller may do what it likes between two packets.
-    kFrames,   ///< All of a stream from one frame to the next, two readings of the clock a frame.
+    kPackets,  ///< Each packet by itself; the caller may do anything between two packets.
+    kFrames,   ///< From one frame to the next, with two readings of the clock a frame.
   };
 
   PacketPipeline(const calib::SensorCalibration& calibration, const mount::RingProfile& profile,
@@ -49,23 +49,23 @@ class PacketPipeline {
         timing_(timing) {}
 
   void push(const packet::Datagram& datagram) noexcept;
-  /// The stream ends or its source will jump (a replay loop).
+  /// Ends the stream, at its end or before its source jumps (a replay loop).
   void end_stream() noexcept;
-  /// After either: the frames that it completed, one after the other, then null; a frame is valid
-  /// until the next call. To be called until null before anything else is asked of the pipeline.
+  /// Returns the frames completed by push() or end_stream(), one after the other, then null; a
+  /// frame is valid until the next call. Call it until it returns null before anything else.
   [[nodiscard]] Frame* next() noexcept;
-  /// Why the datagram pushed last was rejected, if it was.
+  /// Returns why the last datagram was rejected, if it was.
   [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept {
     return decoder_.rejected();
   }
 
-  /// Labels the frame handed out last, and completes its record; labels() has one a return, by
-  /// return index, until the next call. Frames that are not labelled cost no more than what was
-  /// done ahead.
+  /// Labels the frame returned last and completes its record; labels() then has one a return, by
+  /// return index, until the next call. A frame that is not labelled costs only the work done
+  /// ahead.
   void label(Frame& frame) noexcept;
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_->labels(); }
 
-  /// Of the frame labelled last.
+  /// Takes near ground from the frame labelled last.
   void take_near_ground(const Frame& frame, ground::NearGround& ground) noexcept {
     method_->take_near_ground(*frame.image, ground);
   }
@@ -80,9 +80,9 @@ class PacketPipeline {
   std::unique_ptr<ground::FrameMethod> method_;  ///< Never null.
   Timing timing_;
   StageClock clock_;
-  std::int64_t decode_ns_ = 0;  ///< Since the frame before.
+  std::int64_t decode_ns_ = 0;  ///< Since the last frame.
   std::int64_t resumed_ns_ = 0;
-  bool begins_ = true;  ///< The next packet is a stream's first.
+  bool begins_ = true;  ///< True before a stream's first packet.
   Frame frame_;
 };
 

@@ -13,9 +13,8 @@
 
 namespace terracut::run {
 
-/// Times the stages of the pipeline, which has no clock of its own: those of a frame, however often
-/// it was left and gone on with, until its times are taken.
-/// `Clock`: as measure::SystemClock.
+/// Times the stages of the pipeline, which has no clock of its own. Adds up the times of a frame,
+/// even with interruptions, until take(). `Clock`: like measure::SystemClock.
 template <class Clock>
 class StageClockOf final : public stage::StageObserver {
  public:
@@ -29,7 +28,7 @@ class StageClockOf final : public stage::StageObserver {
     times_.segment_wall_ns += spent.wall_ns;
     last_ = now;
   }
-  /// The times of the frame so far; the next frame begins.
+  /// Returns the times of the frame and begins the next one.
   stage::StageTimes take() noexcept TERRACUT_NONBLOCKING {
     return std::exchange(times_, stage::StageTimes{});
   }

@@ -15,23 +15,23 @@ namespace terracut::stage {
 
 inline constexpr std::uint8_t kSteep = 1;
 
-/// What the stages hand on to each other: planes over the range image's cells, row-major with the
-/// image's stride. Written by one stage after the other, on one thread.
+/// The data that stages pass on: planes over the range image's cells, row-major with the image's
+/// stride. Written by one stage after the other, on one thread.
 struct CellPlanes {
   /// Height above the ground reference of the elevation map, metres; NaN in cells without a return,
   /// so that every comparison with such a cell is false.
   std::span<float> height_m;
   /// The label so far; kNone in cells without a return.
   std::span<frame::Label> label;
-  /// kSteep where the adjacent points test found a steep step at this return; its other bits are
-  /// that test's own.
+  /// Has kSteep where the adjacent points test found a steep step at this return; the other bits
+  /// belong to that test.
   std::span<std::uint8_t> steep;
 
   CellPlanes(frame::ImageShape shape, memory::FixedMemory& memory)
       : height_m(memory.take<float>("cell planes", shape.cells())),
         label(memory.take<frame::Label>("cell planes", shape.cells())),
         steep(memory.take<std::uint8_t>("cell planes", shape.cells())) {
-    std::ranges::fill(height_m, std::numeric_limits<float>::quiet_NaN());  // padding stays so
+    std::ranges::fill(height_m, std::numeric_limits<float>::quiet_NaN());  // kept by padding
   }
 };
 

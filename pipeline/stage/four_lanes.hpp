@@ -8,20 +8,20 @@
 
 namespace terracut::stage {
 
-/// Four numbers worked on at once. Every machine terracut runs on has registers of this width (SSE2
-/// and NEON), and each lane gets the bits that the same steps give one by one.
+/// Four numbers processed together. Every supported machine has registers of this width (SSE2 and
+/// NEON), and each lane gets the same bits as in single steps.
 using FourFloats = float __attribute__((vector_size(16)));
 using TwoFloats = float __attribute__((vector_size(8)));
-/// Of a comparison: all bits of a lane, or none.
+/// A comparison's result: all bits of a lane, or none.
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 
-/// from[0] and from[1], at any address.
+/// Loads from[0] and from[1] from any address.
 [[nodiscard]] inline TwoFloats load_two(const float* from) noexcept {
   TwoFloats two;
   std::memcpy(&two, from, sizeof(two));
   return two;
 }
-/// from[0] to from[3], at any address.
+/// Loads from[0] to from[3] from any address.
 [[nodiscard]] inline FourFloats load_four(const float* from) noexcept {
   FourFloats four;
   std::memcpy(&four, from, sizeof(four));
@@ -30,7 +30,7 @@ using FourInts = std::int32_t __attribute__((vector_size(16)));
 [[nodiscard]] inline FourFloats square_root(FourFloats four) noexcept {
   return FourFloats{std::sqrt(four[0]), std::sqrt(four[1]), std::sqrt(four[2]), std::sqrt(four[3])};
 }
-/// `four` where the mask is set, else 0.
+/// Returns `four` where the mask is set, else 0.
 [[nodiscard]] inline FourFloats where(FourInts mask, FourFloats four) noexcept {
   FourInts bits;
   std::memcpy(&bits, &four, sizeof(bits));

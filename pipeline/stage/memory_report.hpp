@@ -6,12 +6,12 @@
 
 namespace terracut::stage {
 
-/// What the street as remembered did for a frame.
+/// The effect of the street memory on a frame.
 struct MemoryReport {
-  bool used = false;           ///< Frames before were remembered, and their motion believed.
-  bool contradicted = false;   ///< What is certain in this frame did not fit: all was forgotten.
-  std::uint32_t priors = 0;    ///< Unknown cells of which something was remembered.
-  std::uint32_t reopened = 0;  ///< Low steep obstacles that were left to the cut.
+  bool used = false;           ///< Earlier frames were remembered, and their motion trusted.
+  bool contradicted = false;   ///< Certain cells contradicted the memory: all was forgotten.
+  std::uint32_t priors = 0;    ///< Unknown cells with a memory.
+  std::uint32_t reopened = 0;  ///< Low steep obstacles left to the cut.
 };
 
 }  // namespace terracut::stage

@@ -11,14 +11,15 @@
 
 namespace terracut::stage {
 
-// exp and log of the standard library differ in the last bit from one machine to the next, and a
-// label may hang on that bit. These two are plain IEEE arithmetic and give the same everywhere
+// exp and log of the standard library differ in the last bit between machines, and a label may
+// depend on that bit. These two use plain IEEE arithmetic and are the same everywhere
 // (docs/design.md, promise 5).
 
-/// Natural logarithm of a finite x > 0, error below 1e-9.
+/// Returns the natural logarithm of a finite x > 0, error below 1e-9.
 [[nodiscard]] double portable_log(double x) noexcept TERRACUT_NONBLOCKING;
 
-/// exp(-t) by a table with linear interpolation: error below 4e-5, 0 for t >= 16, 1 for t <= 0.
+/// Computes exp(-t) by a table with linear interpolation: error below 4e-5, 0 for t >= 16, 1 for t
+/// <= 0.
 class NegativeExp {
  public:
   NegativeExp() noexcept;
@@ -28,7 +29,7 @@ class NegativeExp {
     const FourFloats position = where(is_inside & (t > 0.0F), t) * kStepsPerUnit;
     const FourInts step = __builtin_convertvector(position, FourInts);
     const FourFloats share = position - __builtin_convertvector(step, FourFloats);
-    // An entry and the one behind it come with one load.
+    // One load gets an entry and the next one.
     const auto pair = [&](int lane) {
       return load_two(&table_[static_cast<std::size_t>(step[lane])]);
     };

@@ -20,7 +20,8 @@ void copy_where_measured(const frame::Label* __restrict from, const std::uint16_
   }
 }
 
-/// The labels of a firing's returns, one after the other; kNone, which is 0, where there is none.
+/// Writes the labels of a firing's returns, one after the other. `of_firing` has kNone, which is 0,
+/// where there is no return.
 void write_labels(std::span<const std::uint8_t> of_firing, frame::Label* next) noexcept {
   static_assert(static_cast<int>(frame::Label::kNone) == 0);
   constexpr std::uint64_t kOnes = 0x0101'0101'0101'0101, kHighest = kOnes << 7U;
@@ -32,7 +33,7 @@ void write_labels(std::span<const std::uint8_t> of_firing, frame::Label* next) n
       next += sizeof(eight);
       continue;
     }
-    // Which found nothing is as good as random: the next label is written over kNone.
+    // A branch would be mispredicted: the next label overwrites a kNone.
     for (; eight != 0; eight >>= 8U) {
       *next = static_cast<frame::Label>(eight & 0xFFU);
       next += (eight & 0xFFU) != 0 ? 1 : 0;
@@ -51,7 +52,7 @@ void ReturnLabels::assign(const frame::RangeImage& image, const CellPlanes& plan
   const auto index = image.return_index();
   const std::size_t nowhere = labels_.size() - 1;
   for (std::size_t cell = 0; cell < planes.label.size(); ++cell) {
-    // Which cells are empty is as good as random: they write to a place of no return.
+    // A branch would be mispredicted: empty cells write to a dummy slot.
     const frame::Label label = planes.label[cell];
     labels_[label != frame::Label::kNone ? index[cell] : nowhere] = label;
   }

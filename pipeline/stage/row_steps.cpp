@@ -7,7 +7,8 @@
 namespace terracut::stage {
 namespace {
 
-/// Tables are rounded to hundredths or thousandths of a degree: differences fall short by as much.
+/// Tolerance for tables rounded to hundredths or thousandths of a degree, whose differences fall
+/// short.
 constexpr double kRounding_rad = beams::deg_to_rad(1e-6);
 
 }  // namespace

@@ -7,21 +7,21 @@
 
 namespace terracut::stage {
 
-/// Neighbourhoods over rows by angle. Rows may lie unevenly: an RS-Ruby128's are 0.1 degrees apart
+/// Steps over rows by angle. Rows may be unevenly spaced: an RS-Ruby128's are 0.1 degrees apart
 /// around the horizon and up to 5.4 degrees below, an HDL-64E's a third or half a degree. A step
-/// goes to the next row, but over as many rows as it takes to cover `step_deg`; so what is compared
-/// over k steps lies about equally far apart on any sensor. 0: a step is a row, as in the paper.
+/// goes to the next row, or over as many rows as it takes to cover `step_deg`; so k steps cover
+/// about the same angle on any sensor. With 0 a step is a row, as in the paper.
 ///
-/// For constructors: the answers are looked up in the profile, O(rows).
+/// For constructors: answers are looked up in the profile, O(rows).
 class RowSteps {
  public:
   /// `profile` must outlive this.
   RowSteps(const mount::RingProfile& profile, double step_deg);
 
-  /// The first row at least `steps` rows and `steps` times step_deg above `row`; the number of rows
-  /// when there is none. steps >= 0.
+  /// Returns the first row at least `steps` rows and `steps` times step_deg above `row`; the number
+  /// of rows if there is none. steps >= 0.
   [[nodiscard]] int up(int row, int steps) const noexcept TERRACUT_NONBLOCKING;
-  /// The same below `row`; -1 when there is none.
+  /// Returns the first such row below `row`; -1 if there is none.
   [[nodiscard]] int down(int row, int steps) const noexcept TERRACUT_NONBLOCKING;
 
  private:

@@ -7,7 +7,7 @@
 namespace terracut::stage {
 namespace {
 
-/// As std::count(), whose wide result keeps it from being vector code.
+/// Counts like std::count(), whose wide result prevents vectorisation.
 TERRACUT_VECTOR_CLONES std::uint32_t count_of(const frame::Label* labels, std::size_t size,
                                               frame::Label wanted) noexcept {
   std::uint32_t count = 0;

@@ -13,15 +13,15 @@
 
 namespace terracut::stage {
 
-/// What became of one frame.
+/// The result for one frame in numbers.
 struct SegmentationReport {
-  std::uint32_t returns = 0;          ///< In the image, all of them labelled.
-  std::uint32_t ground = 0;           ///< Of them, labelled ground of either kind.
-  std::uint32_t other_ground = 0;     ///< Of the ground, told to be no road surface.
-  std::uint32_t obstacles = 0;        ///< Of them, labelled obstacle.
+  std::uint32_t returns = 0;          ///< All returns of the image; all are labelled.
+  std::uint32_t ground = 0;           ///< Returns labelled ground of either kind.
+  std::uint32_t other_ground = 0;     ///< Ground that is not road surface.
+  std::uint32_t obstacles = 0;        ///< Returns labelled obstacle.
   Stage last_stage = Stage::kMinCut;  ///< How far the labels were refined.
-  min_cut::CutReport cut;             ///< All zero where none was tried.
-  MemoryReport memory;                ///< Nothing was remembered where motion is not known.
+  min_cut::CutReport cut;             ///< All zero if there was no cut.
+  MemoryReport memory;                ///< Empty if the motion is unknown.
 
   [[nodiscard]] constexpr std::uint32_t labelled() const noexcept { return ground + obstacles; }
   /// Fills the four counts from one label a return.

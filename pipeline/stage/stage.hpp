@@ -11,14 +11,14 @@
 
 namespace terracut::stage {
 
-/// The stages of the segmentation in their order. The first three are the rows of the paper's
-/// Table III: each can be the last one that runs.
+/// The stages of the segmentation in order. The first three are the rows of the paper's Table III:
+/// each can be the last one that runs.
 enum class Stage : std::uint8_t {
   kElevationMap,    ///< Ring-based elevation map.
   kAdjacentPoints,  ///< + spatiotemporal adjacent points.
   kSeeds,           ///< + confidence seeds of the MRF.
   kMinCut,          ///< + energy, min-cut: the whole method.
-  kLabels,  ///< Labels of cells brought back to the returns, and the road surface told apart.
+  kLabels,          ///< Brings labels of cells back to the returns, and finds the road surface.
   kCount,
 };
 inline constexpr int kStages = static_cast<int>(Stage::kCount);
@@ -30,14 +30,14 @@ inline constexpr std::array<std::string_view, kStages> kStageNames{
   return stage < Stage::kCount ? kStageNames[static_cast<std::size_t>(stage)] : "unknown";
 }
 
-/// Told when a stage is over. The pipeline has no clock of its own; whoever wants times brings one.
+/// Notified when a stage ends. The pipeline has no clock of its own; an observer may bring one.
 class StageObserver {
  public:
   virtual ~StageObserver() = default;
-  /// Called on the segmenting thread when it begins to work on a frame, or goes on with it.
+  /// Called on the segmenting thread when it starts or resumes work on a frame.
   virtual void resumed() noexcept TERRACUT_NONBLOCKING {}
-  /// Called on the segmenting thread right after `stage`, or a part of it. Both must be real-time
-  /// safe.
+  /// Called on the segmenting thread right after `stage`, or a part of it. Both functions must be
+  /// real-time safe.
   virtual void stage_done(Stage stage) noexcept TERRACUT_NONBLOCKING = 0;
 };
 

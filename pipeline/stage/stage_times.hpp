@@ -14,7 +14,7 @@ namespace terracut::stage {
 /// Processor time of one frame by stage, nanoseconds of the threads that worked on it.
 struct StageTimes {
   std::array<std::int64_t, kStages> stage_ns{};
-  std::int64_t segment_wall_ns = 0;  ///< While at work on the frame, by the wall clock.
+  std::int64_t segment_wall_ns = 0;  ///< Wall time of the work on the frame.
 
   StageTimes& operator+=(const StageTimes& more) noexcept {
     for (std::size_t i = 0; i < stage_ns.size(); ++i) stage_ns[i] += more.stage_ns[i];

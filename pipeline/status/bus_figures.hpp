@@ -14,47 +14,47 @@
 
 namespace terracut::status {
 
-/// What is known of the vehicle's motion, and if it is not, why.
+/// Whether the vehicle's motion is known, and if not, why.
 enum class MotionState : std::uint8_t {
   kNotAsked,
-  kWaiting,        ///< No speed and yaw rate has come since the start.
+  kWaiting,        ///< No speed and yaw rate has come yet.
   kKnown,          ///< They are coming.
-  kLost,           ///< They came, but not lately.
+  kLost,           ///< They came, but not recently.
   kBusOff,         ///< The CAN controller has taken itself off the bus.
-  kInterfaceDown,  ///< The CAN interface is down ...
-  kInterfaceGone,  ///< ... or not there.
+  kInterfaceDown,  ///< The CAN interface is down.
+  kInterfaceGone,  ///< The CAN interface is missing.
   kCount,
 };
 
-/// Stable lower_snake_case name, as in reports; "unknown" for anything else.
+/// Returns a stable lower_snake_case name, as in reports; "unknown" for anything else.
 [[nodiscard]] constexpr std::string_view to_string(MotionState state) noexcept {
   constexpr std::array<std::string_view, static_cast<std::size_t>(MotionState::kCount)> kNames{
       "not_asked", "waiting", "known", "lost", "bus_off", "interface_down", "interface_gone"};
   return state < MotionState::kCount ? kNames[static_cast<std::size_t>(state)] : "unknown";
 }
 
-/// The vehicle's motion in a live run: where it comes from, and in how many frames it was known. A
-/// plain value, part of MonitorSnapshot.
+/// The vehicle's motion in a live run: its source, and in how many frames it was known. A plain
+/// value, part of MonitorSnapshot.
 struct MotionFigures {
   static constexpr std::size_t kMaxFaults = 24;
 
-  memory::FixedText<16> bus;  ///< CAN interface; empty: the motion is not asked for.
+  memory::FixedText<16> bus;  ///< CAN interface; empty: motion is not used.
   MotionState state = MotionState::kNotAsked;
-  std::uint64_t samples = 0;        ///< Speed and yaw rate, whole and fresh.
-  std::uint64_t spare_samples = 0;  ///< More of them than are of use; left out.
-  std::int64_t last_sample_ns = 0;  ///< Kernel's stamp of the newest one; 0: none yet.
+  std::uint64_t samples = 0;        ///< Samples with valid and recent speed and yaw rate.
+  std::uint64_t spare_samples = 0;  ///< Samples beyond the rate needed; left out.
+  std::int64_t last_sample_ns = 0;  ///< Kernel's stamp of the newest sample; 0: none yet.
 
-  std::uint64_t deskewed = 0;       ///< Frames, whatever their level.
-  std::uint64_t no_ego_motion = 0;  ///< Frames that stayed as the sensor saw them.
+  std::uint64_t deskewed = 0;       ///< Frames of any level.
+  std::uint64_t no_ego_motion = 0;  ///< Frames not deskewed.
 
-  /// Stamp of the newest sample there was when a frame was handed over, less the instant of the
-  /// frame's last firing: about 0 where both clocks are one. 0 where there was none.
-  std::int64_t newest_sample_after_frame_ns = 0;  ///< Of the newest frame.
-  /// Of the frames that were deskewed.
+  /// Stamp of the newest sample when a frame was handed over, minus the instant of the frame's last
+  /// firing: about 0 if both use one clock. 0 if there was none.
+  std::int64_t newest_sample_after_frame_ns = 0;  ///< The newest frame's.
+  /// Over the deskewed frames.
   std::int64_t least_sample_after_frame_ns = 0, most_sample_after_frame_ns = 0;
   double sum_sample_after_frame_ns = 0;
 
-  std::uint32_t fault_count = 0;  ///< How many of `faults` are in use.
+  std::uint32_t fault_count = 0;  ///< The number of `faults` in use.
   std::array<NamedCount, kMaxFaults> faults{};
 
   [[nodiscard]] double mean_sample_after_frame_ns() const noexcept {
@@ -65,13 +65,13 @@ struct MotionFigures {
   }
 };
 
-/// What a live run said of itself on a CAN bus. A plain value, part of MonitorSnapshot.
+/// The health reports of a live run on a CAN bus. A plain value, part of MonitorSnapshot.
 struct HealthFigures {
-  memory::FixedText<16> bus;     ///< CAN interface; empty: nothing is sent.
+  memory::FixedText<16> bus;     ///< CAN interface; empty: no reports.
   std::uint64_t sent = 0;        ///< CAN frames.
-  std::uint64_t queue_full = 0;  ///< Left out: the bus was too busy.
-  std::uint64_t link_down = 0;   ///< Left out: the interface was down or gone.
-  std::uint64_t failed = 0;      ///< Left out for another reason.
+  std::uint64_t queue_full = 0;  ///< Not sent: the bus was too busy.
+  std::uint64_t link_down = 0;   ///< Not sent: the interface was down or missing.
+  std::uint64_t failed = 0;      ///< Not sent for another reason.
 };
 
 }  // namespace terracut::status

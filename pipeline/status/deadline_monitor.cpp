@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kSecond_ns = 1e9;
 constexpr std::size_t kRateFrames = 50;
-constexpr std::int64_t kRateWindow_ns = 5'000'000'000;  // what is older lies before a gap
-constexpr std::int64_t kStopped_ns = 1'000'000'000;     // the slowest head rotates five times in it
+constexpr std::int64_t kRateWindow_ns = 5'000'000'000;  // older frames lie before a gap
+constexpr std::int64_t kStopped_ns = 1'000'000'000;  // the slowest head rotates five times in this
 
-/// Cuts up to `wanted_ns` off `rest_ns` and returns how much it was.
+/// Takes up to `wanted_ns` off `rest_ns` and returns the amount taken.
 std::int64_t take_share(std::int64_t wanted_ns,
                         std::int64_t& rest_ns) noexcept TERRACUT_NONBLOCKING {
   const std::int64_t share_ns = std::clamp<std::int64_t>(wanted_ns, 0, rest_ns);
@@ -36,7 +36,7 @@ FrameMissCause largest_share(const FrameRecord& frame,
   share_of(FrameMissCause::kWaitingForCore) =
       take_share(frame.run_queue_wait_ns - std::max<std::int64_t>(frame.steal_ns, 0), rest_ns);
   share_of(FrameMissCause::kOwnWork) = rest_ns;
-  // The enumeration goes from us outwards, and the first of equal shares is found.
+  // Of equal shares the first is found; the enumeration starts with our own work.
   const auto largest = std::max_element(share_ns.begin(), share_ns.end());
   return static_cast<FrameMissCause>(largest - share_ns.begin());
 }
@@ -81,7 +81,7 @@ void DeadlineMonitor::judge_latency(FrameRecord& frame) noexcept TERRACUT_NONBLO
   const bool skipped = frame.level == Level::kSkipped;
   frame.missed = skipped;
   frame.cause = FrameMissCause::kOwnWork;
-  // A clock that was set back between packet and labels, or a packet without a stamp.
+  // A clock was set back between packet and labels, or the packet has no stamp.
   if (frame.info.last_packet_ns <= 0 || frame.labels_ns < frame.info.last_packet_ns) {
     ++figures.unjudged;
     return;
@@ -89,7 +89,7 @@ void DeadlineMonitor::judge_latency(FrameRecord& frame) noexcept TERRACUT_NONBLO
   const std::int64_t latency_ns = frame.labels_ns - frame.info.last_packet_ns;
   frame.missed = skipped || latency_ns > figures.deadline_ns;
   if (frame.missed) frame.cause = largest_share(frame, latency_ns);
-  if (skipped) return;  // no labels, hence no latency: it would only look like a quick frame
+  if (skipped) return;  // without labels there is no latency; 0 would look like a fast frame
   figures.latency.record(latency_ns);
   if (frame.handed_over_ns > 0) figures.wall.record(frame.labels_ns - frame.handed_over_ns);
 }
@@ -119,7 +119,7 @@ void DeadlineMonitor::record_costs(const FrameRecord& frame) noexcept TERRACUT_N
   figures.total_cpu.record(frame.decode_cpu_ns + frame.segment_cpu_ns);
   figures.segment_cpu.record(frame.segment_cpu_ns);
   for (std::size_t i = 0; i < figures.stages(); ++i) {
-    // A stage left out on a lower level must not make that stage look cheap.
+    // Frames without this stage do not count, or it would look cheap.
     if (frame.stages.stage_ns[i] > 0) figures.stage_cpu[i].record(frame.stages.stage_ns[i]);
   }
 }
@@ -130,7 +130,7 @@ void DeadlineMonitor::keep(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKI
   count_ = std::min(count_ + 1, kept_.size());
 }
 
-/// The frame judged `age` frames before the newest one; age < count_.
+/// Returns the frame judged `age` frames before the newest one; age < count_.
 const FrameRecord& DeadlineMonitor::kept_before(std::size_t age) const noexcept
     TERRACUT_NONBLOCKING {
   return kept_[(next_ + kept_.size() - 1 - age) % kept_.size()];
@@ -138,11 +138,11 @@ const FrameRecord& DeadlineMonitor::kept_before(std::size_t age) const noexcept
 
 double DeadlineMonitor::frames_per_s() const noexcept TERRACUT_NONBLOCKING {
   const auto newest_ns = static_cast<std::uint64_t>(newest().info.last_packet_ns);
-  std::int64_t least_ns = 0, most_ns = 0;  // before the newest one; skipped frames may come earlier
+  std::int64_t least_ns = 0, most_ns = 0;  // before the newest; skipped frames are judged early
   std::size_t age = 0;
   while (age < std::min(count_ - 1, kRateFrames)) {
     const auto stamp_ns = static_cast<std::uint64_t>(kept_before(age + 1).info.last_packet_ns);
-    const auto before_ns = static_cast<std::int64_t>(newest_ns - stamp_ns);  // whatever stamps say
+    const auto before_ns = static_cast<std::int64_t>(newest_ns - stamp_ns);  // wraps for odd stamps
     if (before_ns < -kRateWindow_ns || before_ns > kRateWindow_ns) break;
     least_ns = std::min(least_ns, before_ns);
     most_ns = std::max(most_ns, before_ns);

@@ -14,11 +14,11 @@
 
 namespace terracut::status {
 
-/// Judges every frame against its deadline, names the cause of a miss, and keeps the figures.
+/// Judges every frame by its deadline, names the cause of a miss, and keeps the figures.
 ///
 /// A frame's latency runs from the kernel's stamp of its last packet to its labels. The frame
-/// missed its deadline if the latency is longer, or if it was skipped. The latency is shared out
-/// in this order, each share at most what is left:
+/// missed its deadline if the latency is longer, or if it was skipped. The latency is divided in
+/// this order, each share at most the rest:
 ///
 ///   late_input         last packet -> closing packet: the sensor or the network was late
 ///   stolen_time        steal_ns
@@ -26,7 +26,8 @@ namespace terracut::status {
 ///                      the hypervisor was away in both
 ///   own_work           the rest, explained or not: nothing is excused that was not measured
 ///
-/// The largest share is the cause; of equal ones the lowest of this list, the one nearer to us.
+/// The largest share is the cause; of equal ones the lowest in this list, the one closer to our own
+/// work.
 ///
 /// Fixed memory, taken in the constructor. One thread at a time; nothing here allocates, locks,
 /// makes a system call or looks at a clock.
@@ -35,7 +36,7 @@ class DeadlineMonitor {
   struct Config {
     std::int64_t deadline_ns = 50'000'000;            ///< > 0
     std::span<const std::string_view> stage_names{};  ///< At most MonitorSnapshot::kMaxStages.
-    std::size_t kept_frames = 128;                    ///< For traces, >= 2.
+    std::size_t kept_frames = 128;                    ///< Kept for traces, >= 2.
   };
 
   DeadlineMonitor(const Config& config, memory::FixedMemory& memory);
@@ -43,21 +44,21 @@ class DeadlineMonitor {
   /// Sets frame.missed and frame.cause, counts the frame and keeps it.
   void judge(FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
 
-  /// Lets the rate of frames be 0 where the newest one is more than a second old. `now_ns`: time of
+  /// Sets the rate of frames to 0 if the newest one is more than a second old. `now_ns`: time of
   /// day.
   void look_at_rate(std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING;
 
-  /// The frame judged last; a value without stamps before the first.
+  /// Returns the frame judged last; before the first, a value without stamps.
   [[nodiscard]] const FrameRecord& newest() const noexcept TERRACUT_NONBLOCKING {
     return kept_before(0);
   }
-  /// Copies the newest frames judged, oldest first; returns how many. At most into.size() and
-  /// kept_frames.
+  /// Copies the newest frames judged, oldest first, at most into.size() and kept_frames. Returns
+  /// how many.
   std::size_t copy_newest(std::span<FrameRecord> into) const noexcept TERRACUT_NONBLOCKING;
 
-  /// The figures. judge() keeps everything that comes from frames, deadline_ns and the names of
-  /// the stages; the other fields (version, sensor, input, link, losses, threads, times, and what
-  /// is known of the CAN bus) are the caller's to fill in.
+  /// Returns the figures. judge() fills in all that comes from frames, deadline_ns and the stages'
+  /// names; the caller fills in the other fields (version, sensor, input, link, losses, threads,
+  /// times, and those of the CAN bus).
   [[nodiscard]] MonitorSnapshot& snapshot() noexcept { return *snapshot_; }
   [[nodiscard]] const MonitorSnapshot& snapshot() const noexcept { return *snapshot_; }
 
@@ -70,8 +71,8 @@ class DeadlineMonitor {
   [[nodiscard]] const FrameRecord& kept_before(std::size_t age) const noexcept TERRACUT_NONBLOCKING;
 
   MonitorSnapshot* snapshot_;
-  std::span<FrameRecord> kept_;  ///< Ring.
-  std::size_t next_ = 0;         ///< Where in kept_ the next frame goes.
+  std::span<FrameRecord> kept_;  ///< Ring buffer.
+  std::size_t next_ = 0;         ///< Index in kept_ for the next frame.
   std::size_t count_ = 0;        ///< Frames in kept_.
 };
 

@@ -8,7 +8,7 @@
 namespace terracut::status {
 namespace {
 
-/// Some 146 years: far from what overflows when times are added or subtracted.
+/// Some 146 years: times up to this can be added or subtracted without overflow.
 constexpr std::int64_t kFar_ns = std::int64_t{1} << 62;
 
 bool is_possible_histogram(const measure::LogLinearHistogram& times) noexcept {

@@ -16,7 +16,7 @@
 
 namespace terracut::status {
 
-/// Nanoseconds since 1970; 0: not known.
+/// Nanoseconds since 1970; 0: unknown.
 struct TimeOfDay {
   std::int64_t ns = 0;
 };
@@ -24,11 +24,11 @@ struct TimeOfDay {
 struct Duration {
   std::int64_t ns = 0;
 };
-/// A measured number and the range outside of which no process can have measured it.
+/// A measured number and the range of its possible values.
 struct Number {
   double value = 0, least = 0, most = 0;
 };
-/// One of several states, by their names; an index beyond them is possible for no process.
+/// One of several named states; a larger index is impossible.
 struct State {
   std::size_t index = 0;
   std::vector<std::string_view> names;
@@ -36,7 +36,7 @@ struct State {
 /// One figure for each of several names, such as causes or stages.
 template <class Each>
 struct ByName {
-  std::string_view label;  ///< What the names are of, as a label of the metric.
+  std::string_view label;  ///< The kind of the names, as a label of the metric.
   std::vector<std::pair<std::string, Each>> each;
 };
 using Counts = ByName<std::uint64_t>;
@@ -49,49 +49,50 @@ struct NotKnown {};
 using Value = std::variant<NotKnown, bool, std::uint64_t, Number, TimeOfDay, Duration, std::string,
                            State, Counts, Histogram, Histograms>;
 
-/// A figure under /metrics; without a name it is not there. Durations are seconds there.
+/// A figure under /metrics, in seconds if it is a duration; left out if it has no name.
 struct Metric {
-  std::string_view name;  ///< Ends in _total where it counts from the start of the process.
-  std::string_view help;  ///< Of the first figure of this name.
+  std::string_view name;  ///< Ends in _total if it counts from the start of the process.
+  std::string_view help;  ///< Taken from the first figure of this name.
   std::vector<std::pair<std::string_view, std::string>> labels{};
 };
 
 enum class Shown : std::uint8_t {
   kAlways,
-  kIfAny,        ///< Unless it is 0, false or empty.
-  kAlarm,        ///< As kIfAny, in the colour of an alarm.
-  kAlarmOrNone,  ///< As kAlarm, and otherwise "none".
+  kIfAny,        ///< Shown unless it is 0, false or empty.
+  kAlarm,        ///< Like kIfAny, in the colour of an alarm.
+  kAlarmOrNone,  ///< Like kAlarm, and otherwise "none".
 };
 
-/// A figure in the lines for people (figure_lines.hpp), and a histogram in the table of times,
-/// whose row `text` names; without a line it is not there.
+/// The text of a figure in the lines for people (figure_lines.hpp); for a histogram the row of the
+/// table of times. Left out if `line` is empty.
 struct Phrase {
-  std::string_view line;  ///< What the line begins with.
-  /// As for fmt: "{} packets"; of a duration "{ms}" or "{s}". It follows the phrase before after a
-  /// comma, unless it begins with a space or a colon; with a line end it begins its line anew.
+  std::string_view line;  ///< The beginning of the line.
+  /// A format for fmt: "{} packets"; for a duration "{ms}" or "{s}". It follows the previous phrase
+  /// after a comma, unless it begins with a space or a colon; if it begins with a line end, it
+  /// begins a new line.
   std::string_view text = "{}";
   Shown shown = Shown::kAlways;
 };
 
 /// A figure, and where and how it is shown.
 struct Figure {
-  std::string_view key;  ///< Of JSON, in its group, with the unit: "deadline_ms"; empty: not there.
+  std::string_view key;  ///< In its JSON group, with unit: "deadline_ms"; empty: not in JSON.
   Value value;
   Metric metric{};
   Phrase phrase{};
-  std::string group{};  ///< Of JSON: "frames", "mount.seen"; digits are an index: "threads.0".
+  std::string group{};  ///< JSON group: "frames", "mount.seen"; digits are an index: "threads.0".
 };
 
-/// Whether a process can have published this, so that whatever shows it may calculate with it.
+/// True if a process can have published this value, so that it is safe to calculate with it.
 [[nodiscard]] bool is_possible(const Value& value) noexcept;
 
-/// 0, false or empty; of times, all of them 0.
+/// True for 0, false or empty, and for times that are all 0.
 [[nodiscard]] bool is_nothing(const Value& value) noexcept;
 
-/// Whether people are shown it, in its line or in the table of times.
+/// True if the figure is shown to people, in its line or in the table of times.
 [[nodiscard]] bool is_shown(const Figure& figure) noexcept;
 
-/// Lets one function take each kind of value.
+/// Combines functions so that one visitor takes each kind of value.
 template <class... Functions>
 struct EachKind : Functions... {
   using Functions::operator()...;

@@ -15,9 +15,9 @@ namespace terracut::status {
 namespace {
 
 constexpr std::size_t kIndent = 10;
-constexpr std::size_t kComma = 1;  // may follow in each line
+constexpr std::size_t kComma = 1;  // a comma may follow in each line
 
-/// "full 98, coarse 2"; zeros only if `with_zeros`.
+/// Returns "full 98, coarse 2"; with zeros only if `with_zeros`.
 std::string text_of(const Counts& counts, bool with_zeros) {
   std::string text;
   for (const auto& [name, count] : counts.each) {
@@ -79,14 +79,14 @@ class Lines {
     text_ += fmt::format("{:<{}}", line, kIndent);
     column_ = kIndent;
   }
-  /// Breaks the line before the whole phrase or, where that is longer than a line, between words.
+  /// Breaks the line before the whole phrase or, if that is longer than a line, between words.
   void put_words(std::string_view words, bool alarms) {
     const bool fits_a_line = kIndent + words.size() < columns_;
     while (column_ + words.size() > columns_) {
       const std::size_t room = columns_ - std::min(column_, columns_);
       const std::size_t space = fits_a_line ? 0 : words.rfind(' ', room);
       const std::size_t end = space == std::string_view::npos ? 0 : space;
-      if (end == 0 && column_ == kIndent) break;  // one long word
+      if (end == 0 && column_ == kIndent) break;  // one long word is not broken
       put(words.substr(0, end), alarms);
       words.remove_prefix(end);
       words.remove_prefix(std::min(words.find_first_not_of(' '), words.size()));

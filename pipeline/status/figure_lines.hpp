@@ -11,26 +11,26 @@
 
 namespace terracut::status {
 
-/// How lines for people are drawn.
+/// The style of lines for people.
 struct LineStyle {
-  bool colours = false;  ///< ANSI escape sequences, for terminals.
-  int columns = 0;       ///< Where lines are broken; 0: nowhere.
+  bool colours = false;  ///< Uses ANSI escape sequences, for terminals.
+  int columns = 0;       ///< Column at which lines are broken; 0: never.
 };
 
-/// The phrases of the figures, lines ended by '\n':
+/// Returns the phrases of the figures as lines that end with '\n':
 ///
 ///   link      receiving on 0.0.0.0:2368, last packet 0.021 s ago, 34800 packets
 ///
-/// Only printable ASCII comes out (and the escape sequences of colours), whatever their texts hold.
-/// Histograms are left out: they are for times_table().
+/// The output is printable ASCII (and escape sequences of colours), whatever the texts hold.
+/// Histograms are left out; times_table() shows them.
 [[nodiscard]] std::string figure_lines(std::span<const Figure> figures, const LineStyle& style);
 
 [[nodiscard]] std::string in_bold(const std::string& text, const LineStyle& style);
 
-/// What comes from another process, for a terminal: other than printable ASCII becomes '?'.
+/// Makes another process's text safe for a terminal: anything but printable ASCII becomes '?'.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// Those that are not 0: "kernel_drops 7, late_frames 2"; empty where all are.
+/// Lists counts that are not 0: "kernel_drops 7, late_frames 2"; empty if all are 0.
 [[nodiscard]] std::string counts_text(std::span<const NamedCount> counts);
 
 }  // namespace terracut::status

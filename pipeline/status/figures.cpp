@@ -19,15 +19,15 @@
 namespace terracut::status {
 namespace {
 
-constexpr double kMost = 1e12;  // of a rate: a thousand times what the shortest times give
+constexpr double kMost = 1e12;  // limit of a rate: a thousand times that of the shortest times
 
-/// Of what a page holds, which may be anything: wraps instead of overflowing.
+/// Subtracts times from a page, which may have any value: wraps instead of overflowing.
 Duration between(std::int64_t from_ns, std::int64_t to_ns) noexcept {
   return {static_cast<std::int64_t>(static_cast<std::uint64_t>(to_ns) -
                                     static_cast<std::uint64_t>(from_ns))};
 }
 
-/// INT64_MAX, which no process can have published, where no whole number holds it.
+/// Converts to a whole number; INT64_MAX (never published) if it does not fit.
 std::int64_t nanoseconds(double ns) noexcept {
   return std::abs(ns) < 1e18 ? static_cast<std::int64_t>(ns) : INT64_MAX;
 }
@@ -65,7 +65,7 @@ Counts counts_of(std::string_view label, std::span<const std::uint64_t> counts) 
   for (std::size_t i = 0; i < names.size(); ++i) result.each.emplace_back(names[i], counts[i]);
   return result;
 }
-/// Of those who only look on, or all others.
+/// Returns the losses of onlookers, or all others.
 Counts losses_of(const MonitorSnapshot& f, bool of_onlookers) {
   Counts losses = counts_of("cause", f.losses_in_use());
   std::erase_if(losses.each,

@@ -12,23 +12,23 @@
 
 namespace terracut::status {
 
-/// All figures of a live run, in one table (figures.cpp): what `terracut top`, /metrics, --json and
-/// the summary at the end show, and what is checked of a status page. A figure is added by a row.
-/// They refer to `snapshot`, in which there may be anything.
+/// Returns all figures of a live run, from one table (figures.cpp): they are shown by `terracut
+/// top`, /metrics, --json and the final summary, and checked on a status page. Adding a figure
+/// means adding a row. They refer to `snapshot`, which may have any content.
 [[nodiscard]] std::vector<Figure> figures_of(const MonitorSnapshot& snapshot);
 
-/// Parts of it, which runs over files have as well.
+/// Return the parts that runs over files have as well.
 [[nodiscard]] std::vector<Figure> figures_of(const MountFigures& mount);
 [[nodiscard]] std::vector<Figure> figures_of(const frame::BlindAzimuths& blind);
 
-/// Figures that a process can have published: times and counts fit together, so that everything
-/// that shows them may calculate with them. A status page is a file that others can write to, and
-/// what is in it may be anything.
+/// True if a process can have published these figures: times and counts are consistent, so that it
+/// is safe to calculate with them. A status page is a file that others can write to and may have
+/// any content.
 [[nodiscard]] bool are_possible(const MonitorSnapshot& snapshot);
 
-/// For people, with what mends it; empty where nothing is contradicted.
+/// Explains for people a contradicted mount and how to mend it; empty if there is none.
 [[nodiscard]] std::string contradiction_text(const MountFigures& mount);
-/// For people; empty where the mount is no guess.
+/// Explains for people a guessed mount; empty if it is none.
 [[nodiscard]] std::string guess_text(const MountFigures& mount);
 
 }  // namespace terracut::status

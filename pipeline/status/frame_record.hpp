@@ -15,26 +15,25 @@ namespace terracut::status {
 
 /// How much of the method a frame got before its deadline, best first.
 enum class Level : std::uint8_t {
-  kFull,        ///< The whole method, the min-cut to its optimum.
-  kCutStopped,  ///< The min-cut stopped at its budget: the best cut so far.
+  kFull,        ///< The whole method, with the optimal min-cut.
+  kCutStopped,  ///< The min-cut was stopped at its budget; its best cut.
   kCoarse,      ///< Elevation map and adjacent points only.
-  kSkipped,     ///< No labels at all.
+  kSkipped,     ///< No labels.
   kCount,
 };
 inline constexpr std::size_t kLevels = static_cast<std::size_t>(Level::kCount);
 
-/// Whose fault a missed deadline was: what the largest share of the frame's latency went to, over
-/// all threads it passed.
+/// The cause of a missed deadline: the largest share of the frame's latency over all its threads.
 enum class FrameMissCause : std::uint8_t {
-  kOwnWork,         ///< Our computing, and everything that nothing below explains.
+  kOwnWork,         ///< Our computing, and anything the other causes do not explain.
   kWaitingForCore,  ///< Ready to run, but the core was given to others.
-  kStolenTime,      ///< The hypervisor ran something else on our core.
-  kLateInput,       ///< The packet that shows that the frame is over came late.
+  kStolenTime,      ///< The hypervisor gave our core to others.
+  kLateInput,       ///< The packet that shows the end of the frame was late.
   kCount,
 };
 inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCause::kCount);
 
-/// Stable lower_snake_case names, as in reports; "unknown" for anything else.
+/// Return stable lower_snake_case names, as in reports; "unknown" for anything else.
 [[nodiscard]] constexpr std::string_view to_string(Level level) noexcept {
   constexpr std::array<std::string_view, kLevels> kNames{"full", "cut_stopped", "coarse",
                                                          "skipped"};
@@ -46,38 +45,37 @@ inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCau
   return cause < FrameMissCause::kCount ? kNames[static_cast<std::size_t>(cause)] : "unknown";
 }
 
-/// All that is known of one frame: filled on its way, from the first packet to the last report, by
-/// the threads it passes; judged at the end (pipeline/status/deadline_monitor.hpp). Times of day
-/// are CLOCK_REALTIME like the kernel's stamps of packets; 0 means "not known". Trivially copyable,
-/// no thread contract of its own.
+/// All facts about one frame, filled by the threads it passes from its first packet to the last
+/// report, and judged at the end (pipeline/status/deadline_monitor.hpp). Times of day are
+/// CLOCK_REALTIME like the kernel's packet stamps; 0 means "unknown". Trivially copyable, no thread
+/// contract of its own.
 struct FrameRecord {
-  frame::FrameInfo info;  ///< What the decoder knows: number, packets' stamps, returns, losses.
+  frame::FrameInfo info;  ///< From the decoder: number, packets' stamps, returns, losses.
 
-  std::int64_t closing_packet_ns = 0;  ///< Of the packet that showed that the frame is over.
-  std::int64_t handed_over_ns = 0;     ///< Decoded, and given to the segmenting thread.
+  std::int64_t closing_packet_ns = 0;  ///< Of the packet that showed the end of the frame.
+  std::int64_t handed_over_ns = 0;     ///< When the decoded frame went to the segmenting thread.
   std::int64_t segment_begin_ns = 0;
-  std::int64_t labels_ns = 0;  ///< Labels handed out; when it was given up if skipped.
+  std::int64_t labels_ns = 0;  ///< When labels were handed out; if skipped, when it was given up.
 
-  /// Processor time of the threads that did it.
+  /// The processor time of the work on it.
   std::int64_t decode_cpu_ns = 0;   ///< All packets of the frame.
-  stage::StageTimes stages;         ///< By stage.
-  std::int64_t ahead_cpu_ns = 0;    ///< Of the stages, while the frame was still arriving.
-  std::int64_t segment_cpu_ns = 0;  ///< All stages and what lies between them.
+  stage::StageTimes stages;         ///< Indexed by stage.
+  std::int64_t ahead_cpu_ns = 0;    ///< Of the stages, while the frame was arriving.
+  std::int64_t segment_cpu_ns = 0;  ///< Of all stages and the work between them.
 
-  /// From the last packet to the labels, of the frame's threads.
+  /// Of the frame's threads, from the last packet to the labels.
   std::int64_t run_queue_wait_ns = 0;
-  /// Stolen from the machine around that, where the deadline was missed; else 0.
+  /// Stolen from the machine around that time if the deadline was missed; else 0.
   std::int64_t steal_ns = 0;
 
   stage::SegmentationReport segmentation;
   Level level = Level::kFull;
-  std::uint8_t stages_ahead = 0;  ///< So many of the first stages were over at hand-over.
+  std::uint8_t stages_ahead = 0;  ///< The number of first stages done at hand-over.
 
-  bool missed = false;  ///< Set by DeadlineMonitor::judge.
-  FrameMissCause cause =
-      FrameMissCause::kOwnWork;  ///< Set by judge; means something only if missed.
+  bool missed = false;                              ///< Set by DeadlineMonitor::judge.
+  FrameMissCause cause = FrameMissCause::kOwnWork;  ///< Set by judge; valid only if missed.
 
-  /// Processor time of the stages after the last packet of the frame.
+  /// Returns the processor time of the stages after the frame's last packet.
   [[nodiscard]] std::int64_t after_frame_cpu_ns() const noexcept {
     return stages.sum_ns() - ahead_cpu_ns;
   }

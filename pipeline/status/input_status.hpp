@@ -14,22 +14,22 @@
 
 namespace terracut::status {
 
-/// What came in, as of the newest look of the receiving thread.
+/// The input as of the receiving thread's last look.
 struct InputState {
   net::DatagramAccount account;  ///< Since labelling began.
   net::LinkState link = net::LinkState::kUnknown;
   std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
-  /// Datagrams that came, or were dropped, before labelling began; none of them is in `account`.
+  /// Datagrams that came, or were dropped, before labelling began; not in `account`.
   std::uint64_t before_labelling = 0;
   frame::BlindAzimuths blind;
 };
 
-/// Keeps what the figures of a live run tell of its input: where each datagram went, whether the
-/// sensor is heard, whether its head rotates, where it is blind. One thread, without a deadline.
+/// Keeps the figures of a live run's input: where each datagram went, whether the sensor is heard,
+/// whether its head rotates, where it is blind. One thread, without a deadline.
 class InputStatus {
  public:
-  /// Shows `input` in `figures`, as of figures.taken_ns. Returns what there is to say to people
-  /// because it has changed (LinkNews); mostly nothing.
+  /// Shows `input` in `figures`, as of figures.taken_ns. Returns news for people if something has
+  /// changed (LinkNews); usually empty.
   [[nodiscard]] std::string show(const InputState& input, MonitorSnapshot& figures);
 
  private:

@@ -8,12 +8,12 @@
 
 namespace terracut::status {
 
-/// What there is to say when a run's sensor falls silent, its interface goes away, its head stops,
-/// or what was wrong is over; and the silences of a run, counted. One thread; looks at no clock.
+/// Reports when a run's sensor falls silent, its interface goes away, its head stops, or such
+/// trouble ends, and counts a run's silences. One thread; looks at no clock.
 class LinkNews {
  public:
-  /// `figures` as of now, whose `silences` and `silent_ns` are filled in. A sentence where
-  /// something has changed since the last look, else nothing.
+  /// Fills in `silences` and `silent_ns` of the present `figures`. Returns a sentence if something
+  /// has changed since the last look, else an empty text.
   [[nodiscard]] std::string look(MonitorSnapshot& figures);
 
  private:
@@ -22,9 +22,9 @@ class LinkNews {
   [[nodiscard]] static Trouble trouble_of(const MonitorSnapshot& figures) noexcept;
 
   Trouble trouble_ = Trouble::kNone;
-  std::int64_t since_ns_ = 0;  ///< Of this trouble.
+  std::int64_t since_ns_ = 0;  ///< Start of the present trouble.
   std::uint64_t silences_ = 0;
-  std::int64_t silent_ns_ = 0;  ///< Those that are over.
+  std::int64_t silent_ns_ = 0;  ///< Sum of past silences.
 };
 
 }  // namespace terracut::status

@@ -15,7 +15,7 @@ NamedCount rejected(frame::Reject reason, const frame::LossCounters& losses) {
           losses.rejected[static_cast<std::size_t>(reason)]};
 }
 
-/// Behind the `count` that `all` holds.
+/// Appends after the first `count` elements of `all`.
 template <std::size_t Size>
 void append(std::span<const NamedCount> more, std::array<NamedCount, Size>& all,
             std::uint32_t& count) {
@@ -65,7 +65,7 @@ std::vector<NamedCount> outcomes_of(const net::DatagramAccount& account) {
                                    {"let_go", account.let_go}};
   for (std::size_t i = 0; i < frame::kRejectReasons; ++i) {
     const auto reason = static_cast<frame::Reject>(i);
-    if (reason == frame::Reject::kDeviceInfo) continue;  // counted above: nothing is lost
+    if (reason == frame::Reject::kDeviceInfo) continue;  // counted above; nothing is lost
     outcomes.push_back(rejected(reason, account.losses));
   }
   return outcomes;

@@ -14,25 +14,28 @@
 
 namespace terracut::status {
 
-/// Every cause of loss under its name in reports ("network_gap_packets", "rejected_wrong_size"),
-/// those that did not happen included. Allocates, as all here: not for real-time threads.
+/// Returns every cause of loss by its name in reports ("network_gap_packets",
+/// "rejected_wrong_size"), zeros included. Allocates, like all functions here: not for real-time
+/// threads.
 [[nodiscard]] std::vector<NamedCount> causes_of(const frame::LossCounters& losses);
 
-/// What a live source did not pass on, or not as it should be; kernel_drops is among the other
-/// losses.
+/// Returns what a live source did not pass on, or passed on with a fault; kernel_drops is among the
+/// other losses.
 [[nodiscard]] std::vector<NamedCount> causes_of(const net::ReceiveCounters& counters);
 
-/// Whether a cause counts what a client that looks on did not get, of the page, of Foxglove's door
-/// or of /metrics: nothing is lost between sensor and label, nor in what is recorded or handed on.
+/// True if a cause counts what a viewing client missed (of the page, Foxglove or /metrics): nothing
+/// is then lost between sensor and label, in recordings or in outputs.
 [[nodiscard]] bool is_of_onlookers(std::string_view cause) noexcept;
 
-/// Where the datagrams of a live run went. With those in doubt they are what was received.
+/// Returns where the datagrams of a live run went. Together with those in doubt they are all
+/// received.
 [[nodiscard]] std::vector<NamedCount> outcomes_of(const net::DatagramAccount& account);
 
-/// Adds causes to the figures that watchers see. std::length_error when there is no room.
+/// Adds causes to the published figures. std::length_error if there is no room.
 void show_losses(std::span<const NamedCount> causes, MonitorSnapshot& figures);
 
-/// Shows what was received and where it went. std::length_error when there is no room.
+/// Shows how many datagrams were received and where they went. std::length_error if there is no
+/// room.
 void show_datagrams(const net::DatagramAccount& account, MonitorSnapshot& figures);
 
 }  // namespace terracut::status

@@ -20,16 +20,16 @@
 
 namespace terracut::status {
 
-/// What is known of the sensor's link.
+/// The state of the sensor's link.
 enum class LinkState : std::uint8_t {
   kWaiting,        ///< No packet has come yet.
   kReceiving,      ///< Packets are coming.
-  kSilent,         ///< Packets came, but none lately.
+  kSilent,         ///< Packets came, but not recently.
   kInterfaceGone,  ///< The network interface was removed or is down.
   kCount,
 };
 
-/// Stable lower_snake_case name, as in reports; "unknown" for anything else.
+/// Returns a stable lower_snake_case name, as in reports; "unknown" for anything else.
 [[nodiscard]] constexpr std::string_view to_string(LinkState state) noexcept {
   constexpr std::array<std::string_view, static_cast<std::size_t>(LinkState::kCount)> kNames{
       "waiting", "receiving", "silent", "interface_gone"};
@@ -40,48 +40,48 @@ enum class LinkState : std::uint8_t {
 struct ThreadStatus {
   memory::FixedText<16> name;
   memory::FixedText<32> scheduling;                  ///< What was granted: "FIFO 80, core 2".
-  std::uint64_t minor_faults = 0, major_faults = 0;  ///< Page faults since it was started up.
+  std::uint64_t minor_faults = 0, major_faults = 0;  ///< Page faults since its start-up.
 };
 
-/// Everything a watcher can know of a running process, in one piece without pointers: it is copied
-/// whole into the status page, and everything that shows figures (terracut top, /metrics, the
-/// summary at exit) reads this alone. It carries the names of what it counts, so that it can be
-/// read by another build. About 350 KiB, nearly all of it histogram buckets.
+/// All that a watcher can know of a running process, in one piece without pointers: it is copied
+/// whole into the status page, and all displays (terracut top, /metrics, the final summary) read
+/// only this. It contains the names of what it counts, so that another build can read it. About 350
+/// KiB, mostly histogram buckets.
 ///
-/// A plain value. A reader must expect any bytes in it where it came from another process; the
-/// accessors below and to_string are safe then.
+/// A plain value. If it comes from another process it may have any bytes; the accessors below and
+/// to_string are safe then.
 struct MonitorSnapshot {
-  /// To be raised with every change of what lies where.
+  /// To be increased with every change of the layout.
   static constexpr std::uint32_t kLayout = 9;
   static constexpr std::size_t kMaxLosses = 64;
   static constexpr std::size_t kMaxOutcomes = 24;
   static constexpr std::size_t kMaxThreads = 4;
   static constexpr std::size_t kMaxStages = stage::kStages;
 
-  memory::FixedText<24> version;  ///< Of the program.
+  memory::FixedText<24> version;  ///< The program's version.
   memory::FixedText<96> sensor;   ///< Model, spin rate, return mode.
   memory::FixedText<64> input;    ///< Where packets come from: "0.0.0.0:2368".
-  std::int64_t started_ns = 0;    ///< CLOCK_REALTIME, as all times of day here.
+  std::int64_t started_ns = 0;    ///< CLOCK_REALTIME, like all times of day here.
   std::int64_t taken_ns = 0;      ///< When this snapshot was taken.
   std::int64_t deadline_ns = 0;
-  std::uint8_t interrupted = 0;  ///< 1: ended before the time that was asked for was over.
+  std::uint8_t interrupted = 0;  ///< 1: ended before the requested time was over.
 
   LinkState link = LinkState::kWaiting;
-  std::uint64_t silences = 0;       ///< Times no packet came for a second or longer.
-  std::int64_t silent_ns = 0;       ///< All of these together.
-  std::uint8_t head_stands = 0;     ///< 1: packets come, but say that the head does not rotate.
-  std::uint64_t packets = 0;        ///< Datagrams taken in, of those received.
-  std::int64_t last_packet_ns = 0;  ///< Kernel's stamp of the newest one.
-  /// Head azimuths between which the sensor sends nothing, [0, 36000), perhaps across 0; the same
-  /// where no such sector is known.
+  std::uint64_t silences = 0;       ///< How often no packet came for a second or longer.
+  std::int64_t silent_ns = 0;       ///< Duration of all silences.
+  std::uint8_t head_stands = 0;     ///< 1: packets come, but their head does not rotate.
+  std::uint64_t packets = 0;        ///< Datagrams accepted, of those received.
+  std::int64_t last_packet_ns = 0;  ///< Kernel's stamp of the newest packet.
+  /// Head azimuths between which the sensor sends nothing, [0, 36000), perhaps across 0; equal if
+  /// no such sector is known.
   std::int32_t blind_from_cdeg = 0, blind_to_cdeg = 0;
 
-  std::uint64_t frames = 0;    ///< Judged, whatever their level.
-  std::uint64_t returns = 0;   ///< In these frames.
-  std::uint64_t unjudged = 0;  ///< Of these frames, those whose stamps give no latency.
-  double frames_per_s = 0;  ///< Of the last few seconds, by the packets' stamps; 0: they stopped.
+  std::uint64_t frames = 0;    ///< Judged frames of any level.
+  std::uint64_t returns = 0;   ///< Returns in these frames.
+  std::uint64_t unjudged = 0;  ///< Frames whose stamps give no latency.
+  double frames_per_s = 0;     ///< In the last few seconds, by packet stamps; 0: they stopped.
   std::array<std::uint64_t, kLevels> levels{};
-  std::array<std::uint64_t, kMissCauses> misses{};  ///< By cause.
+  std::array<std::uint64_t, kMissCauses> misses{};  ///< Indexed by cause.
   std::uint64_t consecutive_misses = 0;             ///< Up to the newest frame.
   std::uint64_t longest_run_of_misses = 0;
 
@@ -89,22 +89,22 @@ struct MonitorSnapshot {
   MotionFigures motion;
   HealthFigures health;
 
-  /// Datagrams that came, or were dropped, while the sensor, its table and its mount were found:
-  /// none is among `packets` or `received`.
+  /// Datagrams that came, or were dropped, before labelling began; not among `packets` or
+  /// `received`.
   std::uint64_t before_labelling = 0;
-  std::uint64_t received = 0;  ///< Datagrams the kernel handed over: `in_doubt` and all `outcomes`.
-  std::uint64_t in_doubt = 0;  ///< Whose place in the stream is not known yet.
-  std::uint32_t outcome_count = 0;  ///< How many of `outcomes` are in use.
+  std::uint64_t received = 0;       ///< Datagrams from the kernel: `in_doubt` and all `outcomes`.
+  std::uint64_t in_doubt = 0;       ///< Those whose place in the stream is not known yet.
+  std::uint32_t outcome_count = 0;  ///< The number of `outcomes` in use.
   std::array<NamedCount, kMaxOutcomes> outcomes{};
 
-  std::uint32_t loss_count = 0;  ///< How many of `losses` are in use.
+  std::uint32_t loss_count = 0;  ///< The number of `losses` in use.
   std::array<NamedCount, kMaxLosses> losses{};
   std::uint32_t thread_count = 0;
   std::array<ThreadStatus, kMaxThreads> threads{};
 
   measure::LogLinearHistogram latency;      ///< Wall time from the last packet to the labels.
   measure::LogLinearHistogram wall;         ///< Wall time from the hand-over to the labels.
-  measure::LogLinearHistogram total_cpu;    ///< Processor time, decoding and segmenting together.
+  measure::LogLinearHistogram total_cpu;    ///< Processor time, decoding and segmenting.
   measure::LogLinearHistogram decode_cpu;   ///< Processor time.
   measure::LogLinearHistogram segment_cpu;  ///< Processor time.
   std::uint32_t stage_count = 0;
@@ -117,7 +117,7 @@ struct MonitorSnapshot {
   [[nodiscard]] std::span<const NamedCount> losses_in_use() const noexcept {
     return std::span(losses).first(std::min<std::size_t>(loss_count, losses.size()));
   }
-  /// What became of the datagrams, each of which is in one of these.
+  /// Returns what happened to the datagrams; each is in one of these.
   [[nodiscard]] std::span<const NamedCount> outcomes_in_use() const noexcept {
     return std::span(outcomes).first(std::min<std::size_t>(outcome_count, outcomes.size()));
   }

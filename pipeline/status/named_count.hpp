@@ -8,7 +8,7 @@
 
 namespace terracut::status {
 
-/// A count under the name of what it counts.
+/// A count with the name of what it counts.
 struct NamedCount {
   memory::FixedText<40> name;
   std::uint64_t count = 0;

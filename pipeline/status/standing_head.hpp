@@ -9,8 +9,8 @@
 
 namespace terracut::status {
 
-/// Whether the sensor's head stands: packets come, all of which the decoder refuses because they
-/// say so, and no frame will come out of them. No thread contract of its own.
+/// Tells whether the sensor's head stands still: packets come, but the decoder rejects all of them
+/// for this reason, and no frame can follow. No thread contract of its own.
 class StandingHead {
  public:
   [[nodiscard]] bool is_standing(const net::DatagramAccount& account) noexcept {

@@ -10,7 +10,8 @@
 
 namespace terracut::status {
 
-/// The histograms among the figures that have a phrase, as a table in milliseconds, a row each:
+/// Returns the histograms among the figures that have a phrase as a table in milliseconds, a row
+/// each:
 ///
 ///   ms                       p50       p90       p99     p99.9       max
 ///   decode                 1.613     1.801     2.195     2.195     2.195

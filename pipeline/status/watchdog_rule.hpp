@@ -9,12 +9,12 @@
 
 namespace terracut::status {
 
-/// Whether a service manager's watchdog may be fed. Look several times within its time, and at
+/// Decides whether to feed a service manager's watchdog. Look several times within its time, and at
 /// least a few frames apart.
 ///
-/// Since the last look frames met their deadline, and at least as many as missed it; or no packet
-/// came at all, or the sensor's head stands: a sensor that is off is not mended by starting the
-/// program anew.
+/// It is fed if since the last look at least as many frames met their deadline as missed it; or if
+/// no packet came at all, or the sensor's head stands: restarting the program does not mend a
+/// sensor that is off.
 class WatchdogRule {
  public:
   [[nodiscard]] bool may_feed(const MonitorSnapshot& figures) noexcept {
@@ -26,7 +26,7 @@ class WatchdogRule {
     const std::uint64_t missed = now.missed - before.missed;
     if (now.packets == before.packets && missed == 0) return true;
     if (figures.head_stands) return true;
-    // A frame that was skipped and has no stamp is counted as missed and as unjudged.
+    // A skipped frame without a stamp counts as missed and as unjudged.
     const std::uint64_t not_in_time = missed + (now.unjudged - before.unjudged);
     const std::uint64_t frames = now.frames - before.frames;
     return frames > not_in_time && frames - not_in_time >= missed;

@@ -23,17 +23,17 @@ namespace {
 
 constexpr std::size_t kMostPeers = 64;
 constexpr std::uint64_t kListenerEvent = kMostPeers;
-/// So that a flood of connections does not keep frames waiting.
+/// Keeps a flood of connections from delaying frames.
 constexpr int kAcceptsAtOnce = 32;
 constexpr std::int64_t kPauseAfterFailure_ns = 1'000'000'000;
 
-/// A machine that is gone without a word is noticed after 25 s even when no frames come.
+/// Makes the system notice within 25 s that a machine is gone without a word, even without frames.
 void set_tcp_options(int socket) noexcept {
   const auto set = [socket](int level, int option, int value) {
     ::setsockopt(socket, level, option, &value, sizeof value);
   };
   set(IPPROTO_TCP, TCP_NODELAY,
-      1);  // a frame's last bytes shall not wait for the first ones' answer
+      1);  // a frame's last bytes must not wait for the first ones' acknowledgement
   set(SOL_SOCKET, SO_KEEPALIVE, 1);
   set(IPPROTO_TCP, TCP_KEEPIDLE, 10);
   set(IPPROTO_TCP, TCP_KEEPINTVL, 5);
@@ -92,7 +92,7 @@ FrameStreamServer::FrameStreamServer(const FrameStreamConfig& config, ListeningS
   const files::OwnedDescriptor trial(
       ::socket(is_unix ? AF_UNIX : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   send_buffer_ = send_buffer_grant(wanted, request_send_buffer(trial.get(), wanted));
-  // TCP finds a size of its own, up to net.ipv4.tcp_wmem, unless it is given one.
+  // Unless it is given one, TCP finds a size of its own, up to net.ipv4.tcp_wmem.
   if (is_unix || send_buffer_.granted) send_buffer_bytes_ = wanted;
 }
 
@@ -116,7 +116,7 @@ bool FrameStreamServer::serve(const LabelledFrame& frame) noexcept {
       std::transform(frame.points.begin(), frame.points.end(), slots_[slot].room.begin(),
                      wire_point);
       slots_[slot].points = frame.points.size();
-      ++slots_[slot].holders;  // until the last reader has been looked at
+      ++slots_[slot].holders;  // held until the last reader has been looked at
     }
     begin(peer, slot, frame);
   }
@@ -155,7 +155,7 @@ void FrameStreamServer::handle_events() noexcept {
       give(peer);
     }
   }
-  // Last, so that no event above can mean a reader that has just got the place of another.
+  // Comes last, so that no event above can mean a new reader in another's place.
   if (somebody_knocks) let_in();
 }
 
@@ -169,7 +169,7 @@ void FrameStreamServer::let_in() noexcept {
     }
     if (errno == EAGAIN || errno == EWOULDBLOCK) return;
     if (errno == EINTR || errno == ECONNABORTED || errno == EPROTO) continue;
-    // No descriptor or memory left: who knocks goes on knocking, and would keep the caller awake.
+    // Descriptors or memory are used up: the pending connection would keep waking the caller.
     figures_.accept_error = errno;
     ++figures_.accept_failures;
     watch_listener(false);
@@ -246,7 +246,7 @@ void FrameStreamServer::give(Peer& peer) noexcept {
     ::msghdr message{};
     message.msg_iov = parts.data();
     message.msg_iovlen = parts.size();
-    // MSG_NOSIGNAL: that a reader has gone is no reason for SIGPIPE to end the process.
+    // MSG_NOSIGNAL: a reader's end must not end the process by SIGPIPE.
     const ::ssize_t given = ::sendmsg(peer.socket.get(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (given < 0) {
       if (errno == EINTR) continue;
@@ -275,7 +275,8 @@ void FrameStreamServer::part_with(Peer& peer, std::uint64_t& counter) noexcept {
     ++figures_.cut_short;
     release(peer);
   }
-  // By name, and with an end to the connection: a child process may hold copies of the descriptor.
+  // Ends both the registration and the connection: a child process may hold copies of the
+  // descriptor.
   watch(peer, EPOLL_CTL_DEL, false);
   ::shutdown(peer.socket.get(), SHUT_RDWR);
   peer.socket.close();
@@ -283,7 +284,7 @@ void FrameStreamServer::part_with(Peer& peer, std::uint64_t& counter) noexcept {
   peer.figures.connected = false;
 }
 
-/// What a reader sends is never read; that it ends its sending is an event all the same.
+/// Ignores what a reader sends; the end of its sending is still an event.
 void FrameStreamServer::watch(Peer& peer, int operation, bool for_room) noexcept {
   ::epoll_event event{};
   event.events = EPOLLRDHUP | (for_room ? EPOLLOUT : 0U);

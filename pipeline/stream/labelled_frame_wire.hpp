@@ -13,14 +13,14 @@
 #include "pipeline/points/labelled_point.hpp"
 #include "pipeline/status/frame_record.hpp"
 
-/// A labelled frame as it goes over a socket (docs/reference/labelled_stream.md): one header, then
-/// the points, then the next frame's header. Little-endian, without padding, used as it lies.
+/// The wire format of labelled frames on a socket (docs/reference/labelled_stream.md): a header,
+/// the points, then the next frame's header. Little-endian, without padding, used in place.
 namespace terracut::stream {
 
 static_assert(std::endian::native == std::endian::little, "the records below are sent as they lie");
 
-/// One return on the wire. `label` is the SemanticKITTI class as in the .label files
-/// (label_sink.hpp); the rest is as in points::LabelledPoint.
+/// One return on the wire. `label` is its SemanticKITTI class as in .label files (label_sink.hpp);
+/// the rest is as in points::LabelledPoint.
 struct WirePoint {
   float x_m = 0, y_m = 0, z_m = 0;
   std::uint8_t intensity = 0;
@@ -49,31 +49,30 @@ inline constexpr std::uint32_t kFrameComplete = 1U << 0;  ///< Every firing was 
 inline constexpr std::uint32_t kFrameLate = 1U << 1;      ///< Labelled after its deadline.
 /// Deskewed: points lie where they were at one instant of the frame.
 inline constexpr std::uint32_t kFrameDeskewed = 1U << 2;
-/// It was to be deskewed but the motion is not known: points lie where the sensor saw them.
+/// To be deskewed, but without known motion: points lie where the sensor saw them.
 inline constexpr std::uint32_t kFrameNoEgoMotion = 1U << 3;
 
 inline constexpr std::array<char, 4> kFrameMagic{'T', 'C', 'L', 'T'};
-/// Grows only when readers of the version before could no longer read. New fields go to the end of
-/// the header or of the point, and readers skip what header_bytes and point_bytes say is there.
+/// Increases only if readers of the last version could no longer read. New fields go to the end of
+/// the header or of the point; readers skip as header_bytes and point_bytes say.
 inline constexpr std::uint16_t kFrameWireVersion = 1;
-/// What a reader need not fear to be exceeded: six times a Ruby128's dual-return frame.
+/// No frame has more points: six times a Ruby128's dual-return frame.
 inline constexpr std::uint32_t kMostFramePoints = 4'194'304;
 
 struct FrameWireHeader {
   std::array<char, 4> magic = kFrameMagic;
   std::uint16_t version = kFrameWireVersion;
   std::uint16_t header_bytes = 56;
-  std::uint32_t number =
-      0;  ///< Of the frame, 0.. since the sender's start; gaps are frames without.
+  std::uint32_t number = 0;  ///< Frame number since the start; gaps are frames without points.
   std::uint32_t points = 0;
-  std::int64_t first_packet_ns = 0;  ///< CLOCK_REALTIME, kernel's stamps.
+  std::int64_t first_packet_ns = 0;  ///< CLOCK_REALTIME, the kernel's stamp.
   std::int64_t last_packet_ns = 0;
-  std::int64_t labels_ns = 0;  ///< CLOCK_REALTIME; when the labels were there. 0: not known.
+  std::int64_t labels_ns = 0;  ///< CLOCK_REALTIME when the labels were ready. 0: unknown.
   std::uint16_t point_bytes = sizeof(WirePoint);
-  std::uint8_t sensor = 0;   ///< SensorRow::stream_number; 0: not known.
+  std::uint8_t sensor = 0;  ///< A StreamedSensor.
   std::uint8_t level = 0;    ///< status::Level: 0 full, 1 cut stopped, 2 coarse, 3 skipped.
-  std::uint32_t flags = 0;   ///< kFrameComplete, ...
-  std::uint32_t missed = 0;  ///< Turns this reader was too slow for, since it connected.
+  std::uint32_t flags = 0;   ///< Bits such as kFrameComplete.
+  std::uint32_t missed = 0;  ///< Frames this reader missed since it connected.
   std::uint32_t reserved = 0;
 
   bool operator==(const FrameWireHeader&) const = default;
@@ -87,7 +86,7 @@ static_assert(offsetof(FrameWireHeader, header_bytes) == 6 &&
               offsetof(FrameWireHeader, point_bytes) == 40 &&
               offsetof(FrameWireHeader, sensor) == 42 && offsetof(FrameWireHeader, level) == 43 &&
               offsetof(FrameWireHeader, flags) == 44 && offsetof(FrameWireHeader, missed) == 48);
-/// Of a frame for a reader that has missed none.
+/// Makes the header of a frame for a reader that has missed none.
 [[nodiscard]] constexpr FrameWireHeader header_of(const status::FrameRecord& record,
                                                   sensor::SensorModel sensor, bool late,
                                                   std::size_t points) noexcept {

@@ -29,7 +29,7 @@ tl::unexpected<Error> refused(const StreamAddress& address) {
                           std::strerror(reason), advice));
 }
 
-/// True when the file is a Unix socket whose process is gone.
+/// True if the file is a Unix socket whose process is gone.
 Expected<bool> left_behind(const StreamAddress& address) {
   struct ::stat status {};
   if (::lstat(address.unix_path.c_str(), &status) != 0) {
@@ -71,7 +71,7 @@ Expected<ListeningSocket> ListeningSocket::open(const StreamAddress& address, ::
       ::socket(family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!descriptor) return refused(address);
   if (!address.is_unix()) {
-    // Connections of a former run that the system still remembers are no hindrance.
+    // Connections of an earlier run that the system still remembers must not block the address.
     const int on = 1;
     ::setsockopt(descriptor.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   }
@@ -80,7 +80,7 @@ Expected<ListeningSocket> ListeningSocket::open(const StreamAddress& address, ::
   ListeningSocket listening(std::move(descriptor), address);
   if (address.is_unix()) {
     struct ::stat status {};
-    // Nobody is connected in between: it does not listen yet.
+    // Nobody can connect in between: the socket does not listen yet.
     if (::lstat(address.unix_path.c_str(), &status) != 0 ||
         ::chmod(address.unix_path.c_str(), unix_mode) != 0) {
       return refused(address);

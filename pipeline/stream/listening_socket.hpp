@@ -10,14 +10,13 @@
 
 namespace terracut::stream {
 
-/// A stream socket that listens, non-blocking. The file of a Unix socket goes with it.
+/// A non-blocking stream socket that listens. It removes the file of a Unix socket at the end.
 class ListeningSocket {
  public:
-  /// A Unix socket's file that nobody listens on any more, left behind by kill -9, is replaced;
-  /// anything else in its place is left alone. kNotFound: no such address on this machine, or no
-  /// such folder. kUnreadable: address or path taken, or another refusal of the system.
-  /// `unix_mode`: rights of a Unix socket's file, whatever the umask; who may write to it may
-  /// connect.
+  /// Replaces a Unix socket's file on which nobody listens, as kill -9 leaves one; anything else at
+  /// that path is not touched. kNotFound: no such address on this machine, or no such folder.
+  /// kUnreadable: address or path taken, or another refusal of the system. `unix_mode` are the
+  /// rights of a Unix socket's file, whatever the umask; whoever may write to it may connect.
   [[nodiscard]] static Expected<ListeningSocket> open(const StreamAddress& address,
                                                       ::mode_t unix_mode = kOwnerAndGroup);
   static constexpr ::mode_t kOwnerAndGroup = 0660;
@@ -27,7 +26,7 @@ class ListeningSocket {
   ~ListeningSocket() { close(); }
 
   [[nodiscard]] int descriptor() const noexcept { return socket_.get(); }
-  /// With the port the system chose, where it was asked to.
+  /// Returns the address, with the port the system chose if asked to.
   [[nodiscard]] const StreamAddress& address() const noexcept { return address_; }
 
  private:
@@ -37,7 +36,7 @@ class ListeningSocket {
 
   files::OwnedDescriptor socket_;
   StreamAddress address_;
-  ::dev_t device_ = 0;  ///< Of the Unix socket's file, which may have been replaced since.
+  ::dev_t device_ = 0;  ///< Identify the Unix socket's file, which may have been replaced since.
   ::ino_t inode_ = 0;
 };
 

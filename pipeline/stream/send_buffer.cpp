@@ -19,7 +19,7 @@ std::size_t request_send_buffer(int socket, std::size_t bytes) noexcept {
   if (::setsockopt(socket, SOL_SOCKET, SO_SNDBUFFORCE, &asked, sizeof asked) != 0) {
     ::setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &asked, sizeof asked);
   }
-  int doubled = 0;  // the kernel adds as much again for its own bookkeeping
+  int doubled = 0;  // the kernel doubles it for its bookkeeping
   ::socklen_t size = sizeof doubled;
   ::getsockopt(socket, SOL_SOCKET, SO_SNDBUF, &doubled, &size);
   return static_cast<std::size_t>(std::max(doubled, 0)) / 2;

@@ -15,27 +15,27 @@ namespace terracut::stream {
 
 inline constexpr std::uint32_t kLoopbackAddress = 0x7F00'0001;  ///< 127.0.0.1
 
-/// Where to serve others: as parse_ipv4_endpoint(), but a port alone is for this machine's
-/// programs.
+/// Parses an address to serve at, as parse_ipv4_endpoint() does, but a port alone is only for this
+/// machine's programs.
 [[nodiscard]] Expected<net::Ipv4Endpoint> parse_serving_endpoint(std::string_view text);
 
-/// Where a stream of frames is to be had: TCP over IPv4, or a Unix socket.
+/// The address of a stream of frames: TCP over IPv4, or a Unix socket.
 struct StreamAddress {
-  net::Ipv4Endpoint tcp{kLoopbackAddress, 0};  ///< Port 0: one the system chooses.
-  std::string unix_path{};                     ///< If not empty, this instead.
+  net::Ipv4Endpoint tcp{kLoopbackAddress, 0};  ///< Port 0: chosen by the system.
+  std::string unix_path{};                     ///< Used instead of `tcp` if not empty.
 
   [[nodiscard]] bool is_unix() const noexcept { return !unix_path.empty(); }
   bool operator==(const StreamAddress&) const = default;
 };
 
-/// "192.168.3.10:7447"; "7447" or ":7447" on the loopback address; "0.0.0.0:7447" on every address
-/// of this machine; a text with a slash, "/run/terracut/frames" or "./frames", is a Unix socket's
-/// path. kInvalidArgument, with what was expected, for anything else.
+/// Parses "192.168.3.10:7447"; "7447" or ":7447" on the loopback address; "0.0.0.0:7447" on every
+/// address of this machine; a text with a slash, "/run/terracut/frames" or "./frames", as a Unix
+/// socket's path. kInvalidArgument, with what was expected, for anything else.
 [[nodiscard]] Expected<StreamAddress> parse_stream_address(std::string_view text);
 
 [[nodiscard]] std::string to_string(const StreamAddress& address);
 
-/// As the system's calls want it.
+/// An address for the system's calls.
 struct SocketAddress {
   ::sockaddr_storage storage{};
   ::socklen_t size = 0;
@@ -44,7 +44,8 @@ struct SocketAddress {
     return reinterpret_cast<const ::sockaddr*>(&storage);
   }
 };
-/// Paths are as long as parse_stream_address() lets through at most; more would be cut off.
+/// Converts an address. parse_stream_address() limits the length of paths; longer ones would be
+/// cut.
 [[nodiscard]] SocketAddress socket_address(const StreamAddress& address) noexcept;
 
 }  // namespace terracut::stream

@@ -102,7 +102,7 @@ struct LiveRun::Engine {
     }
   }
 
-  std::unique_ptr<memory::FixedMemory> source_memory;  ///< Of the socket's buffers.
+  std::unique_ptr<memory::FixedMemory> source_memory;  ///< The socket's buffers.
   memory::FixedMemory memory;
   net::LiveSource source;
   streams::SensorOnAir sensor;

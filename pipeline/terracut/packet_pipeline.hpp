@@ -12,9 +12,9 @@
 
 namespace terracut {
 
-/// Packets in, labelled frames out, on the caller's thread. Fixed memory: push() and next()
-/// allocate nothing, lock nothing and throw nothing; how long next() takes has no bound but the
-/// frame's own (LiveRun keeps deadlines). One thread.
+/// Turns packets into labelled frames on the caller's thread. Fixed memory: push() and next()
+/// allocate nothing, lock nothing and throw nothing. next() takes as long as the frame needs
+/// (LiveRun keeps deadlines). One thread.
 ///
 ///   pipeline.push(packet);
 ///   while (const Frame* frame = pipeline.next()) use(frame->points, frame->labels);
@@ -23,20 +23,21 @@ class PacketPipeline {
   struct Config {
     Mount mount;
     Profile profile = Profile::kTerracut;
-    int reorder_packets = 2;  ///< As Decoder::Config::reorder_packets.
+    int reorder_packets = 2;  ///< See Decoder::Config::reorder_packets.
   };
 
-  /// kInvalidArgument on a setting out of range, kCapacityExceeded without memory.
+  /// Errors: kInvalidArgument on a setting out of range, kCapacityExceeded if memory is short.
   [[nodiscard]] static Expected<PacketPipeline> make(const Calibration& calibration,
                                                      const Config& config);
   PacketPipeline(PacketPipeline&&) noexcept;
   PacketPipeline& operator=(PacketPipeline&&) noexcept;
   ~PacketPipeline();
 
-  /// As Decoder's.
+  /// See Decoder.
   void push(const Packet& packet) noexcept;
   void end_stream() noexcept;
-  /// The next frame, labelled, or null. Call it until then; valid until the next call.
+  /// Returns the next labelled frame, or null. Call it until it returns null; a frame is valid
+  /// until the next call.
   [[nodiscard]] const Frame* next() noexcept;
 
  private:

@@ -75,7 +75,7 @@ Read check_fields(const PointBuffer& buffer) {
                      fmt::format("field {} has type {}; known are 1 to 8", field.name,
                                  static_cast<int>(field.type)));
     }
-    // Divided, not multiplied: any of these may be as large as its type allows.
+    // Divides instead of multiplying: any of these may be as large as its type allows.
     const std::size_t count = std::max<std::size_t>(field.count, 1);
     if (field.offset < buffer.point_step && count <= (buffer.point_step - field.offset) / bytes) {
       continue;
@@ -89,7 +89,7 @@ Read check_fields(const PointBuffer& buffer) {
   return {};
 }
 
-/// `point_step` is above 0: fields lie in a point.
+/// Requires `point_step` above 0, as fields lie in a point.
 Read check_sizes(const PointBuffer& buffer, std::size_t row_step) {
   if (buffer.width == 0 || buffer.height == 0) {
     return refused(BufferFault::kNoPoints,
@@ -128,7 +128,7 @@ Read unpack(const PointBuffer& buffer, cloud::Cloud& cloud) {
   cloud.points.resize(buffer.width * buffer.height);
   cloud.laser.resize(laser != nullptr ? cloud.points.size() : 0);
   cloud.rows = buffer.height;
-  // Drivers give intensity as the sensor's 0..255; 0..1 then stays dark in pictures.
+  // Drivers give intensity as the sensor's 0..255; 0..1 would stay dark in pictures.
   constexpr float kPerStep = 1.0F / 255;
   const auto value_of = [&](const std::byte* point, const PointField& field) {
     return value_at(point + field.offset, field.type, buffer.big_endian);

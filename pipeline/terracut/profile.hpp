@@ -7,7 +7,7 @@
 
 namespace terracut {
 
-/// The parameters behind a public name; not installed.
+/// Returns the parameters of a public profile; not installed.
 [[nodiscard]] inline ground::SegmenterConfig config_of(Profile profile) noexcept {
   return profile == Profile::kPaper ? ground::paper_profile() : ground::terracut_profile();
 }

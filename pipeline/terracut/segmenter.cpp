@@ -49,7 +49,7 @@ Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {
 }  // namespace
 
 struct Segmenter::Engine {
-  /// Reads the mount off the first clouds of a sensor.
+  /// Finds the mount from the first clouds of a sensor.
   class MountOfFirstClouds {
    public:
     explicit MountOfFirstClouds(const cloud::SensorRows& rows)
@@ -72,7 +72,7 @@ struct Segmenter::Engine {
       return found.has_value();
     }
     [[nodiscard]] bool is_done() const noexcept { return is_done_; }
-    /// Why there is none, as of the last cloud.
+    /// Returns why there is no mount, as of the last cloud.
     [[nodiscard]] const Error& fault() const noexcept { return fault_; }
     [[nodiscard]] const std::optional<mount::FoundMount>& found() const noexcept { return found_; }
 

@@ -17,23 +17,22 @@
 
 namespace terracut {
 
-/// The method's parameters by name; docs/reference/method.md has their effect.
+/// A named set of the method's parameters; docs/reference/method.md has their effect.
 enum class Profile : std::uint8_t {
   kTerracut,  ///< The default.
-  kPaper,     ///< The published method, as it was published.
+  kPaper,     ///< The method as published.
 };
 
-/// One revolution of a spinning LiDAR with 8 to 256 lasers, its points in any order.
+/// One revolution of a spinning LiDAR with 8 to 256 lasers, points in any order.
 struct Cloud {
   std::span<const CloudPoint> points;
-  /// Which laser measured each point, in any numbering from 0 to 255; empty where that is not
-  /// known.
+  /// The laser number of each point, in any numbering from 0 to 255; empty if unknown.
   std::span<const std::uint16_t> laser = {};
-  /// Of an organised cloud, whose points stand row after row, as many in each; 1: not organised.
+  /// The number of rows of an organised cloud, all of equal length; 1 if not organised.
   std::size_t rows = 1;
 };
 
-/// What a field of a point is made of; the numbers are those of sensor_msgs/PointField.
+/// The type of a point's field, with the numbers of sensor_msgs/PointField.
 enum class FieldType : std::uint8_t {
   kInt8 = 1,
   kUint8 = 2,
@@ -48,73 +47,72 @@ enum class FieldType : std::uint8_t {
 /// A field of a point.
 struct PointField {
   std::string_view name;
-  std::size_t offset = 0;  ///< From the point's beginning, bytes.
+  std::size_t offset = 0;  ///< Offset in the point, bytes.
   FieldType type = FieldType::kFloat32;
-  std::size_t count = 1;  ///< Values of it, next to each other; 0 counts as 1.
+  std::size_t count = 1;  ///< Number of adjacent values; 0 counts as 1.
 };
 
-/// A cloud as drivers hand it out, and as sensor_msgs/PointCloud2 has it: points with named fields.
-/// Looked for are x, y, z (metres); the laser in ring, channel, laser or row; and intensity, which
-/// pictures alone need. So PointXYZIRC, PointXYZIRCAEDT, PointXYZIRT, Ouster's and others' layouts
-/// serve as they are; azimuth, time and whatever else they hold is not needed.
+/// A cloud in a driver's memory, in the terms of sensor_msgs/PointCloud2: points with named fields.
+/// The fields used are x, y, z (metres); the laser in ring, channel, laser or row; and intensity,
+/// only for pictures. So layouts such as PointXYZIRC, PointXYZIRCAEDT, PointXYZIRT and Ouster's can
+/// be used as they are; azimuth, time and other fields are ignored.
 struct PointBuffer {
   std::span<const std::byte> data;
   std::span<const PointField> fields;
-  std::size_t point_step = 0;  ///< From one point to the next, bytes.
-  std::size_t width = 0;       ///< Points of a row.
+  std::size_t point_step = 0;  ///< Bytes from one point to the next.
+  std::size_t width = 0;       ///< Points a row.
   std::size_t height = 1;      ///< Rows; above 1 the cloud is organised.
-  std::size_t row_step = 0;    ///< From one row to the next, bytes; 0: width * point_step.
-  bool big_endian = false;     ///< Of every value.
+  std::size_t row_step = 0;    ///< Bytes from one row to the next; 0: width * point_step.
+  bool big_endian = false;     ///< True if values are big-endian.
 };
 
-/// Labels clouds of one sensor. What tells the laser of a point is, in this order: its number; the
-/// rows of an organised cloud (its columns, where these are fewer); the order of KITTI's .bin
-/// files, 64 rings from the top, each counter-clockwise from straight ahead; the elevations of the
-/// points.
+/// Labels clouds of one sensor. The laser of a point is found in one of these ways, in this order:
+/// its number; the rows of an organised cloud (its columns, if these are fewer); the order of
+/// KITTI's .bin files, 64 rings from the top, each counter-clockwise from straight ahead; the
+/// elevations of the points.
 ///
-/// The first cloud decides which of them it is, which elevation each laser has and how often it
-/// fires in a revolution. It allocates and takes some 100 ms; later ones do not, unless they are in
-/// KITTI's order with rings missing. One thread; not for threads with a deadline.
+/// The first cloud decides which way is used, the elevation of each laser and the firings in a
+/// revolution. It allocates and takes some 100 ms; later ones do not, unless they are in KITTI's
+/// order with rings missing. One thread; not for threads with a deadline.
 class Segmenter {
  public:
   struct Config {
     Mount mount{};
     Profile profile = Profile::kTerracut;
-    /// The near ground of the first clouds says how the sensor stands, x ahead, instead of `mount`:
-    /// the first that shows it, and from the tenth on that of all ten, which allocates, too. Until
-    /// then label() fails with kMountNotFound: a vehicle that stands where no ground is seen 3 to
-    /// 15 m before or behind it shows nothing.
+    /// Finds the mount from the near ground of the first clouds, x ahead, instead of using `mount`:
+    /// from the first cloud that shows it, and from the tenth on from all ten, which allocates,
+    /// too. Until then label() fails with kMountNotFound, for example if no ground is seen 3 to 15
+    /// m before or behind the vehicle.
     bool find_mount = false;
     /// With find_mount: labels by `mount` as long as no cloud shows it, instead of failing;
-    /// meanwhile found_mount() is empty.
+    /// found_mount() is then empty.
     bool guess_mount = false;
     /// Parameters of the method that differ from the profile's, "KEY=VALUE";
     /// docs/reference/parameters.md lists them.
     std::vector<std::string> parameters = {};
   };
 
-  /// kInvalidArgument on a mount out of range, and on a parameter that is none or out of its range.
+  /// Errors: kInvalidArgument for a mount out of range or a parameter unknown or out of range.
   [[nodiscard]] static Expected<Segmenter> make(const Config& config);
   Segmenter(Segmenter&&) noexcept;
   Segmenter& operator=(Segmenter&&) noexcept;
   ~Segmenter();
 
-  /// One label a point, in the cloud's order, valid until the next call; kNone for points that are
-  /// no return (not finite, null, beyond 10 km); kObstacle, the safe side, for those of a laser
-  /// that the first cloud had nothing of. Errors leave the segmenter as it was: kMountNotFound with
-  /// Config::find_mount, where the next cloud may show it; kUnsupported or
-  /// kMalformed where nothing tells the lasers apart, or not what told them in the first cloud;
-  /// kCapacityExceeded for a cloud of more than twice the first one's points and of more than two
-  /// for each direction of each laser.
+  /// Returns one label a point, in the cloud's order, valid until the next call; kNone for points
+  /// that are no return (not finite, null, beyond 10 km); kObstacle, the safe side, for points of a
+  /// laser missing in the first cloud. Errors leave the segmenter unchanged: kMountNotFound with
+  /// Config::find_mount, where the next cloud may show it; kUnsupported or kMalformed if nothing
+  /// tells the lasers apart, or not as in the first cloud; kCapacityExceeded for a cloud of more
+  /// than twice the first one's points and more than two for each direction of each laser.
   [[nodiscard]] Expected<std::span<const Label>> label(const Cloud& cloud);
   [[nodiscard]] Expected<std::span<const Label>> label(std::span<const CloudPoint> points) {
     return label(Cloud{points});
   }
-  /// The same of points as they lie in a driver's memory. kMalformed also for a missing x, y or z,
-  /// or data too short for what is said of them.
+  /// Labels points in a driver's memory. kMalformed also for a missing x, y or z, or too little
+  /// data for the stated sizes.
   [[nodiscard]] Expected<std::span<const Label>> label(const PointBuffer& buffer);
 
-  /// The mount that the last labels were made by, where it was found; none without
+  /// Returns the mount that the last labels were made with, if it was found; nothing without
   /// Config::find_mount.
   [[nodiscard]] std::optional<FoundMount> found_mount() const noexcept;
 

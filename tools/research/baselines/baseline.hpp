@@ -14,10 +14,10 @@
 
 namespace terracut::baselines {
 
-/// A method that ours is compared with. Does nothing ahead and remembers nothing.
+/// A method compared with ours. Does nothing ahead and remembers nothing.
 class Baseline : public ground::FrameMethod {
  public:
-  /// Knows no budget; reports the stage that is most like its own.
+  /// Ignores the budget; reports the stage most like its own.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, const min_cut::CutBudget& /*budget*/ = {},
       stage::StageObserver* observer = nullptr) noexcept override {

@@ -15,10 +15,10 @@
 
 namespace terracut::baselines {
 
-/// Which class does the work.
+/// The class that does the work.
 enum class MethodKind : std::uint8_t { kSegmenter, kPfaff, kBogoslavskyi, kZhang };
 
-/// A method and every parameter of it and of the others. The default is the `terracut` profile.
+/// A method with every parameter, also of the others. The default is the `terracut` profile.
 struct MethodConfig {
   MethodKind kind = MethodKind::kSegmenter;
   ground::SegmenterConfig segmenter = {};
@@ -33,17 +33,17 @@ struct MethodName {
   std::string_view about;  ///< "Column angles in the range image (Bogoslavskyi, Stachniss 2017)"
 };
 
-/// All there are, in the order of the paper's tables: the baselines, the rows of Table III, ours.
+/// Returns all names in the order of the paper's tables: baselines, rows of Table III, ours.
 [[nodiscard]] std::span<const MethodName> method_names() noexcept;
 
-/// The method of that name with its default parameters. kInvalidArgument, naming those there are,
-/// for any other name.
+/// Returns the method of that name with default parameters. kInvalidArgument, naming all, for any
+/// other name.
 [[nodiscard]] Expected<MethodConfig> method_named(std::string_view name);
 
-/// Whether the method looks at points of an image, which must have them.
+/// True if the method needs the points of an image.
 [[nodiscard]] bool needs_all_points(const MethodConfig& config) noexcept;
 
-/// Makes the method chosen.
+/// Returns the maker of the chosen method.
 [[nodiscard]] ground::MethodMaker maker_of(const MethodConfig& config);
 
 }  // namespace terracut::baselines

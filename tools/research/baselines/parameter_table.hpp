@@ -13,14 +13,14 @@ namespace terracut::baselines {
 
 using Parameter = ground::ParameterOf<MethodConfig>;
 
-/// Every parameter of the baselines, grouped by method: "pfaff.cell_m".
+/// Returns all parameters of the baselines, by method: "pfaff.cell_m".
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
 
-/// As ground::apply_setting(), of a baseline's parameter or of our method's.
+/// Does ground::apply_setting() for a parameter of a baseline or of our method.
 [[nodiscard]] Status apply_setting(MethodConfig& config, std::string_view setting);
 
-/// The kind of method that looks at a parameter, a baseline's or ours; for the others it changes
-/// nothing.
+/// Returns the kind of method that uses a parameter, a baseline's or ours; it has no effect on the
+/// others.
 [[nodiscard]] MethodKind kind_that_uses(std::string_view key) noexcept;
 
 }  // namespace terracut::baselines

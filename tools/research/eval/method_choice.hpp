@@ -15,7 +15,7 @@ namespace terracut::eval {
 struct MethodChoice {
   std::string name;   ///< "terracut"; a variant has its own name.
   std::string about;  ///< For reports: "Ring-based elevation map"
-  std::string base;   ///< The name among ground::method_names(); equal without a variant.
+  std::string base;   ///< The name among baselines::method_names(); equal without a variant.
   baselines::MethodConfig config;
 };
 

@@ -21,25 +21,25 @@
 
 namespace terracut::ground {
 
-/// A method from range images to labels, whichever it is: Segmenter, or what it is compared with.
-/// Takes all memory in its constructor; real-time safe if the observer is. One thread.
+/// A method that labels range images: Segmenter, or one that it is compared with. Takes all memory
+/// in its constructor; real-time safe if the observer is. One thread.
 class FrameMethod {
  public:
   virtual ~FrameMethod() = default;
 
-  /// Does ahead what can be done of a frame that is still arriving; nothing by default. Never
+  /// Does part of the work ahead, on a frame that is still arriving; nothing by default. Never
   /// necessary; labels are the same without it. Overwrites planes(), not labels().
   virtual void advance(const frame::RangeImage& /*image*/, int /*complete_columns*/,
                        stage::StageObserver* /*observer*/ = nullptr) noexcept {}
 
-  /// Labels one frame; `image` has the shape given at construction. The result of the frame before
-  /// is overwritten. `budget`: what of a cut there is time for.
+  /// Labels one frame; `image` has the shape given at construction. Overwrites the previous frame's
+  /// result. `budget` limits the time for a cut.
   [[nodiscard]] virtual stage::SegmentationReport segment(
       const frame::RangeImage& image, const min_cut::CutBudget& budget = {},
       stage::StageObserver* observer = nullptr) noexcept = 0;
 
-  /// Says where the sensor stands in the frame to be labelled next. Nothing to a method that labels
-  /// each frame by itself.
+  /// Sets the sensor's place in the next frame. No effect on a method that labels each frame by
+  /// itself.
   virtual void set_place(const frame::Place& /*place*/) noexcept {}
 
   /// Fills `ground` from the frame labelled last. By default `image` must have points.
@@ -47,19 +47,19 @@ class FrameMethod {
     ground::take_near_ground(image, ground);
   }
 
-  /// One label a return, in order of arrival (RangeImage::return_index()).
+  /// Returns one label per return, in order of arrival (RangeImage::return_index()).
   [[nodiscard]] virtual std::span<const frame::Label> labels() const noexcept = 0;
-  /// The same by cell, with the heights they were judged by; for pictures and measurements.
+  /// Returns the labels by cell, with the heights they were judged by; for pictures.
   [[nodiscard]] virtual const stage::CellPlanes& planes() const noexcept = 0;
 };
 
-/// What is known of the frames that a method will label.
+/// The properties of the frames that a method will label.
 struct FramesToCome {
-  const mount::RingProfile& profile;  ///< Has shape.rows rings.
+  const mount::RingProfile& profile;  ///< Must have shape.rows rings.
   frame::ImageShape shape;
   std::size_t return_capacity = 0;
-  bool motion_is_known = false;  ///< Places will be set.
-  /// Of their sensor, where images keep their returns as they were measured; else null.
+  bool motion_is_known = false;  ///< True if places will be set.
+  /// The sensor's, if images keep their returns as measured; else null.
   std::unique_ptr<frame::TileReader> reader = nullptr;
 };
 

@@ -12,7 +12,7 @@ namespace terracut::ground {
 namespace {
 
 std::string number_text(double value) {
-  // Fields are float: the shortest text that reads back as the same float.
+  // Fields are float: returns the shortest text that reads back as the same float.
   return fmt::format("{}", static_cast<float>(value));
 }
 

@@ -12,10 +12,10 @@
 
 namespace terracut::ground {
 
-/// A limit of a parameter from this on is none.
+/// A limit of a parameter from this value on means no limit.
 inline constexpr double kNoLimit = 1e9;
 
-/// What users see of a parameter.
+/// The parts of a parameter that users see.
 struct ParameterText {
   std::string_view key;   ///< "stage.name_unit"
   std::string_view unit;  ///< "m", "rad", "1/m", ... or empty
@@ -23,13 +23,13 @@ struct ParameterText {
   double least = 0, most = 0;                 ///< Valid range, ends included.
   std::span<const std::string_view> choices;  ///< Names of the values 0, 1, ..; empty for a number.
 
-  /// Reads a value. kInvalidArgument, naming the key and what would have been valid.
+  /// Reads a value. kInvalidArgument, naming the key and the valid values.
   [[nodiscard]] Expected<double> value_of(std::string_view text) const;
-  /// A value as value_of() takes it.
+  /// Returns the text of a value for value_of().
   [[nodiscard]] std::string text_of(double value) const;
 };
 
-/// A parameter and the field of a configuration that it is: a row of a table.
+/// A parameter with its field of a configuration: a row of a table.
 template <class Config>
 struct ParameterOf : ParameterText {
   using Get = double (*)(const Config&) noexcept;
@@ -42,18 +42,18 @@ struct ParameterOf : ParameterText {
         get(its_get),
         set(its_set) {}
 
-  /// Sets the field from text. The errors of value_of().
+  /// Sets the field from text. Errors of value_of().
   [[nodiscard]] Status read(Config& config, std::string_view text) const {
     return value_of(text).map([&](double value) { set(config, value); });
   }
-  /// The field's value as read() takes it.
+  /// Returns the text of the field's value for read().
   [[nodiscard]] std::string text(const Config& config) const { return text_of(get(config)); }
 
   Get get;
   Set set;
 };
 
-/// The row of that key; null: there is none.
+/// Returns the row of that key; null if there is none.
 template <class Config>
 [[nodiscard]] const ParameterOf<Config>* find_parameter(std::span<const ParameterOf<Config>> table,
                                                         std::string_view key) noexcept {
@@ -68,15 +68,15 @@ template <class Config>
   return keys;
 }
 
-/// "KEY=VALUE"
+/// The parts of "KEY=VALUE".
 struct SettingParts {
   std::string_view key, value;
 };
-/// kInvalidArgument for anything else.
+/// Splits a setting. kInvalidArgument for anything else.
 [[nodiscard]] Expected<SettingParts> parts_of_setting(std::string_view setting);
 
-/// kInvalidArgument for a key that is not among `known`: says what was meant, the nearest and those
-/// of the same stage.
+/// Returns kInvalidArgument for a key not among `known`, suggesting the nearest and those of the
+/// same stage.
 [[nodiscard]] tl::unexpected<Error> unknown_parameter(std::string_view key,
                                                       std::span<const std::string_view> known);
 

@@ -13,16 +13,16 @@ namespace terracut::ground {
 
 using Parameter = ParameterOf<SegmenterConfig>;
 
-/// Every parameter of the method, grouped by stage in the order the stages run
+/// Returns all parameters of the method, by stage in the order the stages run
 /// (docs/reference/parameters.md is printed from this table).
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
 
 /// Sets one parameter from text ("0.2", "local_surface"). The error names the key, the value and
-/// what would have been valid; for an unknown key, the keys of the same stage.
+/// the valid values; for an unknown key, the keys of the same stage.
 [[nodiscard]] Status set_parameter(SegmenterConfig& config, std::string_view key,
                                    std::string_view value);
 
-/// The same from "KEY=VALUE".
+/// Sets a parameter from "KEY=VALUE".
 [[nodiscard]] Status apply_setting(SegmenterConfig& config, std::string_view setting);
 
 }  // namespace terracut::ground

@@ -74,7 +74,7 @@ class Segmenter final : public FrameMethod {
   FineStages fine_;
 };
 
-/// Makes Segmenters, which remember nothing where motion is not known.
+/// Returns a maker of Segmenters, which remember nothing if motion is unknown.
 [[nodiscard]] inline MethodMaker maker_of(const SegmenterConfig& config) {
   return [config](FramesToCome frames, memory::FixedMemory& memory) {
     return std::make_unique<Segmenter>(remembering(config, frames.motion_is_known), frames.profile,

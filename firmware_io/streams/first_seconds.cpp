@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
+#include "firmware_io/streams/stream_names.hpp"
 
 namespace terracut::streams {
 namespace {
@@ -22,28 +22,9 @@ constexpr std::int64_t kAnotherShows_ns = 300'000'000;
 /// A rotating sensor sends its calibration within this time, if at all; an HDL-64E takes 1.2 s.
 constexpr std::int64_t kCalibrationComes_ns = 6'000'000'000;
 
-std::string name_of(const HeardSenders::Sensor& sensor) {
-  std::string name =
-      fmt::format("{} at {}", to_string(sensor.model), net::ipv4_text(sensor.address));
-  if (sensor.port) return name + fmt::format(":{}", *sensor.port);
-  return sensor.to == 0 ? name : name + " to " + net::ipv4_text(sensor.to);
-}
-
-std::string names_of(const std::vector<HeardSenders::Sensor>& sensors) {
-  std::string all;
-  for (const auto& sensor : sensors) all += (all.empty() ? "" : ", ") + name_of(sensor);
-  return all;
-}
-
-/// Says how to choose one of several.
-std::string_view choice_among(const std::vector<HeardSenders::Sensor>& sensors) {
-  const auto is_elsewhere = [&](const auto& one) {
-    return std::ranges::count(sensors, one.address, &HeardSenders::Sensor::address) == 1;
-  };
-  if (std::ranges::all_of(sensors, is_elsewhere)) return "--from";
-  const bool have_ports =
-      std::ranges::all_of(sensors, [](const auto& one) { return one.port.has_value(); });
-  return have_ports ? "--from ADDRESS:PORT" : "--from, or the address they send to with --listen";
+bool is_sent_by(const net::Sender& sender, const SensorStream& sensor) {
+  return sensor.source_address == sender.address &&
+         (!sender.port || sensor.source_port == sender.port);
 }
 
 }  // namespace
@@ -65,7 +46,8 @@ std::string FirstSeconds::waits_for() const {
   const bool known_stands = config_.known && senders_.is_steady_but_stands(config_.known->address);
   if (const Sensors sensors = chosen_of(senders_.rotating()); !sensors.empty() && !known_stands) {
     return fmt::format("{} at {} is heard; waiting for its calibration",
-                       to_string(sensors.front().model), net::ipv4_text(sensors.front().address));
+                       to_string(sensors.front().model),
+                       net::ipv4_text(sensors.front().source_address));
   }
   const std::string heard = heard_instead();
   return fmt::format("waiting for {} at {}{}", wanted_name(), config_.place,
@@ -78,16 +60,15 @@ Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) c
   if (found.empty()) return tl::unexpected(nobody(patience_s));
   if (found.size() > 1) {
     return fail(ErrorCode::kInvalidArgument,
-                fmt::format("several sensors send here: {}; choose one with {}", names_of(found),
-                            choice_among(found)));
+                "several sensors send here: " + choice_text(found, HeardIn::kLiveRun));
   }
-  const HeardSenders::Sensor& sensor = found.front();
-  const sensor::SensorProbe& probe = senders_.probe(sensor.address);
+  const SensorStream& sensor = found.front();
+  const sensor::SensorProbe& probe = senders_.probe(sensor.source_address);
   auto calibration = sensor::unit_calibration(config_.calibration, sensor.model, [&] {
-    return from_packets(sensor.model, sensor.address);
+    return from_packets(sensor.model, sensor.source_address);
   });
   if (!calibration) return tl::unexpected(calibration.error());
-  return SensorOnAir{.sender = {sensor.address, sensor.port},
+  return SensorOnAir{.sender = {sensor.source_address, sensor.source_port},
                      .model = sensor.model,
                      .columns = config_.columns.value_or(probe.columns(sensor.model)),
                      .spin_hz = probe.spin_hz(sensor.model),
@@ -98,21 +79,23 @@ Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) c
 FirstSeconds::Sensors FirstSeconds::chosen_of(Sensors heard) const {
   if (heard.size() < 2 || !config_.known) return heard;
   Sensors known;
-  std::ranges::copy_if(heard, std::back_inserter(known), [&](const HeardSenders::Sensor& sensor) {
-    return sensor.is_sent_by(*config_.known);
+  std::ranges::copy_if(heard, std::back_inserter(known), [&](const SensorStream& sensor) {
+    return is_sent_by(*config_.known, sensor);
   });
   return known.size() == 1 ? known : heard;
 }
 
 std::string FirstSeconds::other_sensors() const {
-  Sensors others = senders_.rotating();
-  const Sensors chosen = chosen_of(others);
-  if (chosen.size() == 1) {
-    std::erase_if(others, [&](const auto& each) {
-      return each.address == chosen.front().address && each.port == chosen.front().port;
-    });
+  const Sensors heard = senders_.rotating(), chosen = chosen_of(heard);
+  const std::vector<StreamName> names = names_of(heard, HeardIn::kLiveRun);
+  std::string others;
+  for (std::size_t i = 0; i < heard.size(); ++i) {
+    const bool is_chosen = chosen.size() == 1 &&
+                           heard[i].source_address == chosen.front().source_address &&
+                           heard[i].source_port == chosen.front().source_port;
+    if (!is_chosen) others += (others.empty() ? "" : ", ") + names[i].name;
   }
-  return names_of(others);
+  return others;
 }
 
 std::string FirstSeconds::wanted_name() const {

@@ -70,7 +70,7 @@ class FirstSeconds {
   [[nodiscard]] Expected<SensorOnAir> conclude(std::optional<double> patience_s = {}) const;
 
  private:
-  using Sensors = std::vector<HeardSenders::Sensor>;
+  using Sensors = std::vector<SensorStream>;
   /// Picks the sensor used before if it is among several.
   [[nodiscard]] Sensors chosen_of(Sensors heard) const;
   [[nodiscard]] std::string wanted_name() const;

@@ -11,6 +11,7 @@
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/sensor_recognition.hpp"
+#include "firmware_io/sensor/unknown_packets.hpp"
 
 namespace terracut::streams {
 
@@ -18,9 +19,12 @@ void HeardSenders::Sender::add(const packet::Datagram& datagram,
                                std::optional<sensor::SensorModel> wanted) {
   newest_ns = datagram.stamp_ns;
   probe.add(datagram);
-  if (const sensor::SensorModel model = sensor::recognise_sensor_as(wanted, datagram.payload);
-      sensor::is_decoded(model)) {
-    streams.try_emplace(model, model).first->second.add(datagram);
+  const sensor::SensorModel model = sensor::recognise_sensor_as(wanted, datagram.payload);
+  if (sensor::is_decoded(model)) streams.try_emplace(model, model).first->second.add(datagram);
+  if (model == sensor::SensorModel::kUnknown && first_unknown.empty()) {
+    const std::string guess = sensor::guess_of_unknown(datagram);
+    first_unknown = fmt::format("{} bytes to port {}{}{}", datagram.payload.size(),
+                                datagram.destination_port, guess.empty() ? "" : ": ", guess);
   }
   (void)ruby128_device.add(datagram.payload);
   const auto* packet = hdl64e::packet_in(datagram.payload);
@@ -35,17 +39,11 @@ std::uint64_t HeardSenders::Sender::data_packets() const {
   return packets;
 }
 
-std::vector<HeardSenders::Sensor> HeardSenders::Sender::sensors_of(
-    sensor::SensorModel model) const {
-  std::vector<streams::SensorStream> all = streams.at(model).sensors();
-  streams::drop_strays(all);
-  if (all.size() == 1) return {{all.front().source_address, model}};
-  std::vector<Sensor> sensors;
-  for (const auto& stream : all) {
-    sensors.push_back(
-        {stream.source_address, model, stream.source_port, stream.destinations.front().address});
-  }
-  return sensors;
+std::vector<SensorStream> HeardSenders::Sender::sensors_of(sensor::SensorModel model) const {
+  std::vector<SensorStream> all = streams.at(model).sensors();
+  drop_strays(all);
+  if (all.size() == 1) all.front().source_port.reset();  // there is none to tell it from
+  return all;
 }
 
 void HeardSenders::add(const packet::Datagram& datagram) {
@@ -77,13 +75,24 @@ HeardSenders::Sender* HeardSenders::sender_of(const packet::Datagram& datagram) 
   return &senders_.try_emplace(datagram.source_address, wanted_).first->second;
 }
 
+std::vector<SensorStream> HeardSenders::sensors() const {
+  std::vector<SensorStream> found;
+  for (const auto& [address, sender] : senders_) {
+    for (const auto& [model, of_model] : sender.streams) {
+      if (wants(model)) std::ranges::move(of_model.sensors(), std::back_inserter(found));
+    }
+  }
+  drop_strays(found);
+  return found;
+}
+
 template <class Predicate>
-std::vector<HeardSenders::Sensor> HeardSenders::sensors_that(const Predicate& are) const {
-  std::vector<Sensor> found;
+std::vector<SensorStream> HeardSenders::sensors_that(const Predicate& are) const {
+  std::vector<SensorStream> found;
   for (const auto& [address, sender] : senders_) {
     for (const sensor::SensorModel model : sensor::kDecodedModels) {
       if (!wants(model) || !sender.streams.contains(model)) continue;
-      std::vector<Sensor> its_own = sender.sensors_of(model);
+      std::vector<SensorStream> its_own = sender.sensors_of(model);
       if (are(sender.probe, model, its_own)) {
         std::ranges::move(its_own, std::back_inserter(found));
       }
@@ -92,7 +101,7 @@ std::vector<HeardSenders::Sensor> HeardSenders::sensors_that(const Predicate& ar
   return found;
 }
 
-std::vector<HeardSenders::Sensor> HeardSenders::rotating() const {
+std::vector<SensorStream> HeardSenders::rotating() const {
   return sensors_that(
       [](const sensor::SensorProbe& probe, sensor::SensorModel model, const auto& its_own) {
         // Alternating packets of several heads show no rotation, but they do show several sensors.
@@ -101,20 +110,20 @@ std::vector<HeardSenders::Sensor> HeardSenders::rotating() const {
 }
 
 bool HeardSenders::is_steady_but_stands(std::uint32_t address) const {
-  const auto is_at = [&](const Sensor& sensor) { return sensor.address == address; };
+  const auto is_at = [&](const SensorStream& sensor) { return sensor.source_address == address; };
   return std::ranges::any_of(steady(), is_at) && std::ranges::none_of(rotating(), is_at);
 }
 
-std::vector<HeardSenders::Sensor> HeardSenders::steady() const {
+std::vector<SensorStream> HeardSenders::steady() const {
   return sensors_that(
       [](const sensor::SensorProbe& probe, sensor::SensorModel model, const auto& /*its_own*/) {
         return probe.packets_of(model) >= kSteady_packets;
       });
 }
 
-bool HeardSenders::has_told(const Sensor& sensor) const {
+bool HeardSenders::has_told(const SensorStream& sensor) const {
   if (sensor::has_factory_table(sensor.model)) return true;  // it is known without
-  const Sender& sender = senders_.at(sensor.address);
+  const Sender& sender = senders_.at(sensor.source_address);
   return sensor.model == sensor::SensorModel::kRuby128 ? sender.ruby128_device.has_calibration()
                                                        : sender.hdl64e_status.has_table();
 }
@@ -123,15 +132,18 @@ std::string HeardSenders::describe(const Sender& sender) const {
   for (const sensor::SensorModel model : sensor::kDecodedModels) {
     const std::uint64_t packets = sender.probe.packets_of(model);
     if (packets == 0) continue;
-    if (!wants(model))
-      return fmt::format("{} packets of another sensor, {}", packets, to_string(model));
+    if (!wants(model)) return fmt::format("{} packets of a {}", packets, to_string(model));
     if (packets < kSteady_packets)
       return fmt::format("{} data packets of {}", packets, to_string(model));
     return fmt::format("{}, whose head does not rotate,", to_string(model));
   }
   if (std::string models = sender.probe.foreign_models(); !models.empty()) return models;
-  return fmt::format("{} datagrams of no sensor known here",
-                     sender.probe.packets_of(sensor::SensorModel::kUnknown));
+  // The first of the votes are unknown ones, if there are any; else all that came tells of devices.
+  const auto [model, datagrams] = *sender.probe.votes().begin();
+  return model == sensor::SensorModel::kUnknown
+             ? fmt::format("{} datagrams of no sensor known here, {},", datagrams,
+                           sender.first_unknown)
+             : fmt::format("{} datagrams of {}", datagrams, to_string(model));
 }
 
 std::string HeardSenders::others() const {
@@ -160,6 +172,21 @@ std::string HeardSenders::others() const {
         fmt::format("; {} datagrams of more addresses than are remembered", forgotten_datagrams_);
   }
   return text;
+}
+
+HeardCapture hear_beginning(capture::PcapSource& source,
+                            std::optional<sensor::SensorModel> wanted) {
+  // Enough for a stream that begins with other packets, and to measure the spin rate: about a
+  // second.
+  constexpr int kMostDatagrams = 6'000;
+  HeardCapture heard{.senders = HeardSenders(wanted), .broke_off = {}};
+  for (int i = 0; i < kMostDatagrams; ++i) {
+    const auto next = source.next();
+    if (!next) heard.broke_off = next.error();
+    if (!next || !*next) break;
+    heard.senders.add(**next);
+  }
+  return heard;
 }
 
 }  // namespace terracut::streams

@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
-#include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
 #include "firmware_io/sensor/sensor_probe.hpp"
 #include "firmware_io/streams/sender_streams.hpp"
+#include "rt/error.hpp"
 
 namespace terracut::streams {
 
@@ -24,19 +25,6 @@ namespace terracut::streams {
 /// Time is that of the datagrams' stamps. Allocates; one thread.
 class HeardSenders {
  public:
-  struct Sensor {
-    std::uint32_t address = 0;  ///< IPv4, see Datagram.
-    sensor::SensorModel model{};
-    /// Set if several sensors send from its address (streams::SenderStreams): the port it sends
-    /// from, if that tells it apart, and the address it sends to.
-    std::optional<std::uint16_t> port{};
-    std::uint32_t to{};
-
-    [[nodiscard]] bool is_sent_by(const net::Sender& sender) const {
-      return address == sender.address && (!sender.port || port == sender.port);
-    }
-  };
-
   /// `wanted` is the only model that counts; none: any that can be decoded.
   explicit HeardSenders(std::optional<sensor::SensorModel> wanted) : wanted_(wanted) {}
 
@@ -45,10 +33,13 @@ class HeardSenders {
   [[nodiscard]] bool wants(sensor::SensorModel model) const {
     return sensor::is_wanted(wanted_, model);
   }
+  /// Returns the senders of wanted data packets except strays (drop_strays()); for captures, which
+  /// may end at any time.
+  [[nodiscard]] std::vector<SensorStream> sensors() const;
   /// Returns the sensors whose head is known to rotate.
-  [[nodiscard]] std::vector<Sensor> rotating() const;
+  [[nodiscard]] std::vector<SensorStream> rotating() const;
   /// Returns the sensors that send data packets steadily, rotating or not.
-  [[nodiscard]] std::vector<Sensor> steady() const;
+  [[nodiscard]] std::vector<SensorStream> steady() const;
   /// True if the sensor is one of steady() but not of rotating().
   [[nodiscard]] bool is_steady_but_stands(std::uint32_t address) const;
   /// Returns the time since the first sensor of rotating() was known, by the newest datagram; 0
@@ -57,7 +48,7 @@ class HeardSenders {
     return first_known_ns_ == 0 ? 0 : newest_ns_ - first_known_ns_;
   }
   /// True if the sensor has sent its own calibration, or needs none.
-  [[nodiscard]] bool has_told(const Sensor& sensor) const;
+  [[nodiscard]] bool has_told(const SensorStream& sensor) const;
 
   [[nodiscard]] const sensor::SensorProbe& probe(std::uint32_t address) const {
     return senders_.at(address).probe;
@@ -68,9 +59,9 @@ class HeardSenders {
   [[nodiscard]] const sensor::Ruby128DeviceReader& ruby128_device(std::uint32_t address) const {
     return senders_.at(address).ruby128_device;
   }
-  /// Describes for people what came instead of a rotating sensor: "12 datagrams of no sensor known
-  /// here from 192.168.1.7; HDL-64E, whose head does not rotate, from 192.168.1.201". Empty if
-  /// nothing did.
+  /// For people, what came instead of a rotating sensor: "12 datagrams of no sensor known here, 100
+  /// bytes to port 2368, from 192.168.1.7; HDL-64E, whose head does not rotate, from
+  /// 192.168.1.201". Empty: nothing did.
   [[nodiscard]] std::string others() const;
 
  private:
@@ -85,20 +76,21 @@ class HeardSenders {
 
     sensor::SensorProbe probe;
     std::map<sensor::SensorModel, streams::SenderStreams> streams;
+    std::string first_unknown;  ///< "1218 bytes to port 2368: ..."; empty: none.
     hdl64e::StatusStreamReader hdl64e_status;
     sensor::Ruby128DeviceReader ruby128_device;
     std::int64_t newest_ns = 0;
 
     void add(const packet::Datagram& datagram, std::optional<sensor::SensorModel> wanted);
     [[nodiscard]] std::uint64_t data_packets() const;
-    [[nodiscard]] std::vector<Sensor> sensors_of(sensor::SensorModel model) const;
+    [[nodiscard]] std::vector<SensorStream> sensors_of(sensor::SensorModel model) const;
   };
   /// Returns the entry of the datagram's sender, a new one if need be; null if there is no room for
   /// it.
   [[nodiscard]] Sender* sender_of(const packet::Datagram& datagram);
 
   template <class Predicate>
-  [[nodiscard]] std::vector<Sensor> sensors_that(const Predicate& are) const;
+  [[nodiscard]] std::vector<SensorStream> sensors_that(const Predicate& are) const;
   [[nodiscard]] std::string describe(const Sender& sender) const;
 
   std::optional<sensor::SensorModel> wanted_;
@@ -106,5 +98,14 @@ class HeardSenders {
   std::uint64_t forgotten_datagrams_ = 0;  ///< From senders that were replaced or found no room.
   std::int64_t newest_ns_ = 0, first_known_ns_ = 0;
 };
+
+/// Who sends in the first second or so of a capture.
+struct HeardCapture {
+  HeardSenders senders;
+  std::optional<Error> broke_off;  ///< Why reading ended before the capture did, if so.
+};
+/// Leaves `source` anywhere.
+[[nodiscard]] HeardCapture hear_beginning(capture::PcapSource& source,
+                                          std::optional<sensor::SensorModel> wanted);
 
 }  // namespace terracut::streams

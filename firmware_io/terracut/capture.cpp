@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 #include <utility>
+#include <vector>
 
 #include "calib/terracut/calibration_table.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/streams/first_seconds.hpp"
+#include "firmware_io/sensor/unit_calibration.hpp"
+#include "firmware_io/streams/heard_senders.hpp"
 #include "terracut/decoder.hpp"
 
 namespace terracut {
@@ -22,21 +24,13 @@ Capture::~Capture() = default;
 
 namespace {
 
-/// The sender shows in the first packets; these are more than a second of any sensor.
-constexpr int kPacketsToSearch = 20'000;
-
-Expected<streams::HeardSenders::Sensor> sender_in(capture::PcapSource& source) {
-  streams::HeardSenders senders(std::nullopt);
-  for (int i = 0; i < kPacketsToSearch; ++i) {
-    const auto next = source.next();
-    if (!next || !*next) break;
-    senders.add(**next);
-  }
-  auto found = senders.rotating();
-  if (found.empty()) found = senders.steady();
+Expected<streams::SensorStream> sender_in(capture::PcapSource& source) {
+  const streams::HeardCapture heard = streams::hear_beginning(source, std::nullopt);
+  const std::vector<streams::SensorStream> found = heard.senders.sensors();
+  if (found.empty() && heard.broke_off) return tl::unexpected(*heard.broke_off);
   if (found.empty()) {
     return fail(ErrorCode::kUnsupported,
-                source.name() + ": no sensor that can be decoded: " + senders.others());
+                source.name() + ": no sensor that can be decoded: " + heard.senders.others());
   }
   if (found.size() > 1) {
     return fail(ErrorCode::kInvalidArgument, source.name() + ": several sensors send");
@@ -51,7 +45,12 @@ Expected<Capture> Capture::open(const std::filesystem::path& file) {
   if (!all) return tl::unexpected(all.error());
   const auto sender = sender_in(*all);
   if (!sender) return tl::unexpected(sender.error());
-  auto source = capture::PcapSource::open(file, {.port = {}, .source_address = sender->address});
+  auto source = capture::PcapSource::open(
+      file, {.port = {},
+             .source_address = sender->source_address,
+             .is_of_stream = [unit = *sender](const packet::Datagram& datagram) {
+               return unit.may_hold(datagram);
+             }});
   if (!source) return tl::unexpected(source.error());
   auto unit = sensor::unit_calibration({}, sender->model, *source);
   if (Status status = source->rewind(); !status) return tl::unexpected(status.error());

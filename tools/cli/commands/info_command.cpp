@@ -12,6 +12,7 @@
 
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
 #include "firmware_io/sensor/capture_survey.hpp"
+#include "firmware_io/streams/stream_names.hpp"
 #include "firmware_io/streams/stream_text.hpp"
 #include "pipeline/status/figures.hpp"
 #include "tools/cli/commands.hpp"
@@ -20,7 +21,6 @@
 #include "tools/cli/json_text.hpp"
 #include "tools/cli/settings/companion_files.hpp"
 #include "tools/cli/settings/sensor_choice.hpp"
-#include "tools/cli/settings/stream_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
@@ -277,21 +277,22 @@ Json json_of(const CaptureSurvey& survey) {
 }
 
 /// Lists how to choose each of several sensors.
-std::string text_of(const std::vector<StreamName>& sensors) {
+std::string text_of(const std::vector<streams::StreamName>& sensors) {
   if (sensors.empty()) return {};
   std::string text = "\nseveral sensors; choose one:\n";
-  for (const StreamName& sensor : sensors) {
+  for (const streams::StreamName& sensor : sensors) {
     text += fmt::format("  {:<24} {}\n", sensor.options, sensor.name);
   }
   return text;
 }
 
 /// Returns the sensors of a capture if there are several.
-std::vector<StreamName> several_sensors_of(const CaptureOptions& options) {
+std::vector<streams::StreamName> several_sensors_of(const CaptureOptions& options) {
   auto source = capture::PcapSource::open(options.file);
   if (!source) return {};
   const auto sensors = sensors_in(options, *source);
-  return sensors.size() < 2 ? std::vector<StreamName>() : names_of(sensors);
+  return sensors.size() < 2 ? std::vector<streams::StreamName>()
+                            : names_of(sensors, streams::HeardIn::kCapture);
 }
 
 /// Notes that a calibration lies beside a capture whose packets hold none.
@@ -313,10 +314,10 @@ ExitCode run_info(const Options& options) {
   if (!source) return refuse(source.error());
   const CaptureSurvey survey = sensor::survey_capture(*source, stop_wanted);
   if (const Status whole = go_on(); !whole) return refuse_work(whole.error());
-  const std::vector<StreamName> several = several_sensors_of(options.capture);
+  const std::vector<streams::StreamName> several = several_sensors_of(options.capture);
   print_text(text_of(survey) + note_of_calibration(survey, options.capture) + text_of(several));
   Json json = json_of(survey);
-  for (const StreamName& sensor : several) {
+  for (const streams::StreamName& sensor : several) {
     json["several_sensors"].push_back({{"name", sensor.name}, {"options", sensor.options}});
   }
   if (const Status written = write_json(options.output.json, json); !written) {

@@ -49,7 +49,7 @@ struct SensorRow {
   double most_packets_per_second = 12'001;
 };
 
-/// Decoded models first, as they are offered to people.
+/// In the order in which decoded models are offered to people; kUnknown is the last one.
 inline constexpr std::array kSensorTable{
     SensorRow{.model = SensorModel::kHdl64e,
               .name = "Velodyne HDL-64E (S2/S3)",
@@ -138,8 +138,10 @@ inline constexpr std::array kSensorTable{
 inline constexpr auto kDecodedModels = [] {
   std::array<SensorModel, std::ranges::count_if(kSensorTable, is_decoded, &SensorRow::model)>
       models{};
-  std::ranges::transform(kSensorTable.begin(), kSensorTable.begin() + models.size(), models.begin(),
-                         &SensorRow::model);
+  std::size_t count = 0;
+  for (const SensorRow& row : kSensorTable) {
+    if (row.sensor) models[count++] = row.model;
+  }
   return models;
 }();
 

@@ -24,12 +24,4 @@ namespace terracut::hdl64e {
 [[nodiscard]] Expected<Hdl64eCalibration> parse_hdl64e_xml(std::span<const char> text,
                                                            const std::string& name);
 
-/// Writes a `db.xml` that this and other programs read, whole or not at all. Reading it back gives
-/// exactly the same lengths, and exactly the same angles where they are decimal fractions of a
-/// degree (others within one unit in the last place). Lasers without two_point get X and Y
-/// corrections equal to far. kMalformed when the calibration fails validate(), kWriteFailed when
-/// the file cannot be written.
-[[nodiscard]] Status write_hdl64e_xml(const std::filesystem::path& path,
-                                      const Hdl64eCalibration& calibration);
-
 }  // namespace terracut::hdl64e

@@ -20,7 +20,7 @@ using namespace terracut;
 struct Hdl64e {
   using Decoder = decode::Decoder;
   using Calibration = hdl64e::Hdl64eCalibration;
-  using Column = frame::FiringColumn;
+  using Column = packets::FiringColumn;
   using Bytes = std::array<std::uint8_t, hdl64e::kHdl64ePacketBytes>;
   static constexpr int kColumns = hdl64e::kColumnsPerPacketSingle;
   static constexpr std::size_t kReturnsAColumn = 6;

@@ -20,7 +20,7 @@ using namespace terracut;
 struct Ruby128 {
   using Decoder = decode::Decoder;
   using Calibration = ruby128::Ruby128Calibration;
-  using Column = frame::Ruby128Column;
+  using Column = packets::Ruby128Column;
   using Bytes = std::array<std::uint8_t, ruby128::kRubyPacketBytes>;
   static constexpr int kColumns = ruby128::kRubyBlocksPerPacket;
   static constexpr std::size_t kReturnsAColumn = 12;

@@ -2,8 +2,8 @@
 // Copyright 2026 The terracut authors
 // Velodyne decoders beside the plain reference on packets that the input makes and bends: the same
 // refusals, and the same frame, cell and place of every return.
+#include "any_velodyne.hpp"
 #include "differential.hpp"
-#include "velodyne_returns.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace terracut;

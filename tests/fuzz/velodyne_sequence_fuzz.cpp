@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "any_velodyne.hpp"
 #include "calib/velodyne/velodyne_calibration.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "packet_sequence.hpp"

@@ -9,10 +9,10 @@
 #include "calib/beams/angle.hpp"
 #include "calib/mount/mount_finder.hpp"
 #include "drive_near_ground.hpp"
-#include "firmware_io/scan/scan_reader.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
+#include "tools/lab/encode/scan_reader.hpp"
 #include "tools/lab/packets/hdl64e_encoder_traits.hpp"
 #include "tools/lab/packets/ruby128_encoder_traits.hpp"
 
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MountFound,
 TEST(MountFoundInScans, IsAboutThePublishedOne) {
   TERRACUT_RECORDED_SEQUENCES(sequences);
   for (const auto& sequence : sequences) {
-    auto reader = scan::ScanReader::open(sequence);
+    auto reader = encode::ScanReader::open(sequence);
     ASSERT_TRUE(reader);
     memory::FixedMemory memory;
     frame::RangeImage image(frame::ImageShape{}, 40'000, memory);

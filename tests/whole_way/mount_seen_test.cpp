@@ -11,10 +11,10 @@
 #include "calib/beams/angle.hpp"
 #include "calib/mount/mount_check.hpp"
 #include "drive_near_ground.hpp"
-#include "firmware_io/scan/scan_reader.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
+#include "tools/lab/encode/scan_reader.hpp"
 #include "tools/lab/packets/hdl64e_encoder_traits.hpp"
 #include "tools/lab/packets/ruby128_encoder_traits.hpp"
 
@@ -92,7 +92,7 @@ TEST(MountSeenInScans, TellsWrongMountsFromThePublishedHeight) {
   // The real one is pitched by 0.6 degrees more, and in one sequence the vehicle leans by 1.6.
   const double pitch_rad = beams::deg_to_rad(4), roll_rad = beams::deg_to_rad(6);
   for (const auto& sequence : sequences) {
-    auto reader = scan::ScanReader::open(sequence);
+    auto reader = encode::ScanReader::open(sequence);
     ASSERT_TRUE(reader);
     memory::FixedMemory memory;
     frame::RangeImage image(frame::ImageShape{}, 40'000, memory);

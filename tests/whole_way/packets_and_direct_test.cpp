@@ -63,7 +63,7 @@ struct TwoWays {
     };
   }
 
-  void send(const std::array<frame::FiringColumn, hdl64e::kColumnsPerPacketSingle>& columns) {
+  void send(const std::array<packets::FiringColumn, hdl64e::kColumnsPerPacketSingle>& columns) {
     hdl64e::wire::Packet packet = hdl64e::blank_packet();
     packets::encode_hdl64e_packet(columns, packets::packet_end_ns(columns), {}, packet);
     const auto rejected = test::decode(
@@ -72,15 +72,15 @@ struct TwoWays {
   }
 
   void put_directly(
-      const std::array<frame::FiringColumn, hdl64e::kColumnsPerPacketSingle>& columns) {
+      const std::array<packets::FiringColumn, hdl64e::kColumnsPerPacketSingle>& columns) {
     const auto wire_cdeg = [&](std::size_t c) {
       return beams::wrap_cdeg(columns[c].unwrapped_azimuth_cdeg);
     };
     const std::int32_t step =
         hdl64e::column_step_ticks(wire_cdeg(0), wire_cdeg(columns.size() - 1));
-    for (const frame::FiringColumn& column : columns) {
+    for (const packets::FiringColumn& column : columns) {
       for (int laser = 0; laser < hdl64e::kHdl64eLasers; ++laser) {
-        const frame::LabelledReturn& measured = column.by_laser[static_cast<std::size_t>(laser)];
+        const packets::LabelledReturn& measured = column.by_laser[static_cast<std::size_t>(laser)];
         if (measured.raw == 0) continue;
         const packet::BeamAzimuth beam =
             packet::beam_azimuth(column.unwrapped_azimuth_cdeg, offsets.offset_ticks(step, laser));
@@ -121,7 +121,7 @@ TEST_P(SimulatedDrive, GetsTheSameLabelsThroughPacketsAndDirectly) {
   config.duration_s = 0.3;
   config.mount.pitch_rad = 0.02;
   TwoWays ways(config);
-  std::array<frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns;
+  std::array<packets::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns;
   std::size_t filled = 0;
   const auto summary = simulator::simulate_drive(
       config, [&](const simulator::Hdl64eSimulatedColumn& column) -> Status {

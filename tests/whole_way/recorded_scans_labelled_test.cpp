@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/scan/scan_reader.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "pipeline/ground/coarse_stages.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
 #include "tests/pipeline/min_cut/boost_oracle.hpp"
+#include "tools/lab/encode/scan_reader.hpp"
 #include "tools/lab/quality/quality.hpp"
 
 namespace terracut::whole_way {
@@ -28,7 +28,7 @@ using stage::Stage;
 class RecordedFrames {
  public:
   explicit RecordedFrames(const std::filesystem::path& sequence)
-      : reader_(scan::ScanReader::open(sequence).value()), image_(ImageShape{}, 40'000, memory_) {
+      : reader_(encode::ScanReader::open(sequence).value()), image_(ImageShape{}, 40'000, memory_) {
     const auto fitted = reader_.fit_rings();
     profile_ = mount::ring_profile(scan::hdl64e_calibration(fitted.value().table), {});
     to_image_ = std::make_unique<scan::ScanToImage>(profile_.mount);
@@ -53,7 +53,7 @@ class RecordedFrames {
 
  private:
   memory::FixedMemory memory_;
-  scan::ScanReader reader_;
+  encode::ScanReader reader_;
   RangeImage image_;
   mount::RingProfile profile_;
   std::unique_ptr<scan::ScanToImage> to_image_;

@@ -39,7 +39,7 @@ std::vector<frame::Return> arrivals(const frame::RangeImage& image) {
 
 struct Measured {
   beams::Point exact;
-  frame::LabelledReturn wire;
+  packets::LabelledReturn wire;
 };
 
 class SimulatedDriveDecoded : public test::InScratchFolder {
@@ -54,7 +54,7 @@ class SimulatedDriveDecoded : public test::InScratchFolder {
     const auto done = simulator::simulate_drive(
         config, [&](const simulator::SimulatedColumn<EncoderTraits>& column) -> Status {
           for (std::size_t i = 0; i < column.exact.size(); ++i) {
-            const frame::LabelledReturn& wire = column.wire.by_laser[i];
+            const packets::LabelledReturn& wire = column.wire.by_laser[i];
             if (wire.raw != 0) measured.push_back({column.exact[i], wire});
           }
           return writer->add_column(column.wire.stamp_ns, column.wire.unwrapped_azimuth_cdeg,

@@ -4,6 +4,7 @@
 
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "tests/calib/calib_test_support.hpp"
+#include "tools/lab/packets/hdl64e_xml_writer.hpp"
 
 namespace terracut::hdl64e {
 namespace {

@@ -16,7 +16,7 @@
 
 namespace terracut::test {
 
-using frame::FiringColumn;
+using packets::FiringColumn;
 
 /// One packet as it would be captured.
 struct Packet {

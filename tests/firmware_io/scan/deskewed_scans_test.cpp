@@ -100,7 +100,7 @@ quality::Quality label(const Drive& drive, bool deskew) {
 
 Drive encode(const fs::path& sequence, const fs::path& pcap, bool twisted) {
   encode::ScanDriveOptions options;
-  options.motion = twisted ? PutMotionBack::kWhereKnown : PutMotionBack::kNever;
+  options.motion = twisted ? encode::PutMotionBack::kWhereKnown : encode::PutMotionBack::kNever;
   options.can_log = twisted;
   const auto report = encode::encode_scan_folder(sequence, pcap, options);
   EXPECT_TRUE(report) << report.error().message;

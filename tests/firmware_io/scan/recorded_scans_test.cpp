@@ -6,18 +6,18 @@
 #include <algorithm>
 #include <array>
 
-#include "firmware_io/scan/scan_reader.hpp"
 #include "recorded_sequences.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/lab/encode/recorded_spin.hpp"
 #include "tools/lab/encode/scan_encoder.hpp"
+#include "tools/lab/encode/scan_reader.hpp"
 
 namespace terracut::scan {
 namespace {
 
-ScanReader reader_of(const std::filesystem::path& sequence, bool undo) {
-  auto reader =
-      ScanReader::open(sequence, undo ? PutMotionBack::kWhereKnown : PutMotionBack::kNever);
+encode::ScanReader reader_of(const std::filesystem::path& sequence, bool undo) {
+  auto reader = encode::ScanReader::open(
+      sequence, undo ? encode::PutMotionBack::kWhereKnown : encode::PutMotionBack::kNever);
   EXPECT_TRUE(reader) << reader.error().message;
   EXPECT_EQ(reader->why_as_recorded().empty(), undo);
   return std::move(*reader);
@@ -27,7 +27,7 @@ TEST(RecordedScans, HaveSixtyFourRingsEachByTheOrderOfTheFile) {
   TERRACUT_RECORDED_SEQUENCES(sequences);
   std::size_t scans = 0;
   for (const auto& sequence : sequences) {
-    const ScanReader reader = reader_of(sequence, false);
+    const encode::ScanReader reader = reader_of(sequence, false);
     KittiScan scan;
     RingRecovery rings;
     for (std::size_t i = 0; i < reader.size(); ++i, ++scans) {
@@ -44,7 +44,7 @@ TEST(RecordedScans, HaveSixtyFourRingsEachByTheOrderOfTheFile) {
 TEST(RecordedScans, KeepTheirRingsWhenOnesAreMissing) {
   TERRACUT_RECORDED_SEQUENCES(sequences);
   for (const auto& sequence : sequences) {
-    ScanReader reader = reader_of(sequence, false);
+    encode::ScanReader reader = reader_of(sequence, false);
     const auto fitted = reader.fit_rings();
     ASSERT_TRUE(fitted);
     KittiScan scan;
@@ -127,7 +127,7 @@ TEST(RecordedScans, KeepARowForEachRingInACameraViewOfThem) {
       truth.push_back(whole.ring_of_point[i]);
     }
     folder.write_records("000000.bin", points);
-    ScanReader reader = reader_of(folder.path(), false);
+    encode::ScanReader reader = reader_of(folder.path(), false);
     const auto fitted = reader.fit_rings();
     ASSERT_TRUE(fitted) << sequence << ": " << fitted.error().message;
     RingRecovery found;
@@ -167,7 +167,7 @@ class RecordedScansEncoded : public testing::TestWithParam<bool> {};
 TEST_P(RecordedScansEncoded, KeepRangeAzimuthAndNearlyAllPoints) {
   TERRACUT_RECORDED_SEQUENCES(sequences);
   for (const auto& sequence : sequences) {
-    ScanReader reader = reader_of(sequence, GetParam());
+    encode::ScanReader reader = reader_of(sequence, GetParam());
     const auto fitted = reader.fit_rings();
     ASSERT_TRUE(fitted);
     std::size_t returns = 0;

@@ -76,7 +76,7 @@ ExitCode run_encode(const Options& options) {
   catch_stop_signals();
   encode::ScanDriveOptions drive;
   drive.can_log = options.can_log;
-  if (options.encode.keep_compensation) drive.motion = scan::PutMotionBack::kNever;
+  if (options.encode.keep_compensation) drive.motion = encode::PutMotionBack::kNever;
   if (!options.capture.calibration.empty()) {
     auto calibration = made_calibration(options.capture, packets::Hdl64eEncoderTraits{});
     if (!calibration) return refuse(calibration.error());

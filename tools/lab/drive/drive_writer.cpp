@@ -74,7 +74,7 @@ DriveWriter<EncoderTraits>::DriveWriter(capture::PcapWriter pcap, DriveFiles fil
 template <class EncoderTraits>
 Status DriveWriter<EncoderTraits>::add_column(
     std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
-    std::span<const frame::LabelledReturn, kLasers> by_laser) {
+    std::span<const packets::LabelledReturn, kLasers> by_laser) {
   Column& column = group_[filled_++];
   column.stamp_ns = stamp_ns;
   column.unwrapped_azimuth_cdeg = unwrapped_azimuth_cdeg;

@@ -10,9 +10,9 @@
 
 #include "drive_files.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
-#include "firmware_io/frame/labelled_return.hpp"
 #include "rt/error.hpp"
 #include "tools/lab/packets/encoder_traits.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 #include "truth_frames.hpp"
 
 namespace terracut::drive {
@@ -63,7 +63,7 @@ class DriveWriter {
   /// last, then strongest. Firings must be those of a rotating head that a decoder can follow.
   /// kWriteFailed.
   [[nodiscard]] Status add_column(std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
-                                  std::span<const frame::LabelledReturn, kLasers> by_laser);
+                                  std::span<const packets::LabelledReturn, kLasers> by_laser);
 
   /// Moves all files to their places. kInvalidArgument if the columns do not fill whole packets.
   [[nodiscard]] Expected<DriveSummary> finish();

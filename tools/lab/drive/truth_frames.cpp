@@ -22,7 +22,8 @@ void TruthFrames<EncoderTraits>::add(std::span<const Column> columns) {
     const std::int32_t step_ticks =
         EncoderTraits::step_ticks(rotor, static_cast<int>(i / returns), returns_);
     for (int laser = 0; laser < EncoderTraits::kLasers; ++laser) {
-      const frame::LabelledReturn& labelled = columns[i].by_laser[static_cast<std::size_t>(laser)];
+      const packets::LabelledReturn& labelled =
+          columns[i].by_laser[static_cast<std::size_t>(laser)];
       if (labelled.raw == 0) continue;
       const std::int32_t offset_ticks =
           EncoderTraits::offset_ticks(offsets_, step_ticks, laser, returns_);

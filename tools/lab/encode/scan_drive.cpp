@@ -23,7 +23,7 @@ void work_round(std::span<scan::ScanPoint> points) {
     point.y_m = -point.y_m;
   }
 }
-scan::SensorTwist reversed(scan::SensorTwist twist) {
+encode::SensorTwist reversed(encode::SensorTwist twist) {
   for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
     twist.velocity_m_s[axis] = -twist.velocity_m_s[axis];
     twist.angular_velocity_rad_s[axis] = -twist.angular_velocity_rad_s[axis];
@@ -31,7 +31,7 @@ scan::SensorTwist reversed(scan::SensorTwist twist) {
   return twist;
 }
 
-Expected<RecordedSpin> recorded_spin(const scan::ScanReader& reader) {
+Expected<RecordedSpin> recorded_spin(const encode::ScanReader& reader) {
   RecordedSpin spin;
   scan::KittiScan scan;
   scan::RingRecovery rings;
@@ -49,7 +49,7 @@ Expected<RecordedSpin> recorded_spin(const scan::ScanReader& reader) {
 Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder,
                                              const std::filesystem::path& pcap_path,
                                              const ScanDriveOptions& options) {
-  auto reader = scan::ScanReader::open(folder, options.motion);
+  auto reader = encode::ScanReader::open(folder, options.motion);
   if (!reader) return tl::unexpected(std::move(reader.error()));
   ScanDriveReport report;
   report.why_as_recorded = reader->why_as_recorded();

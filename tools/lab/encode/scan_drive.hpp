@@ -10,10 +10,10 @@
 
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "firmware_io/scan/ring_table_fit.hpp"
-#include "firmware_io/scan/scan_reader.hpp"
 #include "rt/error.hpp"
 #include "scan_encoder.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
+#include "tools/lab/encode/scan_reader.hpp"
 
 namespace terracut::encode {
 
@@ -21,7 +21,7 @@ namespace terracut::encode {
 struct ScanDriveOptions {
   /// The unit's table; without one it is fitted from the scans.
   std::optional<hdl64e::Hdl64eCalibration> calibration;
-  scan::PutMotionBack motion = scan::PutMotionBack::kWhereKnown;
+  encode::PutMotionBack motion = encode::PutMotionBack::kWhereKnown;
   /// Also write the restored motion as a CAN log beside the capture (motion/vehicle_log.hpp);
   /// kInvalidArgument if none was restored. A recorded frame begins behind, a frame of packets
   /// straight ahead, so the sensor is reversed: it looks backwards, and its vehicle drives

@@ -13,13 +13,13 @@
 
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/hdl64e/hdl64e_geometry.hpp"
-#include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/ring_table.hpp"
 #include "firmware_io/scan/ring_table_fit.hpp"
 #include "rt/error.hpp"
 #include "tools/lab/drive/firing_plan.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/quality/error_counts.hpp"
 
 namespace terracut::encode {
@@ -60,7 +60,7 @@ struct EncodeSummary {
 
 /// A firing and the points it came from.
 struct EncodedFiring {
-  frame::FiringColumn column;
+  packets::FiringColumn column;
   struct Source {
     std::int32_t frame = -1;  ///< Number of the add_frame() call, from 0; -1 without a return.
     std::uint32_t point = 0;  ///< Index in that scan.

@@ -12,10 +12,11 @@
 #include "calib/hdl64e/hdl64e_geometry.hpp"
 #include "calib/hdl64e/hdl64e_xml.hpp"
 #include "calib/hdl64e/nominal_hdl64e.hpp"
-#include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "tools/lab/packets/group_azimuths.hpp"
 #include "tools/lab/packets/hdl64e_packet_sender.hpp"
+#include "tools/lab/packets/hdl64e_xml_writer.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 
 namespace terracut::packets {
@@ -26,7 +27,7 @@ struct Hdl64eEncoderTraits {
   using Calibration = hdl64e::Hdl64eCalibration;
   using Geometry = hdl64e::Hdl64eGeometry;
   using Offsets = hdl64e::BeamOffsets;
-  using Column = frame::FiringColumn;
+  using Column = packets::FiringColumn;
   using Sender = Hdl64ePacketSender;
 
   struct Config {

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/hdl64e/firing_times.hpp"
 #include "firmware_io/hdl64e/status_cycle.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 
 namespace terracut::packets {
 
@@ -16,12 +16,12 @@ namespace terracut::packets {
 /// strongest and last return, each pair with one azimuth. The device stamp marks the packet's end
 /// (docs/reference/sensors.md): `end_stamp_ns` (since 1970), as microseconds of its hour.
 void encode_hdl64e_packet(
-    std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
+    std::span<const packets::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
     std::int64_t end_stamp_ns, hdl64e::StatusPair status, hdl64e::wire::Packet& packet) noexcept;
 
 /// Returns the end of the packet of these columns: one firing period, computed from the columns,
 /// after the last one. Two columns with one azimuth at the start mean dual return.
 [[nodiscard]] std::int64_t packet_end_ns(
-    std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns) noexcept;
+    std::span<const packets::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns) noexcept;
 
 }  // namespace terracut::packets

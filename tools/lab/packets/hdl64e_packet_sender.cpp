@@ -23,7 +23,7 @@ Expected<Hdl64ePacketSender> Hdl64ePacketSender::create(
   return Hdl64ePacketSender(StatusStreamWriter(*table, hdl64e::StatusFlavour::kS3));
 }
 
-Status Hdl64ePacketSender::send(std::span<const frame::FiringColumn> columns, int,
+Status Hdl64ePacketSender::send(std::span<const packets::FiringColumn> columns, int,
                                 capture::PcapWriter& capture) {
   const auto whole = columns.first<hdl64e::kColumnsPerPacketSingle>();
   const std::int64_t end_ns = packet_end_ns(whole);

@@ -6,10 +6,10 @@
 
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
-#include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/hdl64e/firing_times.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "rt/error.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 #include "tools/lab/packets/status_stream_writer.hpp"
 
@@ -25,7 +25,7 @@ class Hdl64ePacketSender {
 
   /// Writes the next packet from its columns. `first_column` is the index of its first column in
   /// the group.
-  [[nodiscard]] Status send(std::span<const frame::FiringColumn> columns, int first_column,
+  [[nodiscard]] Status send(std::span<const packets::FiringColumn> columns, int first_column,
                             capture::PcapWriter& capture);
 
  private:

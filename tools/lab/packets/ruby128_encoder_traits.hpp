@@ -11,9 +11,9 @@
 #include "calib/beams/straight_geometry.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
-#include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "tools/lab/packets/group_azimuths.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 #include "tools/lab/packets/ruby128_packet_sender.hpp"
 
@@ -25,7 +25,7 @@ struct Ruby128EncoderTraits {
   using Calibration = ruby128::Ruby128Calibration;
   using Geometry = beams::StraightGeometry;
   using Offsets = ruby128::Ruby128BeamOffsets;
-  using Column = frame::Ruby128Column;
+  using Column = packets::Ruby128Column;
   using Sender = Ruby128PacketSender;
 
   struct Config {

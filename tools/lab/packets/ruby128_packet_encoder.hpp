@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 
 namespace terracut::packets {
@@ -25,7 +25,8 @@ struct Ruby128PacketFacts {
 /// is the first column's index in the group of firings of whole packets: even for the first return
 /// of a firing. The device stamp is the first column's.
 void encode_ruby128_packet(
-    std::span<const frame::Ruby128Column, ruby128::kRubyBlocksPerPacket> columns, int first_column,
-    const Ruby128PacketFacts& facts, ruby128::ruby128_wire::Packet& packet) noexcept;
+    std::span<const packets::Ruby128Column, ruby128::kRubyBlocksPerPacket> columns,
+    int first_column, const Ruby128PacketFacts& facts,
+    ruby128::ruby128_wire::Packet& packet) noexcept;
 
 }  // namespace terracut::packets

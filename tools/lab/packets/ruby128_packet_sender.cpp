@@ -65,7 +65,7 @@ Status Ruby128PacketSender::send_difop(std::int64_t stamp_ns, std::int64_t captu
       datagram(ruby128::payload_of(difop_), captured_ns, ruby128::kRubyDevicePort));
 }
 
-Status Ruby128PacketSender::send(std::span<const frame::Ruby128Column> columns, int first_column,
+Status Ruby128PacketSender::send(std::span<const packets::Ruby128Column> columns, int first_column,
                                  capture::PcapWriter& capture) {
   const std::int64_t stamp_ns = columns.front().stamp_ns;
   const std::int64_t end_ns = columns.back().stamp_ns + ruby128::kRubyBlock_ns;

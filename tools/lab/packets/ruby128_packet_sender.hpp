@@ -9,10 +9,10 @@
 
 #include "calib/ruby128/ruby128_calibration.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
-#include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/difop.hpp"
 #include "rt/error.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/packets/ruby128_packet_encoder.hpp"
 
 namespace terracut::packets {
@@ -34,7 +34,7 @@ class Ruby128PacketSender {
 
   /// Writes the next packet from its columns. `first_column` is the index of its first column in
   /// the group.
-  [[nodiscard]] Status send(std::span<const frame::Ruby128Column> columns, int first_column,
+  [[nodiscard]] Status send(std::span<const packets::Ruby128Column> columns, int first_column,
                             capture::PcapWriter& capture);
 
  private:

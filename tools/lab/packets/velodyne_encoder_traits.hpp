@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "calib/beams/straight_geometry.hpp"
-#include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/velodyne/beam_offsets.hpp"
 #include "tools/lab/packets/group_azimuths.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 #include "tools/lab/packets/velodyne_packet_sender.hpp"
 
@@ -24,7 +24,7 @@ struct VelodyneEncoderTraits {
   using Calibration = velodyne::VelodyneCalibration;
   using Geometry = beams::StraightGeometry;
   using Offsets = velodyne::BeamOffsets<Model>;
-  using Column = frame::LabelledColumn<Model::kChannels>;
+  using Column = packets::LabelledColumn<Model::kChannels>;
   using Sender = VelodynePacketSender<Model>;
 
   struct Config {

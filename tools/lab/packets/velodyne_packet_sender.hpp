@@ -9,8 +9,8 @@
 #include "calib/beams/angle.hpp"
 #include "calib/sensor/sensor_model.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
-#include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/velodyne/packet_layout.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 
 namespace terracut::packets {
@@ -21,7 +21,7 @@ namespace terracut::packets {
 template <class Model>
 class VelodynePacketSender {
  public:
-  using Column = frame::LabelledColumn<Model::kChannels>;
+  using Column = packets::LabelledColumn<Model::kChannels>;
 
   explicit VelodynePacketSender(ReturnMode returns) noexcept
       : is_dual_(returns == ReturnMode::kDual) {}
@@ -55,7 +55,7 @@ class VelodynePacketSender {
         static_cast<std::uint16_t>(beams::wrap_cdeg(column.unwrapped_azimuth_cdeg));
     const auto first = static_cast<std::size_t>(part * velodyne::kBlockReturns);
     for (std::size_t i = 0; i < block.returns.size(); ++i) {
-      const frame::LabelledReturn& beam = column.by_laser[first + i];
+      const packets::LabelledReturn& beam = column.by_laser[first + i];
       block.returns[i] = {packet::Le16::of(beam.raw), beam.intensity};
     }
   }

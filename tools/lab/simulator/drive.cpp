@@ -82,7 +82,7 @@ class Drive {
       cast(first, count);
       for (const Column& column :
            std::span(columns_).first(static_cast<std::size_t>(count) * returns_)) {
-        for (const frame::LabelledReturn& beam : column.wire.by_laser)
+        for (const packets::LabelledReturn& beam : column.wire.by_laser)
           summary.returns += beam.raw != 0;
         ++summary.columns;
         if (Status status = sink(column); !status) return tl::unexpected(status.error());

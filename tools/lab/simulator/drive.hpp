@@ -12,11 +12,11 @@
 
 #include "calib/beams/beam.hpp"
 #include "calib/mount/mount.hpp"
-#include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/vehicle/motion_sample.hpp"
 #include "rt/error.hpp"
 #include "sensor_effects.hpp"
 #include "tools/lab/packets/encoder_traits.hpp"
+#include "tools/lab/packets/labelled_return.hpp"
 
 namespace terracut::simulator {
 

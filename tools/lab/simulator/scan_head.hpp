@@ -57,7 +57,7 @@ class ScanHead {
     double cos_incidence = 0;
   };
   struct Measured {
-    frame::LabelledReturn wire;
+    packets::LabelledReturn wire;
     beams::Point exact;
   };
 

@@ -17,7 +17,6 @@
 #include <utility>
 
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/scan/sensor_motion.hpp"
 #include "firmware_io/vehicle/planar_pose.hpp"
 #include "frame_judge.hpp"
 #include "frame_labeller.hpp"
@@ -26,6 +25,7 @@
 #include "result_keeper.hpp"
 #include "rt/number_of.hpp"
 #include "rt/threads/thread_setup.hpp"
+#include "tools/lab/encode/sensor_motion.hpp"
 
 namespace terracut::eval {
 namespace {
@@ -37,11 +37,11 @@ struct OpenSequence {
   std::string name;
   datasets::Sequence scans;
   mount::RingProfile profile;
-  std::optional<scan::SensorMotion> motion;  ///< Set if there are poses beside the frames.
+  std::optional<encode::SensorMotion> motion;  ///< Set if there are poses beside the frames.
 
   /// Returns the motion from frame `scan` to frame `before`; nothing unless they are successive.
-  [[nodiscard]] std::optional<scan::RigidMotion> motion_since(std::size_t before,
-                                                              std::size_t scan) const {
+  [[nodiscard]] std::optional<encode::RigidMotion> motion_since(std::size_t before,
+                                                                std::size_t scan) const {
     const auto from = rt::number_of<std::uint32_t>(scans.frame(scan));
     const auto to = rt::number_of<std::uint32_t>(scans.frame(before));
     if (!motion || !from || !to || *from != *to + 1) return std::nullopt;
@@ -66,7 +66,7 @@ constexpr frame::Place kDeparture{.journey = 1};
 
 /// Moves a place as measured by the vehicle, in the plane. `since` transforms the current frame to
 /// the previous one; without it another journey begins.
-frame::Place moved(const frame::Place& place, const std::optional<scan::RigidMotion>& since) {
+frame::Place moved(const frame::Place& place, const std::optional<encode::RigidMotion>& since) {
   if (!since) return {.journey = place.journey + 1};
   const double length = std::hypot((*since)[0], (*since)[4]);
   const vehicle::PlanarPose by{(*since)[3], (*since)[7], (*since)[0] / length,
@@ -150,12 +150,12 @@ class Run {
   }
 
   /// Missing poses are no fault; unreadable ones are.
-  std::optional<scan::SensorMotion> motion_of(const std::string& name) {
+  std::optional<encode::SensorMotion> motion_of(const std::string& name) {
     const fs::path folder = dataset_.folder(name);
     const fs::path poses = folder / "poses.txt", times = folder / "times.txt";
     std::error_code ignored;
     if (!fs::exists(poses, ignored) || !fs::exists(times, ignored)) return std::nullopt;
-    auto motion = scan::SensorMotion::read(poses, times, folder / "calib.txt");
+    auto motion = encode::SensorMotion::read(poses, times, folder / "calib.txt");
     if (motion) return *std::move(motion);
     faults_[{name, ""}] = {poses.string(), motion.error().message};
     return std::nullopt;

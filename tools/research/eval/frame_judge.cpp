@@ -7,7 +7,7 @@
 namespace terracut::eval {
 
 void FrameJudge::look_at(const scan::KittiScan& scan,
-                         const std::optional<scan::RigidMotion>& before_this) {
+                         const std::optional<encode::RigidMotion>& before_this) {
   constexpr double kTall_m = 0.30;
   ground_.look_at(scan);
   flips_.look_at(scan, before_this);

@@ -9,8 +9,8 @@
 
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
-#include "firmware_io/scan/sensor_motion.hpp"
 #include "frame_result.hpp"
+#include "tools/lab/encode/sensor_motion.hpp"
 #include "tools/research/datasets/class_table.hpp"
 #include "tools/research/statistics/label_flips.hpp"
 #include "tools/research/statistics/true_ground.hpp"
@@ -26,7 +26,7 @@ class FrameJudge {
       : classes_(classes), ground_(classes), flips_(classes, methods) {}
 
   /// Sets the frame to judge; keep `scan` unchanged. `before_this`: see LabelFlips::look_at().
-  void look_at(const scan::KittiScan& scan, const std::optional<scan::RigidMotion>& before_this);
+  void look_at(const scan::KittiScan& scan, const std::optional<encode::RigidMotion>& before_this);
 
   /// Fills `tall` and `flips`. `labels` has one per point. Call once per method and frame.
   void judge(std::size_t method, std::span<const frame::Label> labels, FrameResult& result);

@@ -11,7 +11,7 @@
 namespace terracut::eval {
 
 using encode::EncodedFiring;
-using frame::FiringColumn;
+using packets::FiringColumn;
 
 namespace {
 

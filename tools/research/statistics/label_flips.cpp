@@ -84,7 +84,7 @@ std::uint32_t LabelFlips::nearest_before(const Place& place) const {
 }
 
 void LabelFlips::look_at(const scan::KittiScan& scan,
-                         const std::optional<scan::RigidMotion>& before_this) {
+                         const std::optional<encode::RigidMotion>& before_this) {
   std::swap(places_, places_before_);
   std::swap(truth_, truth_before_);
   places_.clear();
@@ -95,7 +95,7 @@ void LabelFlips::look_at(const scan::KittiScan& scan,
   partners_.assign(places_.size(), kNone);
   if (!before_this) return;
   sort_into_voxels();
-  const scan::RigidMotion& T = *before_this;
+  const encode::RigidMotion& T = *before_this;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (truth_[i] == Truth::kLeftOut) continue;
     const Place& p = places_[i];

@@ -11,7 +11,7 @@
 
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
-#include "firmware_io/scan/sensor_motion.hpp"
+#include "tools/lab/encode/sensor_motion.hpp"
 #include "tools/research/datasets/class_table.hpp"
 #include "tools/research/statistics/frame_counts.hpp"
 
@@ -26,7 +26,7 @@ class LabelFlips {
 
   /// Takes the next frame. `before_this` transforms its points to the previous frame; none if there
   /// is none or its motion is unknown.
-  void look_at(const scan::KittiScan& scan, const std::optional<scan::RigidMotion>& before_this);
+  void look_at(const scan::KittiScan& scan, const std::optional<encode::RigidMotion>& before_this);
 
   /// Counts the flips of one method, given a label per point of the latest frame.
   [[nodiscard]] statistics::FlipCounts count(std::size_t method,

@@ -42,7 +42,7 @@ std::vector<typename EncoderTraits::Column> random_columns(const RandomColumns& 
       auto& column = columns.emplace_back();
       column.stamp_ns = settings.first_stamp_ns + firing * firing_ns;
       column.unwrapped_azimuth_cdeg = std::llround(rotor_cdeg);
-      for (frame::LabelledReturn& beam : column.by_laser) {
+      for (packets::LabelledReturn& beam : column.by_laser) {
         if (chance(random) >= settings.share_of_returns) continue;
         beam.raw = static_cast<std::uint16_t>(distance(random));
         beam.intensity = static_cast<std::uint8_t>(byte(random));

@@ -10,13 +10,13 @@
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/frame/each_return.hpp"
 #include "firmware_io/scan/label_file.hpp"
-#include "firmware_io/scan/scan_reader.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 #include "tools/lab/encode/recorded_spin.hpp"
 #include "tools/lab/encode/scan_encoder.hpp"
+#include "tools/lab/encode/scan_reader.hpp"
 
 namespace terracut::encode {
 namespace {
@@ -34,7 +34,7 @@ struct Drive {
 };
 
 void encode(const std::filesystem::path& sequence, Drive& drive) {
-  auto reader = scan::ScanReader::open(sequence);
+  auto reader = encode::ScanReader::open(sequence);
   ASSERT_TRUE(reader);
   const auto fitted = reader->fit_rings();
   ASSERT_TRUE(fitted);

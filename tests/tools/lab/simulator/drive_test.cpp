@@ -54,7 +54,7 @@ void for_each_return(const std::vector<Hdl64eSimulatedColumn>& columns, Visit&& 
 std::uint64_t digest(const std::vector<Hdl64eSimulatedColumn>& columns) {
   std::uint64_t sum = 0;
   for_each_return(columns, [&](const Hdl64eSimulatedColumn& column, int laser,
-                               const frame::LabelledReturn& wire, const beams::Point&) {
+                               const packets::LabelledReturn& wire, const beams::Point&) {
     sum = sum * 0x9E3779B97F4A7C15U +
           static_cast<std::uint64_t>(column.wire.unwrapped_azimuth_cdeg) +
           static_cast<std::uint64_t>(laser) * 77 + wire.raw * 3U + wire.intensity * 5U + wire.truth;
@@ -93,12 +93,13 @@ TEST(Drive, GroundOfTheFlatSceneIsExactlyTheMountingHeightBelow) {
   config.effects = SensorEffects::none();
   config.mount.height_m = 2.1;
   std::size_t ground = 0;
-  for_each_return(drive(config), [&](const Hdl64eSimulatedColumn&, int,
-                                     const frame::LabelledReturn& wire, const beams::Point& exact) {
-    if (wire.truth != static_cast<std::uint32_t>(world::Truth::kRoad)) return;
-    ++ground;
-    EXPECT_NEAR(exact.z_m, -2.1, 1e-6);
-  });
+  for_each_return(drive(config),
+                  [&](const Hdl64eSimulatedColumn&, int, const packets::LabelledReturn& wire,
+                      const beams::Point& exact) {
+                    if (wire.truth != static_cast<std::uint32_t>(world::Truth::kRoad)) return;
+                    ++ground;
+                    EXPECT_NEAR(exact.z_m, -2.1, 1e-6);
+                  });
   EXPECT_GT(ground, 90000U);
 }
 
@@ -107,11 +108,12 @@ TEST(Drive, GroundIsLevelInTheVehicleFrameOfATiltedMount) {
   config.effects = SensorEffects::none();
   config.mount = {.height_m = 1.8, .roll_rad = 0.03, .pitch_rad = 0.06};
   const mount::RigidTransform T = mount::T_vehicle_lidar(config.mount);
-  for_each_return(drive(config), [&](const Hdl64eSimulatedColumn&, int,
-                                     const frame::LabelledReturn& wire, const beams::Point& exact) {
-    if (wire.truth != static_cast<std::uint32_t>(world::Truth::kRoad)) return;
-    EXPECT_NEAR(mount::apply(T, exact.x_m, exact.y_m, exact.z_m)[2], 0, 1e-6);
-  });
+  for_each_return(drive(config),
+                  [&](const Hdl64eSimulatedColumn&, int, const packets::LabelledReturn& wire,
+                      const beams::Point& exact) {
+                    if (wire.truth != static_cast<std::uint32_t>(world::Truth::kRoad)) return;
+                    EXPECT_NEAR(mount::apply(T, exact.x_m, exact.y_m, exact.z_m)[2], 0, 1e-6);
+                  });
 }
 
 TEST(Drive, RangeNoiseOnTheGroundIsThatOfTheConfiguration) {
@@ -120,14 +122,15 @@ TEST(Drive, RangeNoiseOnTheGroundIsThatOfTheConfiguration) {
   config.effects.range_noise_m = 0.02;
   double squares = 0;
   double count = 0;
-  for_each_return(drive(config), [&](const Hdl64eSimulatedColumn&, int,
-                                     const frame::LabelledReturn& wire, const beams::Point& exact) {
-    if (wire.truth != static_cast<std::uint32_t>(world::Truth::kRoad)) return;
-    const double range_m = std::hypot(exact.x_m, exact.y_m, exact.z_m);
-    const double error_m = (exact.z_m + config.mount.height_m) * range_m / exact.z_m;
-    squares += error_m * error_m;
-    ++count;
-  });
+  for_each_return(
+      drive(config), [&](const Hdl64eSimulatedColumn&, int, const packets::LabelledReturn& wire,
+                         const beams::Point& exact) {
+        if (wire.truth != static_cast<std::uint32_t>(world::Truth::kRoad)) return;
+        const double range_m = std::hypot(exact.x_m, exact.y_m, exact.z_m);
+        const double error_m = (exact.z_m + config.mount.height_m) * range_m / exact.z_m;
+        squares += error_m * error_m;
+        ++count;
+      });
   // Beams start up to 0.2 m above the origin, so their slope is a little different.
   EXPECT_NEAR(std::sqrt(squares / count), 0.02, 0.003);
 }
@@ -146,7 +149,7 @@ TEST(Drive, WireValuesDecodeToTheExactPointsWithinTheirRounding) {
     for (std::size_t i = 0; i < 6; ++i) {
       for (int laser = 0; laser < hdl64e::kHdl64eLasers; ++laser) {
         const auto l = static_cast<std::size_t>(laser);
-        const frame::LabelledReturn& wire = columns[first + i].wire.by_laser[l];
+        const packets::LabelledReturn& wire = columns[first + i].wire.by_laser[l];
         if (wire.raw == 0) continue;
         const double azimuth_rad =
             packet::firing_azimuth_rad(wrapped(i), hdl64e::firing_advance_ticks(step_ticks, laser));
@@ -170,7 +173,7 @@ TEST(Drive, BoxesOfTheFlatSceneAreSeenWithTheirClassAndNowhereElse) {
     double low_m = 1e9, high_m = -1e9;
     std::size_t seen = 0;
     for_each_return(drive(config), [&](const Hdl64eSimulatedColumn&, int,
-                                       const frame::LabelledReturn& wire,
+                                       const packets::LabelledReturn& wire,
                                        const beams::Point& exact) {
       const double dx = std::abs(exact.x_m - known.x_m) - known.length_m / 2;
       const double dy = std::abs(exact.y_m - known.y_m) - known.width_m / 2;
@@ -202,7 +205,7 @@ TEST(Drive, EveryLaserSeesWholeFramesAndNothingOutsideOfThem) {
   EXPECT_GT(columns.back().wire.unwrapped_azimuth_cdeg, 2 * beams::kRevolution_cdeg + 1000);
   std::array<std::array<int, hdl64e::kHdl64eLasers>, 2> returns{};
   for_each_return(columns, [&](const Hdl64eSimulatedColumn& column, int laser,
-                               const frame::LabelledReturn&, const beams::Point&) {
+                               const packets::LabelledReturn&, const beams::Point&) {
     const auto at = static_cast<std::size_t>(&column - columns.data());
     const std::size_t first = at - at % 6;
     const std::int32_t step_ticks =
@@ -247,7 +250,7 @@ TEST(LongDrive, WorldComesNearerAsTheVehicleMoves) {
                                 std::int64_t frame) {
     double nearest_m = 1e9;
     for_each_return(columns, [&](const Hdl64eSimulatedColumn& column, int,
-                                 const frame::LabelledReturn& wire, const beams::Point& exact) {
+                                 const packets::LabelledReturn& wire, const beams::Point& exact) {
       const std::int64_t revolution = column.wire.unwrapped_azimuth_cdeg / beams::kRevolution_cdeg;
       if (revolution != frame || wire.truth != static_cast<std::uint32_t>(world::Truth::kTruck))
         return;
@@ -274,7 +277,7 @@ TEST(Drive, FramesAreOnePictureWhenTheWorldStandsStillDuringThem) {
   const auto spread_m = [&] {
     double least_m = 1e9, most_m = -1e9;
     for_each_return(
-        drive(config), [&](const Hdl64eSimulatedColumn&, int, const frame::LabelledReturn& wire,
+        drive(config), [&](const Hdl64eSimulatedColumn&, int, const packets::LabelledReturn& wire,
                            const beams::Point& exact) {
           // The wall of the building that faces the road, and its front end behind the vehicle.
           if (wire.truth != static_cast<std::uint32_t>(world::Truth::kBuilding) || exact.y_m < 9.2)
@@ -302,8 +305,8 @@ TEST_P(EveryScene, HasOnlyKnownLabelsAndRangesWithinTheLimits) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   std::size_t returns = 0;
   std::size_t ground = 0;
-  for_each_return(columns, [&](const Hdl64eSimulatedColumn&, int, const frame::LabelledReturn& wire,
-                               const beams::Point& exact) {
+  for_each_return(columns, [&](const Hdl64eSimulatedColumn&, int,
+                               const packets::LabelledReturn& wire, const beams::Point& exact) {
     ++returns;
     EXPECT_TRUE(known.contains(wire.truth)) << wire.truth;
     const double range_m = std::hypot(exact.x_m, exact.y_m, exact.z_m);

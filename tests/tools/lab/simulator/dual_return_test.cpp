@@ -73,7 +73,7 @@ TYPED_TEST(DualReturn, PairsShareStampAndAzimuthAndFillWholePackets) {
 TYPED_TEST(DualReturn, BothReturnsAreThereOrNoneAndTheLastIsNeverNearer) {
   std::size_t pairs = 0, nearer = 0, halves = 0, same = 0, told_apart = 0;
   for_each_pair(drive(one_frame<TypeParam>("street", packets::ReturnMode::kDual)),
-                [&](const frame::LabelledReturn& strongest, const frame::LabelledReturn& last) {
+                [&](const packets::LabelledReturn& strongest, const packets::LabelledReturn& last) {
                   halves += (strongest.raw == 0) != (last.raw == 0) ? 1 : 0;
                   if (strongest.raw == 0) return;
                   ++pairs;
@@ -96,7 +96,7 @@ TYPED_TEST(DualReturn, EchoesOfABeamAreFarEnoughApartToBeTold) {
   const double metres = TypeParam::metres_per_count(config.calibration);
   double nearest_m = 1e9;
   for_each_pair(drive(config),
-                [&](const frame::LabelledReturn& strongest, const frame::LabelledReturn& last) {
+                [&](const packets::LabelledReturn& strongest, const packets::LabelledReturn& last) {
                   if (last.raw > strongest.raw) {
                     nearest_m = std::min(nearest_m, (last.raw - strongest.raw) * metres);
                   }
@@ -109,7 +109,7 @@ TYPED_TEST(DualReturn, TwoEchoesComeFromEdgesAndLeavesNotFromTheOpenGround) {
   config.effects = SensorEffects::none();
   std::map<std::uint32_t, std::size_t> split, all;
   for_each_pair(drive(config),
-                [&](const frame::LabelledReturn& strongest, const frame::LabelledReturn& last) {
+                [&](const packets::LabelledReturn& strongest, const packets::LabelledReturn& last) {
                   if (strongest.raw == 0) return;
                   ++all[strongest.truth];
                   if (last.raw != strongest.raw) ++split[strongest.truth];
@@ -132,7 +132,7 @@ TYPED_TEST(DualReturn, IsTheSameOnAnyNumberOfThreads) {
   const auto digest = [](const auto& columns) {
     std::uint64_t sum = 0;
     for (const auto& column : columns) {
-      for (const frame::LabelledReturn& beam : column.wire.by_laser) {
+      for (const packets::LabelledReturn& beam : column.wire.by_laser) {
         sum = sum * 0x9E3779B97F4A7C15U + beam.raw * 3U + beam.intensity * 5U + beam.truth;
       }
     }

@@ -9,8 +9,8 @@
 namespace terracut::statistics {
 namespace {
 
+using encode::RigidMotion;
 using frame::Label;
-using scan::RigidMotion;
 
 constexpr RigidMotion kAtRest{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 constexpr std::uint32_t kRoad = 40, kCar = 10, kMovingCar = 252, kUnlabelled = 0;

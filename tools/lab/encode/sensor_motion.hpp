@@ -10,7 +10,7 @@
 
 #include "rt/error.hpp"
 
-namespace terracut::scan {
+namespace terracut::encode {
 
 /// Constant motion of the sensor, in its own frame (x forward, y left, z up).
 struct SensorTwist {
@@ -52,4 +52,4 @@ class SensorMotion {
   std::filesystem::path poses_path_;
 };
 
-}  // namespace terracut::scan
+}  // namespace terracut::encode

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/scan/motion_compensation.hpp"
+#include "tools/lab/encode/motion_compensation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,18 +10,18 @@
 #include <numbers>
 #include <string>
 
-#include "firmware_io/scan/sensor_motion.hpp"
 #include "synthetic_scan.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tools/lab/encode/sensor_motion.hpp"
 
-namespace terracut::scan {
+namespace terracut::encode {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
 
 /// Compensates as KITTI did, written from its definition: integrates the motion in small steps.
-ScanPoint compensated(const SensorTwist& twist, const ScanPoint& p) {
+scan::ScanPoint compensated(const SensorTwist& twist, const scan::ScanPoint& p) {
   const double share = std::atan2(-double{p.y_m}, double{p.x_m}) / (2 * std::numbers::pi);
   const double seconds = share * twist.frame_duration_s;
   const Eigen::Vector3d w(twist.angular_velocity_rad_s.data()), v(twist.velocity_m_s.data());
@@ -41,9 +41,9 @@ TEST(MotionCompensation, UndoneIsWhatTheSensorMeasured) {
   for (const double distance_m : {3.0, 7.0, 60.0}) {
     for (int degree = -179; degree < 180; degree += 7) {
       const double azimuth = beams::deg_to_rad(degree);
-      const ScanPoint measured{static_cast<float>(distance_m * std::cos(azimuth)),
-                               static_cast<float>(distance_m * std::sin(azimuth)), -1.5F, 0};
-      std::vector<ScanPoint> points{compensated(twist, measured)};
+      const scan::ScanPoint measured{static_cast<float>(distance_m * std::cos(azimuth)),
+                                     static_cast<float>(distance_m * std::sin(azimuth)), -1.5F, 0};
+      std::vector<scan::ScanPoint> points{compensated(twist, measured)};
       undo_motion_compensation(twist, points);
       EXPECT_NEAR(points[0].x_m, measured.x_m, 2e-3) << degree << " deg, " << distance_m << " m";
       EXPECT_NEAR(points[0].y_m, measured.y_m, 2e-3) << degree << " deg, " << distance_m << " m";
@@ -53,7 +53,7 @@ TEST(MotionCompensation, UndoneIsWhatTheSensorMeasured) {
 }
 
 TEST(MotionCompensation, ChangesNothingStraightAheadOrAtRest) {
-  std::vector<ScanPoint> ahead{{20, 0, -1, 0}};
+  std::vector<scan::ScanPoint> ahead{{20, 0, -1, 0}};
   undo_motion_compensation({{0, 0, 0.4}, {15, 0, 0}, 0.1}, ahead);
   EXPECT_FLOAT_EQ(ahead[0].x_m, 20);
   auto points = synthetic::scan(synthetic::table());
@@ -63,7 +63,7 @@ TEST(MotionCompensation, ChangesNothingStraightAheadOrAtRest) {
 }
 
 TEST(MotionCompensation, LeavesPointsThatAreNoPlaceAlone) {
-  std::vector<ScanPoint> points{{std::numeric_limits<float>::infinity(), 1, 2, 0}};
+  std::vector<scan::ScanPoint> points{{std::numeric_limits<float>::infinity(), 1, 2, 0}};
   undo_motion_compensation({{0, 0, 0.4}, {15, 0, 0}, 0.1}, points);
   EXPECT_TRUE(std::isinf(points[0].x_m));
   EXPECT_EQ(points[0].y_m, 1);
@@ -188,4 +188,4 @@ TEST(SensorMotion, RefusesSpeedsNoCarHas) {
 }
 
 }  // namespace
-}  // namespace terracut::scan
+}  // namespace terracut::encode

@@ -9,7 +9,7 @@
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
 
-namespace terracut::frame {
+namespace terracut::packets {
 
 /// One laser's measurement in one firing, with the truth about what it hit.
 struct LabelledReturn {
@@ -31,4 +31,4 @@ struct LabelledColumn {
 using FiringColumn = LabelledColumn<hdl64e::kHdl64eLasers>;
 using Ruby128Column = LabelledColumn<ruby128::kRuby128Lasers>;
 
-}  // namespace terracut::frame
+}  // namespace terracut::packets

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/scan/sensor_motion.hpp"
+#include "tools/lab/encode/sensor_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-namespace terracut::scan {
+namespace terracut::encode {
 namespace {
 
 using Pose = RigidMotion;
@@ -194,4 +194,4 @@ Expected<SensorTwist> SensorMotion::twist(std::uint32_t frame) const {
   return twist;
 }
 
-}  // namespace terracut::scan
+}  // namespace terracut::encode

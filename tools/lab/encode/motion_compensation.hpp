@@ -5,9 +5,9 @@
 #include <span>
 
 #include "firmware_io/scan/kitti_scan.hpp"
-#include "firmware_io/scan/sensor_motion.hpp"
+#include "tools/lab/encode/sensor_motion.hpp"
 
-namespace terracut::scan {
+namespace terracut::encode {
 
 /// Puts the sensor's motion back into a compensated scan: gives the points as the sensor measured
 /// them.
@@ -30,6 +30,6 @@ namespace terracut::scan {
 /// Two errors remain, as the files do not tell them: the lasers' rotational corrections (up to 10
 /// degrees, 3 ms) and changes of speed within two frames. Points without a place are not changed.
 /// Allocates nothing.
-void undo_motion_compensation(const SensorTwist& twist, std::span<ScanPoint> points) noexcept;
+void undo_motion_compensation(const SensorTwist& twist, std::span<scan::ScanPoint> points) noexcept;
 
-}  // namespace terracut::scan
+}  // namespace terracut::encode

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/scan/motion_compensation.hpp"
+#include "tools/lab/encode/motion_compensation.hpp"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 
-namespace terracut::scan {
+namespace terracut::encode {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -38,10 +38,11 @@ double share_of_frame(const Vector& p, double near) {
 
 }  // namespace
 
-void undo_motion_compensation(const SensorTwist& twist, std::span<ScanPoint> points) noexcept {
+void undo_motion_compensation(const SensorTwist& twist,
+                              std::span<scan::ScanPoint> points) noexcept {
   constexpr int kCorrections = 4;  // the correction shrinks by v t / r, below 1/5 a time
-  for (ScanPoint& point : points) {
-    if (!is_place(point)) continue;
+  for (scan::ScanPoint& point : points) {
+    if (!scan::is_place(point)) continue;
     const Vector in_file{point.x_m, point.y_m, point.z_m};
     Vector p = in_file;
     double share = share_of_frame(p, 0.0);
@@ -55,4 +56,4 @@ void undo_motion_compensation(const SensorTwist& twist, std::span<ScanPoint> poi
   }
 }
 
-}  // namespace terracut::scan
+}  // namespace terracut::encode

@@ -11,10 +11,10 @@
 #include "firmware_io/scan/ring_recovery.hpp"
 #include "firmware_io/scan/ring_table_fit.hpp"
 #include "firmware_io/scan/scan_folder.hpp"
-#include "firmware_io/scan/sensor_motion.hpp"
 #include "rt/error.hpp"
+#include "tools/lab/encode/sensor_motion.hpp"
 
-namespace terracut::scan {
+namespace terracut::encode {
 
 /// Whether to put back the sensor's motion, for which recorded scans are compensated
 /// (motion_compensation.hpp). This needs poses.txt and times.txt beside velodyne/, with poses of
@@ -36,27 +36,28 @@ class ScanReader {
   [[nodiscard]] const std::string& why_as_recorded() const noexcept { return why_as_recorded_; }
 
   [[nodiscard]] std::size_t size() const noexcept { return folder_.scans.size(); }
-  [[nodiscard]] const ScanFile& file(std::size_t index) const { return folder_.scans[index]; }
+  [[nodiscard]] const scan::ScanFile& file(std::size_t index) const { return folder_.scans[index]; }
 
   /// Reads scan `index` into `scan`, with labels if it has them, and the rings of its points. A
   /// scan without exactly 64 rings needs a table: call fit_rings() or use_rings() first.
-  [[nodiscard]] Status read(std::size_t index, KittiScan& scan, RingRecovery& rings) const;
+  [[nodiscard]] Status read(std::size_t index, scan::KittiScan& scan,
+                            scan::RingRecovery& rings) const;
 
   /// Returns the motion put back into scan `index`; nothing if none was.
   [[nodiscard]] Expected<std::optional<SensorTwist>> twist(std::size_t index) const;
 
   /// Fits the unit's ring table (ring_fit_of_scans.hpp) and uses it from then on.
-  [[nodiscard]] Expected<FittedRings> fit_rings();
-  void use_rings(const RingTable& table) { table_ = table; }
+  [[nodiscard]] Expected<scan::FittedRings> fit_rings();
+  void use_rings(const scan::RingTable& table) { table_ = table; }
 
  private:
-  [[nodiscard]] Status read(std::size_t index, const RingTable* table, KittiScan& scan,
-                            RingRecovery& rings) const;
+  [[nodiscard]] Status read(std::size_t index, const scan::RingTable* table, scan::KittiScan& scan,
+                            scan::RingRecovery& rings) const;
 
-  ScanFolder folder_;
+  scan::ScanFolder folder_;
   std::optional<SensorMotion> motion_;  ///< Empty unless it is put back.
   std::string why_as_recorded_;
-  std::optional<RingTable> table_;
+  std::optional<scan::RingTable> table_;
 };
 
-}  // namespace terracut::scan
+}  // namespace terracut::encode

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/scan/scan_reader.hpp"
+#include "tools/lab/encode/scan_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "firmware_io/scan/motion_compensation.hpp"
 #include "firmware_io/scan/ring_fit_of_scans.hpp"
+#include "tools/lab/encode/motion_compensation.hpp"
 
-namespace terracut::scan {
+namespace terracut::encode {
 namespace {
 
 Error in_file(const std::filesystem::path& path, Error error) {
@@ -19,11 +19,11 @@ Error in_file(const std::filesystem::path& path, Error error) {
 }
 
 /// Returns what the folder lacks to know the scans' motion; empty if nothing.
-std::string missing_for_motion(const ScanFolder& folder) {
+std::string missing_for_motion(const scan::ScanFolder& folder) {
   if (!folder.poses) return "poses.txt is missing beside velodyne/";
   if (!folder.times) return "times.txt is missing beside velodyne/";
   const auto unnumbered = std::ranges::find_if(
-      folder.scans, [](const ScanFile& scan) { return !scan.frame.has_value(); });
+      folder.scans, [](const scan::ScanFile& scan) { return !scan.frame.has_value(); });
   if (unnumbered == folder.scans.end()) return {};
   return fmt::format("{} is not named by its frame number, like 000042.bin, to find its pose",
                      unnumbered->points.string());
@@ -32,7 +32,7 @@ std::string missing_for_motion(const ScanFolder& folder) {
 }  // namespace
 
 Expected<ScanReader> ScanReader::open(const std::filesystem::path& folder, PutMotionBack put_back) {
-  auto listed = list_scan_folder(folder);
+  auto listed = scan::list_scan_folder(folder);
   if (!listed) return tl::unexpected(std::move(listed.error()));
   ScanReader reader;
   reader.folder_ = std::move(*listed);
@@ -40,13 +40,13 @@ Expected<ScanReader> ScanReader::open(const std::filesystem::path& folder, PutMo
     reader.why_as_recorded_ = "so it was asked for";
     return reader;
   }
-  const ScanFolder& found = reader.folder_;
+  const scan::ScanFolder& found = reader.folder_;
   reader.why_as_recorded_ = missing_for_motion(found);
   if (reader.why_as_recorded_.empty()) {
     auto motion = SensorMotion::read(*found.poses, *found.times, found.calib);
     if (!motion) return tl::unexpected(std::move(motion.error()));
     const auto beyond = std::ranges::find_if(
-        found.scans, [&](const ScanFile& scan) { return *scan.frame >= motion->frames(); });
+        found.scans, [&](const scan::ScanFile& scan) { return *scan.frame >= motion->frames(); });
     if (beyond == found.scans.end()) {
       reader.motion_ = std::move(*motion);
       return reader;
@@ -57,18 +57,18 @@ Expected<ScanReader> ScanReader::open(const std::filesystem::path& folder, PutMo
   return reader;
 }
 
-Status ScanReader::read(std::size_t index, KittiScan& scan, RingRecovery& rings) const {
+Status ScanReader::read(std::size_t index, scan::KittiScan& scan, scan::RingRecovery& rings) const {
   return read(index, table_ ? &*table_ : nullptr, scan, rings);
 }
 
-Status ScanReader::read(std::size_t index, const RingTable* table, KittiScan& scan,
-                        RingRecovery& rings) const {
-  const ScanFile& file = folder_.scans[index];
-  const Status status = file.labels ? read_kitti_scan(file.points, *file.labels, scan)
-                                    : read_kitti_scan(file.points, scan);
+Status ScanReader::read(std::size_t index, const scan::RingTable* table, scan::KittiScan& scan,
+                        scan::RingRecovery& rings) const {
+  const scan::ScanFile& file = folder_.scans[index];
+  const Status status = file.labels ? scan::read_kitti_scan(file.points, *file.labels, scan)
+                                    : scan::read_kitti_scan(file.points, scan);
   if (!status) return status;
   // Rings come first: putting the motion back moves points over the line that separates rings.
-  Status recovered = recover_rings(scan.points, table, rings);
+  Status recovered = scan::recover_rings(scan.points, table, rings);
   if (!recovered) return tl::unexpected(in_file(file.points, std::move(recovered.error())));
   const auto twist = this->twist(index);
   if (!twist) return tl::unexpected(twist.error());
@@ -83,11 +83,11 @@ Expected<std::optional<SensorTwist>> ScanReader::twist(std::size_t index) const 
   return *twist;
 }
 
-Expected<FittedRings> ScanReader::fit_rings() {
-  KittiScan scan;
-  RingRecovery rings;
-  auto fitted =
-      fit_rings_of_scans(size(), [&](std::size_t index, const RingTable* table, RingTableFit& fit) {
+Expected<scan::FittedRings> ScanReader::fit_rings() {
+  scan::KittiScan scan;
+  scan::RingRecovery rings;
+  auto fitted = scan::fit_rings_of_scans(
+      size(), [&](std::size_t index, const scan::RingTable* table, scan::RingTableFit& fit) {
         Status status = read(index, table, scan, rings);
         if (status) fit.add(scan.points, rings.ring_of_point);
         return status;
@@ -96,4 +96,4 @@ Expected<FittedRings> ScanReader::fit_rings() {
   return fitted;
 }
 
-}  // namespace terracut::scan
+}  // namespace terracut::encode

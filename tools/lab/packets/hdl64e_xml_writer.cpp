@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
+#include "hdl64e_xml_writer.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <string_view>
 
 #include "calib/beams/angle.hpp"
-#include "calib/hdl64e/hdl64e_xml.hpp"
 #include "calib/text/number_text.hpp"
 #include "rt/files/whole_file.hpp"
 
@@ -17,8 +18,8 @@ namespace {
 
 using Text = fmt::memory_buffer;
 
-/// Returns the shortest text of degrees that deg_to_rad() takes back to exactly `rad`; the nearest
-/// if no double does.
+/// Degrees that deg_to_rad() takes back to exactly `rad`, the shortest such text; where no double
+/// does, the nearest.
 std::string degrees(double rad) {
   const double nearest = beams::rad_to_deg(rad);
   std::string best = text::text_of(nearest, 0);
@@ -45,7 +46,7 @@ void put(Text& text, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
 }
 
-/// Writes a list of one value a laser, as Boost.Serialization writes a std::vector or std::array.
+/// A list of one value a laser, as Boost.Serialization writes a std::vector or std::array.
 template <class Value>
 void put_list(Text& text, std::string_view element, bool versioned, Value value) {
   put(text, "\t<{}>\n\t\t<count>64</count>\n", element);
@@ -54,7 +55,8 @@ void put_list(Text& text, std::string_view element, bool versioned, Value value)
   put(text, "\t</{}>\n", element);
 }
 
-/// Readers expect display colours in the layout. Their values do not matter: shades of grey.
+/// Display colours are part of the layout that readers walk through; any will do, so shades of
+/// grey.
 void put_colors(Text& text) {
   put(text,
       "\t<colors_ class_id=\"3\" tracking_level=\"0\" version=\"0\">\n"
@@ -71,7 +73,7 @@ void put_colors(Text& text) {
 
 void put_laser(Text& text, std::size_t number, const Hdl64eLaser& laser) {
   const bool first = number == 0;
-  // Without two_point X and Y are written as far, for readers that always interpolate.
+  // Readers that always interpolate then find far everywhere, which is what "no two-point" means.
   const double near_x_m = laser.two_point ? laser.dist_correction_x_m : laser.dist_correction_m;
   const double near_y_m = laser.two_point ? laser.dist_correction_y_m : laser.dist_correction_m;
   put(text, "\t\t<item{}>\n\t\t\t<px class_id{}=\"9\"{} object_id=\"_{}\">\n",

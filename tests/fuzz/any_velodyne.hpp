@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include "firmware_io/velodyne/models.hpp"
+#include "input.hpp"
+
+namespace terracut::fuzz {
+
+/// Calls `use` with the std::type_identity of a model that the input chooses.
+template <class Use>
+void with_any_velodyne(Input& input, const Use& use) {
+  constexpr auto& kLayouts = velodyne::Models::kLayouts;
+  velodyne::Models::with(kLayouts[input.next(1) % kLayouts.size()].model, use);
+}
+
+}  // namespace terracut::fuzz

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string>
 
-#include "synthetic_scan.hpp"
+#include "tests/firmware_io/scan/synthetic_scan.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/lab/encode/sensor_motion.hpp"
 

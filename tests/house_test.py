@@ -38,13 +38,16 @@ def sources(repository: Path):
 
 def included(repository: Path, path: Path):
     for name in re.findall(r'^#include "([^"]+)"', (repository / path).read_text(), re.MULTILINE):
-        target = Path(name) if (repository / name).exists() else path.parent / name
-        if (repository / target).exists():
-            yield target
+        places = [Path(name), path.parent / name, *(Path(room) / name for room in ROOMS)]
+        yield from [place for place in places if (repository / place).exists()][:1]
 
 
 def is_method(path: Path) -> bool:
     return path.parts[0] == "pipeline" and path.parts[1] in ALONE["pipeline"]
+
+
+def is_frame(path: Path) -> bool:
+    return path.parts[1] in ("frame", PUBLIC)
 
 
 def upward_includes(repository: Path):
@@ -52,11 +55,11 @@ def upward_includes(repository: Path):
         for target in included(repository, path):
             if ROOMS.index(target.parts[0]) > ROOMS.index(path.parts[0]):
                 yield f"{path} includes {target}, which lies in a room above"
-            if path.parts[:2] == ("firmware_io", "frame") and target.parts[0] == "firmware_io" and target.parts[1] != "frame":
+            if path.parts[:2] == ("firmware_io", "frame") and target.parts[0] == "firmware_io" and not is_frame(target):
                 yield f"{path} includes {target}: frames stand alone"
             if is_method(path) and (
                 (target.parts[0] == "pipeline" and not is_method(target))
-                or (target.parts[0] == "firmware_io" and target.parts[1] != "frame")
+                or (target.parts[0] == "firmware_io" and not is_frame(target))
             ):
                 yield f"{path} includes {target}: the method needs frames and nothing that reads or writes"
 

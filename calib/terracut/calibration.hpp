@@ -45,7 +45,7 @@ class Calibration {
   /// Says where the table comes from: a file's path, "the packets of ...", "nominal".
   [[nodiscard]] const std::string& origin() const;
 
-  struct Table;  // defined in calib/terracut/calibration_table.hpp; not installed
+  struct Table;  // defined in calib/api/calibration_table.hpp; not installed
   explicit Calibration(std::shared_ptr<const Table> table) noexcept;
   [[nodiscard]] const Table& table() const noexcept { return *table_; }
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_io/terracut/points.hpp"
+#include "firmware_io/api/points.hpp"
 #include "pipeline/output/label_sink.hpp"
 #include "rt/files/whole_file.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "input.hpp"
-#include "pipeline/terracut/point_buffer.hpp"
+#include "pipeline/api/point_buffer.hpp"
 
 namespace {
 

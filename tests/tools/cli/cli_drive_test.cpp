@@ -38,7 +38,7 @@ TEST_F(Cli, SimulateTakesNoTableWhereTheSensorsIsBuiltIn) {
   const Outcome refused = run("simulate --sensor hdl32e --duration 0.1 -o d.pcap --calibration " +
                               quoted(kDriveCalibration));
   EXPECT_NE(refused.exit_code, 0);
-  EXPECT_THAT(refused.err, HasSubstr("the table of a HDL-32E is built in"));
+  EXPECT_THAT(refused.err, HasSubstr("the table of a Velodyne HDL-32E is built in"));
 }
 
 TEST_F(Cli, SimulateWritesTheVehiclesMotionBesideTheDriveWhenAsked) {

@@ -12,7 +12,7 @@
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/live/degradation_policy.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
-#include "pipeline/terracut/point_buffer.hpp"
+#include "pipeline/api/point_buffer.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/mount_watch.hpp"

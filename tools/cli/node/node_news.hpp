@@ -14,7 +14,7 @@
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/mount_figures.hpp"
 #include "pipeline/status/named_count.hpp"
-#include "pipeline/terracut/point_buffer.hpp"
+#include "pipeline/api/point_buffer.hpp"
 
 namespace terracut::cli {
 

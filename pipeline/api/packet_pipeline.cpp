@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "calib/terracut/calibration_table.hpp"
-#include "firmware_io/terracut/points.hpp"
+#include "calib/api/calibration_table.hpp"
+#include "firmware_io/api/points.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
-#include "pipeline/terracut/profile.hpp"
+#include "pipeline/api/profile.hpp"
 
 namespace terracut {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/terracut/point_buffer.hpp"
+#include "pipeline/api/point_buffer.hpp"
 
 #include <gtest/gtest.h>
 

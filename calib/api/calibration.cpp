@@ -6,7 +6,7 @@
 
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
-#include "calib/terracut/calibration_table.hpp"
+#include "calib/api/calibration_table.hpp"
 
 namespace terracut {
 

@@ -10,16 +10,16 @@
 
 #include "calib/mount/mount_finder.hpp"
 #include "calib/mount/ring_profile.hpp"
-#include "calib/terracut/calibration_table.hpp"
+#include "calib/api/calibration_table.hpp"
 #include "firmware_io/cloud/cloud_to_image.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
-#include "firmware_io/terracut/points.hpp"
+#include "firmware_io/api/points.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
-#include "pipeline/terracut/point_buffer.hpp"
-#include "pipeline/terracut/profile.hpp"
+#include "pipeline/api/point_buffer.hpp"
+#include "pipeline/api/profile.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut {

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "calib/terracut/calibration_table.hpp"
+#include "calib/api/calibration_table.hpp"
 #include "firmware_io/decode/decoder.hpp"
-#include "firmware_io/terracut/points.hpp"
+#include "firmware_io/api/points.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut {

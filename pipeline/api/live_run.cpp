@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "calib/terracut/calibration_table.hpp"
+#include "calib/api/calibration_table.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/net/live_source.hpp"
 #include "firmware_io/streams/hear_sensor.hpp"
-#include "firmware_io/terracut/points.hpp"
+#include "firmware_io/api/points.hpp"
 #include "pipeline/live/live_parts.hpp"
 #include "pipeline/run/mount_on_air.hpp"
 #include "rt/memory/locked_memory.hpp"

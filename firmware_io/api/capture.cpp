@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "calib/terracut/calibration_table.hpp"
+#include "calib/api/calibration_table.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "firmware_io/streams/heard_senders.hpp"

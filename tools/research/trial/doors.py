@@ -27,6 +27,7 @@ from .report import Report
 from .tiny_disk import TinyDisk
 
 MOST_GROWTH_MIB = 32
+RECORDING_MIB = 56  # the recording's queue (pipeline/mcap/mcap_sink.hpp), which fills where the disk is too slow for it
 IDLE_CONNECTIONS = 1000  # at each door
 BABBLERS = [f"127.0.1.{number}" for number in range(1, 69)]
 TWIN = "127.0.0.2"
@@ -309,7 +310,8 @@ def all_at_once(program: Program, report: Report, drive: Drive, seconds: float, 
         report.check(of + f"{door}: what was refused is counted", bool(refused), refused)
     report.check(of + "idle connections turned away, of all; others wait", turned_away > 0,
                  f"{turned_away} of {len(crowd.idle)}; {sent_mb:.0f} MB were sent by others")  # fmt: skip
-    report.check(of + f"memory grew by {MOST_GROWTH_MIB} MiB at most", grown_mib <= MOST_GROWTH_MIB, f"{grown_mib:.1f} MiB")
+    most_mib = MOST_GROWTH_MIB + (RECORDING_MIB if lost.get("mcap_frames_left_out") else 0)
+    report.check(of + f"memory grew by {most_mib} MiB at most", grown_mib <= most_mib, f"{grown_mib:.1f} MiB")
     report.check(of + "descriptors open at most", max(most_open) < 512, max(most_open))
     report.check(of + "/metrics answers afterwards", served, served)
     report.check(of + "label files without room are counted", lost.get("unwritten_label_frames", 0) > 0, lost.get("unwritten_label_frames"))

@@ -9,8 +9,8 @@
 namespace terracut::rt {
 namespace {
 
-/// Returns the optimal string alignment: Levenshtein's distance, but swapped neighbours are one
-/// edit.
+/// Returns the optimal string alignment distance: Levenshtein's, but swapping two neighbours counts
+/// as one edit.
 std::size_t edits_between(std::string_view from, std::string_view to) {
   std::vector<std::size_t> before_last, last(to.size() + 1), row(to.size() + 1);
   for (std::size_t j = 0; j <= to.size(); ++j) last[j] = j;

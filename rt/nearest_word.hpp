@@ -7,10 +7,10 @@
 
 namespace terracut::rt {
 
-/// Returns the word of `words` that was probably meant by one that is none of them: the nearest by
-/// edits (a letter added, left out, replaced, or two swapped); of equally near ones the first. A
-/// word that begins with `word` is one edit away. Empty if all are farther than one edit plus one
-/// for every four letters.
+/// Returns which of `words` was probably meant by `word`, which is none of them: the one fewest
+/// edits away (a letter added, left out, replaced, or two swapped); of equally near words the
+/// first. A word that begins with `word` counts as one edit away. Returns an empty text if all need
+/// more edits than one plus one for every four letters.
 [[nodiscard]] std::string_view nearest_word(std::string_view word,
                                             std::span<const std::string_view> words);
 

@@ -9,8 +9,8 @@
 
 namespace terracut::rt {
 
-/// Returns all of `text` as a number of that type; nothing if it is anything else ("3m", " 3",
-/// "+3", "") or does not fit. Independent of the locale.
+/// Returns `text` as a number of type Number; nothing if any part of it is something else ("3m", "
+/// 3", "+3", "") or the number does not fit. Independent of the locale.
 template <class Number>
 [[nodiscard]] std::optional<Number> number_of(std::string_view text) noexcept {
   Number number{};

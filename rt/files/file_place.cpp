@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 FilePlace::FilePlace(const fs::path& path) {
   std::error_code error;
-  path_ = fs::absolute(path, error);  // first: a path that does not exist would stay relative
+  path_ = fs::absolute(path, error);  // first: weakly_canonical() leaves a missing path relative
   if (fs::path canonical = fs::weakly_canonical(path_, error); !error) path_ = canonical;
   path_ = path_.lexically_normal();
   if (!path_.has_filename() && path_ != path_.root_path()) path_ = path_.parent_path();

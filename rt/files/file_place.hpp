@@ -10,22 +10,23 @@
 
 namespace terracut::files {
 
-/// The place a path leads to, to tell whether two names mean one file or folder: relative paths,
-/// symbolic and hard links and mounts are resolved. A path that does not exist yet is known by the
-/// folder it would lie in. A snapshot: later changes of the disk are not seen.
+/// Identifies the file or folder that a path leads to, so that two names for the same one are
+/// recognised: relative paths, symbolic and hard links and mounts are resolved. A path that does
+/// not exist yet is identified by its folder and name. Later changes of the disk are not seen.
 class FilePlace {
  public:
   explicit FilePlace(const std::filesystem::path& path);
 
   [[nodiscard]] bool is_same_as(const FilePlace& other) const;
-  /// True at any depth below `folder`, false for the folder itself.
+  /// True if this place lies below `folder`, at any depth; false for `folder` itself.
   [[nodiscard]] bool lies_in(const FilePlace& folder) const;
   /// Returns the absolute path; links are resolved as far as the path exists.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
  private:
   std::filesystem::path path_;
-  std::optional<std::pair<::dev_t, ::ino_t>> file_;  ///< Empty if nothing exists there.
+  /// Device and inode; empty if nothing exists at the path.
+  std::optional<std::pair<::dev_t, ::ino_t>> file_;
 };
 
 }  // namespace terracut::files

@@ -8,7 +8,7 @@
 
 namespace terracut::files {
 
-/// A file descriptor that is closed with its owner. -1 stands for none.
+/// Owns a file descriptor and closes it when destroyed; -1 means that there is none.
 class OwnedDescriptor {
  public:
   OwnedDescriptor() = default;

@@ -25,7 +25,8 @@ bool is_number(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Returns the file name of the place that the part of this name is for; empty if it is no part.
+/// Returns the file name of the place that a part named `name` will take; empty if `name` is not
+/// that of a part.
 std::string_view place_of(std::string_view name) {
   const std::size_t mark = name.rfind(kMark);
   if (mark == std::string_view::npos) return {};
@@ -38,7 +39,7 @@ std::string_view place_of(std::string_view name) {
   return name.substr(0, mark);
 }
 
-/// `make(path)` returns a descriptor, or -1 with errno.
+/// Makes a part at the first free name: `make(path)` returns a descriptor, or -1 with errno.
 template <class Make>
 Part make_part(const fs::path& place, Make&& make) {
   static std::atomic<unsigned> serial{0};  // unique, as two threads may write to the same folder
@@ -52,7 +53,7 @@ Part make_part(const fs::path& place, Make&& make) {
     if (!part.lock) return part;
     while (::flock(part.lock.get(), LOCK_EX) != 0 && errno == EINTR) {
     }
-    // A clean-up may have removed it as abandoned before it was locked.
+    // A clean-up may have removed this part as abandoned before it was locked.
     struct stat status{};
     if (::fstat(part.lock.get(), &status) == 0 && status.st_nlink > 0) return part;
   }
@@ -69,7 +70,7 @@ bool is_abandoned(const fs::path& path) {
   return ::flock(part.get(), LOCK_EX | LOCK_NB) == 0;
 }
 
-/// Lists the parts in a folder whose places are wanted.
+/// Lists the parts in `folder` for which `is_wanted` accepts the place's file name.
 std::vector<fs::path> parts_in(const fs::path& folder,
                                const std::function<bool(std::string_view)>& is_wanted) {
   std::error_code error;
@@ -95,7 +96,7 @@ Part make_part_folder(const fs::path& place) {
   return make_part(place, [](const char* path) {
     if (::mkdir(path, 0700) != 0) return -1;
     const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    // A clean-up has removed it as abandoned: try another number.
+    // A clean-up has removed this folder as abandoned: try another number.
     if (folder < 0 && errno == ENOENT) errno = EEXIST;
     return folder;
   });

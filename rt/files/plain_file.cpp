@@ -26,7 +26,7 @@ tl::unexpected<Error> refused(const std::filesystem::path& path, int error_numbe
 }  // namespace
 
 Expected<OwnedDescriptor> open_plain_file(const std::filesystem::path& path) {
-  // O_NONBLOCK: a named pipe there must not make us wait.
+  // O_NONBLOCK keeps open() from waiting if the path is a named pipe.
   OwnedDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat status{};
   if (!file || ::fstat(file.get(), &status) != 0) return refused(path, errno);

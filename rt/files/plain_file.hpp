@@ -11,15 +11,17 @@
 
 namespace terracut::files {
 
-/// Opens a plain file for reading. Refuses a named pipe, which would make the reader wait, and a
-/// device, which has no end. Links are followed. kNotFound, kUnreadable.
+/// Opens a plain file for reading. Fails with kNotFound if it is missing, kUnreadable if it cannot
+/// be opened or is a named pipe (the reader would wait) or a device (it has no end). Links are
+/// followed.
 [[nodiscard]] Expected<OwnedDescriptor> open_plain_file(const std::filesystem::path& path);
 
-/// Refuses what cannot be read a second time, a pipe, a socket or a device, with kUnreadable. Opens
-/// nothing and checks nothing else. Links are followed.
+/// Fails with kUnreadable if the path is a pipe, a socket or a device, none of which can be read a
+/// second time. Opens nothing and checks nothing else. Links are followed.
 [[nodiscard]] Status check_readable_twice(const std::filesystem::path& path);
 
-/// Returns the whole content of a plain file. kUnreadable also if it holds more than `most_bytes`.
+/// Returns the whole content of a plain file. Fails as open_plain_file() does, and with kUnreadable
+/// if the file holds more than `most_bytes`.
 [[nodiscard]] Expected<std::string> read_plain_file(const std::filesystem::path& path,
                                                     std::size_t most_bytes);
 

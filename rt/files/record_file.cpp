@@ -47,7 +47,7 @@ Expected<std::size_t> count_records(const std::filesystem::path& path, const Rec
 }
 
 Status read_bytes(const std::filesystem::path& path, void* to, std::size_t bytes) {
-  // A pipe may have taken its place since the records were counted.
+  // A pipe may have replaced the file since its records were counted.
   const auto file = open_plain_file(path);
   if (!file) return tl::unexpected(file.error());
   std::size_t done = 0;

@@ -20,13 +20,14 @@ struct RecordLayout {
   bool may_be_empty = false;
 };
 
-/// Returns the number of records in `path`. Errors: kNotFound, kUnreadable, kMalformed (empty, not
-/// a whole number of records, or more than the layout allows); each names the file, what was found
-/// and what was expected.
+/// Returns the number of records in `path`. Fails with kNotFound, kUnreadable, or kMalformed if the
+/// file is empty, not a whole number of records, or holds more than the layout allows; the message
+/// names the file, what was found and what was expected.
 [[nodiscard]] Expected<std::size_t> count_records(const std::filesystem::path& path,
                                                   const RecordLayout& layout);
 
-/// Reads `bytes` bytes from the start of `path`; a file that got shorter meanwhile is kUnreadable.
+/// Reads `bytes` bytes from the start of `path`. Fails with kUnreadable if the file has become
+/// shorter.
 [[nodiscard]] Status read_bytes(const std::filesystem::path& path, void* to, std::size_t bytes);
 
 /// Reads a file of little-endian records of type T into `records`, reusing its memory.

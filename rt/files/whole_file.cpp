@@ -22,7 +22,7 @@ Status failed(const std::filesystem::path& path, const std::string& step, int er
           "; nothing was left in its place. Check the folder, its rights and the free space");
 }
 
-/// Returns 0, or the errno of the call that failed.
+/// Writes all of `rest`. Returns 0, or the errno of the call that failed.
 int write_all(int file, std::string_view rest) {
   while (!rest.empty()) {
     const ::ssize_t written = ::write(file, rest.data(), rest.size());
@@ -55,8 +55,8 @@ Status write_whole_file(const std::filesystem::path& path,
     return tl::unexpected(piece.error());
   }
   std::string step = "writing";
-  // Some file systems report a full disk only at a close, so a copy is closed; the lock is held
-  // until the end.
+  // Some file systems report a full disk only at close(). So a copy of the descriptor is closed;
+  // the original holds the lock until the end.
   if (error_number == 0 && ::close(::dup(part.lock.get())) != 0) {
     error_number = errno;
     step = "closing";

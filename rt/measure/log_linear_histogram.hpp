@@ -13,18 +13,20 @@ namespace terracut::measure {
 /// Counts durations in buckets whose width grows with the value (HdrHistogram's layout): any
 /// percentile is known to two significant digits in fixed memory (about 34 KiB, no allocation).
 ///
-/// Values are nanoseconds in [0, kMax_ns]; those outside are counted at the nearer end; max() stays
-/// exact. Values below 256 ns have a bucket each; above, a bucket is at most 1/128 of its value
-/// wide. One writer; readers only after the writer has finished or from the same thread.
+/// Values are nanoseconds in [0, kMax_ns]; values outside count in the first or last bucket, but
+/// max_ns() stays exact. Each value below 256 ns has a bucket of its own; above, the width of a
+/// bucket is at most 1/128 of its value. One thread writes; others may read only after it has
+/// finished.
 class LogLinearHistogram {
  public:
   static constexpr std::int64_t kMax_ns = (std::int64_t{1} << 40) - 1;  ///< About 18 minutes.
 
-  /// Real-time safe, a few instructions.
+  /// Counts one duration. Real-time safe: a few instructions.
   void record(std::int64_t value_ns) noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns the smallest bucket limit that at least `percent` of all values do not exceed, never
-  /// more than max_ns(): exact to 1/128 upwards. percent in [0, 100]; 0 when nothing was recorded.
+  /// Returns the smallest bucket limit that at least `percent` of all values do not exceed, but at
+  /// most max_ns(): up to 1/128 too large. `percent` is in [0, 100]. Returns 0 if nothing was
+  /// recorded.
   [[nodiscard]] std::int64_t percentile_ns(double percent) const noexcept;
 
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
@@ -33,9 +35,9 @@ class LogLinearHistogram {
   [[nodiscard]] double mean_ns() const noexcept;
   [[nodiscard]] double sum_ns() const noexcept { return sum_ns_; }
 
-  /// Returns how many values are certainly not above `limit_ns`, for cumulative histograms. A
-  /// bucket counts only if all of it is below the limit: values within 1/128 of the limit may be
-  /// missed, none above it is counted.
+  /// Returns how many values are certainly at most `limit_ns`, for cumulative histograms. Counts
+  /// only buckets that lie wholly below the limit: so values within 1/128 of the limit may be
+  /// missed, but no value above it is counted.
   [[nodiscard]] std::uint64_t count_not_above(std::int64_t limit_ns) const noexcept;
 
  private:

@@ -6,7 +6,8 @@
 
 namespace terracut::measure {
 
-/// Rounds to the microsecond, towards zero: further digits of a measured time are only noise.
+/// Converts nanoseconds to milliseconds, cut to whole microseconds: further digits of a measured
+/// time are noise.
 [[nodiscard]] constexpr double milliseconds(std::int64_t ns) noexcept {
   return static_cast<double>(ns / 1000) / 1000.0;
 }

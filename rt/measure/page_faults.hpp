@@ -8,13 +8,13 @@
 
 namespace terracut::measure {
 
-/// The number of page faults of the calling thread. After a good start-up neither counter grows any
+/// Counts the page faults of the calling thread. After a good start-up neither counter grows any
 /// more.
 struct PageFaults {
-  std::int64_t minor = 0;  ///< Mapped from memory: about a microsecond each.
-  std::int64_t major = 0;  ///< Read from a disk: milliseconds each.
+  std::int64_t minor = 0;  ///< Pages mapped from memory: each costs about a microsecond.
+  std::int64_t major = 0;  ///< Pages read from a disk: each costs milliseconds.
 
-  /// Counts since the thread began. One short system call, real-time safe.
+  /// Returns the faults since the thread began. Makes one short system call; real-time safe.
   [[nodiscard]] static PageFaults of_this_thread() noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] PageFaults since(const PageFaults& earlier) const noexcept TERRACUT_NONBLOCKING {

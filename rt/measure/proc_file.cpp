@@ -23,7 +23,7 @@ Expected<ProcFile> ProcFile::open(const char* path) {
 }
 
 std::string_view ProcFile::read(std::span<char> buffer) const noexcept TERRACUT_NONBLOCKING {
-  // Reading does not wait: no device lies behind /proc.
+  // read() does not wait here: /proc has no device behind it.
   const ::ssize_t got = threads::trusted_call(
       [&]() noexcept { return ::pread(file_.get(), buffer.data(), buffer.size(), 0); });
   return {buffer.data(), got > 0 ? static_cast<std::size_t>(got) : 0};

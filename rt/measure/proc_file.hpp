@@ -17,11 +17,11 @@ namespace terracut::measure {
 /// allocating anything. Movable.
 class ProcFile {
  public:
-  /// Errors: kNotFound or kUnreadable, with the system's reason.
+  /// Opens the file. Fails with kNotFound or kUnreadable, and the system's reason.
   [[nodiscard]] static Expected<ProcFile> open(const char* path);
 
-  /// Returns as much of the file as `buffer` holds; empty when it can no longer be read. One system
-  /// call that waits for no disk: the kernel writes the text during the call.
+  /// Returns as much of the file as `buffer` holds; empty if the file can no longer be read. Makes
+  /// one system call, which waits for no disk: the kernel writes the text during the call.
   [[nodiscard]] std::string_view read(std::span<char> buffer) const noexcept TERRACUT_NONBLOCKING;
 
  private:
@@ -29,7 +29,7 @@ class ProcFile {
   files::OwnedDescriptor file_;
 };
 
-/// Returns the n-th number, from 0, of a line of numbers between blanks; -1 if there is no such
+/// Returns number `n`, counted from 0, of a line of numbers between blanks; -1 if there is no such
 /// number or it does not fit.
 [[nodiscard]] std::int64_t nth_number(std::string_view line, int n) noexcept TERRACUT_NONBLOCKING;
 

@@ -15,12 +15,12 @@ using Text = std::array<char, 96>;  // three numbers of at most 20 digits: "ran 
 
 RunQueueWait RunQueueWait::of_this_thread() {
   RunQueueWait wait;
-  // "thread-self" is resolved here: the file stays this thread's.
+  // "thread-self" is resolved when the file is opened: so the file stays that of this thread.
   auto file = ProcFile::open("/proc/thread-self/schedstat");
   if (!file) return wait;
   Text text{};
-  // A kernel without these counts shows only zeros. A running thread has had at least one timeslice
-  // (the third number).
+  // A kernel that does not count waits shows only zeros. On other kernels a running thread has had
+  // at least one timeslice (the third number).
   if (nth_number(file->read(text), 2) > 0) wait.file_ = std::move(*file);
   return wait;
 }

@@ -10,9 +10,9 @@
 
 namespace terracut::measure {
 
-/// The time a thread was ready to run while others had the core, summed since it began. Wall time
-/// that is neither this nor processor time was spent asleep, or taken by the host (see StolenTime).
-/// To be made and read by that thread. Movable.
+/// Measures how long a thread has been ready to run while others had the core, summed since the
+/// thread began. Wall time that is neither this nor processor time was spent asleep, or taken by
+/// the host (see StolenTime). Only that thread may make and read this object. Movable.
 class RunQueueWait {
  public:
   /// Opens the file that read_ns() needs.
@@ -21,8 +21,8 @@ class RunQueueWait {
   /// True if this kernel counts the waits.
   [[nodiscard]] bool is_known() const noexcept TERRACUT_NONBLOCKING { return file_.has_value(); }
 
-  /// Returns nanoseconds; 0 if unknown. One system call, less than a microsecond: cheap enough for
-  /// every fetch of packets. No allocation, real-time safe.
+  /// Returns the wait in nanoseconds; 0 if unknown. Makes one system call of less than a
+  /// microsecond: cheap enough for every fetch of packets. Allocates nothing; real-time safe.
   [[nodiscard]] std::int64_t read_ns() const noexcept TERRACUT_NONBLOCKING;
 
  private:

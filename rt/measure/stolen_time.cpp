@@ -20,13 +20,14 @@ Expected<StolenTime> StolenTime::open() {
 }
 
 std::optional<std::int64_t> StolenTime::read_ns() const noexcept TERRACUT_NONBLOCKING {
-  std::array<char, 256> text;  // holds the first line, ten numbers; the rest is not needed
+  std::array<char, 256> text;  // holds the first line (ten numbers), all that is needed
   return parse_ns(file_.read(text), ticks_per_s_);
 }
 
 std::optional<std::int64_t> StolenTime::parse_ns(
     std::string_view text, std::int64_t ticks_per_s) noexcept TERRACUT_NONBLOCKING {
-  // The line: "cpu  user nice system idle iowait irq softirq steal guest guest_nice"
+  // Format of the first line: "cpu  user nice system idle iowait irq softirq steal guest
+  // guest_nice".
   constexpr std::string_view kBegin = "cpu ";
   constexpr int kSteal = 7;
   if (text.size() < kBegin.size()) return std::nullopt;

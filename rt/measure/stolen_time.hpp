@@ -12,20 +12,22 @@
 
 namespace terracut::measure {
 
-/// The time that a virtual machine's host gave to others while this machine had work: summed over
-/// all cores since boot, in steps of a hundredth of a second. Always 0 on bare metal. For each
-/// reading the kernel writes all of /proc/stat, which takes up to a millisecond on large machines:
-/// read it once a second or after a missed deadline, not every frame. Movable; one thread at a
-/// time.
+/// Measures the time that a virtual machine's host gave to others while this machine had work:
+/// summed over all cores since boot, in steps of a hundredth of a second. Always 0 on bare metal.
+/// For each reading the kernel writes all of /proc/stat, which takes up to a millisecond on large
+/// machines: read once a second or after a missed deadline, not every frame. Movable; one thread at
+/// a time.
 class StolenTime {
  public:
-  /// Errors: kNotFound or kUnreadable if there is no /proc/stat.
+  /// Opens /proc/stat. Fails with kNotFound or kUnreadable if that is impossible.
   [[nodiscard]] static Expected<StolenTime> open();
 
-  /// Returns nanoseconds; nothing if the system no longer tells. No allocation, waits for no disk.
+  /// Returns the stolen time in nanoseconds; nothing if the system no longer tells. Allocates
+  /// nothing and waits for no disk.
   [[nodiscard]] std::optional<std::int64_t> read_ns() const noexcept TERRACUT_NONBLOCKING;
 
-  /// Reads the same from the text of /proc/stat. `ticks_per_s` is sysconf(_SC_CLK_TCK).
+  /// Returns the stolen time from `text`, the content of /proc/stat. `ticks_per_s` is
+  /// sysconf(_SC_CLK_TCK).
   [[nodiscard]] static std::optional<std::int64_t> parse_ns(
       std::string_view text, std::int64_t ticks_per_s) noexcept TERRACUT_NONBLOCKING;
 

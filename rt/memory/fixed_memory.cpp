@@ -24,7 +24,7 @@ void* FixedMemory::take_bytes(std::string_view part, std::size_t bytes) {
   const std::size_t rounded = (bytes + kAlignment - 1) / kAlignment * kAlignment;
   std::byte* block = nullptr;
   if (rounded <= region_.bytes().size() - used_) {
-    block = region_.bytes().data() + used_;  // fresh pages are zero
+    block = region_.bytes().data() + used_;  // fresh pages of the region are zero
     used_ += rounded;
   } else {
     block = from_heap(rounded);

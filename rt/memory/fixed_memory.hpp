@@ -17,7 +17,7 @@
 
 namespace terracut::memory {
 
-/// All memory of the per-frame path, taken once at start-up and held until the end.
+/// Holds all memory of the per-frame path, taken once at start-up and kept until the end.
 ///
 /// Components take their arrays in their constructors, each under the name of a part, so that
 /// `terracut plan` can print the cost of every part; nothing is taken after start-up.
@@ -35,7 +35,8 @@ namespace terracut::memory {
 /// Not real-time safe, not thread-safe: start-up only. Throws std::bad_alloc when memory is short.
 class FixedMemory {
  public:
-  static constexpr std::size_t kAlignment = 64;  ///< Bytes: a cache line, or any SIMD register.
+  /// Alignment of every array in bytes: a cache line, or any SIMD register.
+  static constexpr std::size_t kAlignment = 64;
 
   struct Part {
     std::string name;
@@ -46,17 +47,17 @@ class FixedMemory {
   FixedMemory(const FixedMemory&) = delete;
   FixedMemory& operator=(const FixedMemory&) = delete;
 
-  /// Takes arrays from one region of `bytes` from now on, in the order they are taken, without
+  /// From now on takes arrays from one region of `bytes`, in the order they are asked for, without
   /// gaps. `bytes` is the total_bytes() of a dry run. Every page of the region is present on
-  /// return. Locking and large pages are asked for as `request` says; the grants are returned, and
-  /// a refusal is no error. Errors: kInvalidArgument if arrays were taken already or a region
-  /// exists; kCapacityExceeded if the system has not that much memory.
+  /// return. Asks for locking and large pages as `request` says and returns the system's answers; a
+  /// refusal is no error. Fails with kInvalidArgument if arrays were taken already or a region
+  /// exists; kCapacityExceeded if the system has less memory.
   [[nodiscard]] Expected<std::vector<threads::Grant>> reserve(std::size_t bytes,
                                                               const RegionRequest& request);
 
   /// Returns `count` zeroed elements, aligned to kAlignment. Sizes are rounded up to whole cache
-  /// lines. The span stays valid, at the same address, as long as this object lives. An array that
-  /// does not fit the region comes from the heap, and within_plan() reports it.
+  /// lines. The span stays valid at the same address until this object is destroyed. If the region
+  /// is too small for an array, it comes from the heap, and within_plan() reports it.
   template <class T>
   [[nodiscard]] std::span<T> take(std::string_view part, std::size_t count) {
     static_assert(std::is_trivially_destructible_v<T> && std::is_trivially_copyable_v<T>);
@@ -66,12 +67,12 @@ class FixedMemory {
   [[nodiscard]] std::span<const Part> parts() const noexcept { return parts_; }
   [[nodiscard]] std::size_t total_bytes() const noexcept;
 
-  /// Checks, once everything is built, that no more was taken than reserved: kCapacityExceeded
-  /// names the first part that did not fit and the size that would have held all. Always success
-  /// without a region.
+  /// Checks, once everything is built, that no more was taken than reserved. If more was, fails
+  /// with kCapacityExceeded; the message names the first part that did not fit and the size that
+  /// would have held all. Without a region always succeeds.
   [[nodiscard]] Status within_plan() const;
 
-  /// Returns the reserved region; empty before reserve(). For tests and reports.
+  /// Returns the reserved region, for tests and reports; empty before reserve().
   [[nodiscard]] std::span<const std::byte> region() const noexcept { return region_.bytes(); }
 
  private:
@@ -85,7 +86,7 @@ class FixedMemory {
   [[nodiscard]] std::byte* from_heap(std::size_t bytes);
 
   std::vector<Part> parts_;
-  std::vector<std::unique_ptr<std::byte, Release>> blocks_;  // on the heap
+  std::vector<std::unique_ptr<std::byte, Release>> blocks_;  // arrays on the heap
   MemoryRegion region_;
   std::size_t used_ = 0;         // bytes of the region in use
   std::string first_too_large_;  // the first part that did not fit the region

@@ -10,9 +10,9 @@
 
 namespace terracut::memory {
 
-/// A short text without a pointer, so that it can lie in memory shared between processes. Text
-/// longer than Size bytes is cut off. Real-time safe. view() is safe on any bytes, even on a page
-/// that somebody else wrote.
+/// Holds a short text without a pointer, so that it can lie in memory shared between processes.
+/// Text longer than Size bytes is cut off. Real-time safe. view() is safe on any bytes, even on a
+/// page that another process wrote.
 template <std::size_t Size>
 class FixedText {
  public:

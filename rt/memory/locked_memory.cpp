@@ -67,8 +67,8 @@ threads::Grant set_thread_stack(std::size_t bytes) {
   return grant;
 }
 
-/// Returns 0 if `bytes` more could be taken now that all future memory is to be locked, else errno.
-/// A mapping without access counts against the limit but costs no memory.
+/// Returns 0 if `bytes` more could be mapped once all future memory is locked, else errno. Tries it
+/// with a mapping without access, which counts against the limit but costs no memory.
 int try_later(std::size_t bytes) {
   if (bytes == 0) return 0;
   void* trial = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -79,8 +79,8 @@ int try_later(std::size_t bytes) {
 
 threads::Grant lock_all(std::size_t later) {
   threads::Grant grant{.asked = "locking of all memory, now and later"};
-  // The soft limit is only a default of the shell: a process may raise it to the hard one. If this
-  // is refused, mlockall() below fails.
+  // The soft limit is only the shell's default: a process may raise it to the hard limit. If the
+  // system refuses that, mlockall() below fails.
   if (rlimit limit{}; ::getrlimit(RLIMIT_MEMLOCK, &limit) == 0) {
     limit.rlim_cur = limit.rlim_max;
     (void)::setrlimit(RLIMIT_MEMLOCK, &limit);
@@ -93,7 +93,7 @@ threads::Grant lock_all(std::size_t later) {
   }
   grant.error_number = try_later(later);
   if (grant.error_number != 0) {
-    // Locks the present memory again, and no longer the future's.
+    // Locks present memory again, and stops locking future memory.
     (void)::mlockall(MCL_CURRENT);
     grant.in_force = "only the memory there is now is locked, for the limit has no room for " +
                      in_kib(later) + " more";
@@ -117,7 +117,7 @@ threads::Grant make_stack_present(std::size_t bytes) {
   return grant;
 }
 
-/// Returns the bytes of the calling thread's stack below `here`; 0 if unknown.
+/// Returns how many bytes of the calling thread's stack lie below `here`; 0 if unknown.
 std::size_t stack_left_below(const volatile char* here) {
   ::pthread_attr_t attributes;
   if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return 0;
@@ -130,12 +130,12 @@ std::size_t stack_left_below(const volatile char* here) {
   return top > bottom ? top - bottom : 0;
 }
 
-/// A function of its own, whose stack frame ends with the call. Its size is unknown at compile
-/// time, or the compiler would leave out pages that nobody uses.
+/// Touches `bytes` of stack. Not inlined, so that its stack frame ends with the call. The size of
+/// its array is unknown at compile time, or the compiler would leave out pages that nobody uses.
 [[gnu::noinline]] void touch_stack(std::size_t bytes) {
   auto* lowest = static_cast<volatile char*>(__builtin_alloca(bytes));
   const std::size_t page = page_size();
-  // Touches downwards, as the kernel expects a stack to grow.
+  // Touches from high to low addresses, as the kernel expects a stack to grow.
   for (std::size_t left = bytes; left > 0; left -= std::min(left, page)) lowest[left - 1] = 1;
   lowest[0] = 1;
 }
@@ -143,7 +143,8 @@ std::size_t stack_left_below(const volatile char* here) {
 }  // namespace
 
 std::size_t prefault_stack(std::size_t bytes) {
-  constexpr std::size_t kSpare = std::size_t{64} << 10;  // for guard pages and a signal handler
+  // Room for guard pages and a signal handler.
+  constexpr std::size_t kSpare = std::size_t{64} << 10;
   const volatile char here = 0;
   const std::size_t left = stack_left_below(&here);
   const std::size_t touched = std::min(bytes, left > kSpare ? left - kSpare : 0);

@@ -77,13 +77,13 @@ Expected<MemoryRegion> MemoryRegion::map(std::size_t bytes, const RegionRequest&
                     "). Free some, or raise the limit that 'ulimit -v' or the container sets");
   };
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  // A large page begins at a multiple of its size, so there is room for one more.
+  // A large page begins at a multiple of its size, so one more than needed is mapped.
   const std::size_t unit = request.large_pages ? kLargePage : page;
   if (bytes > std::numeric_limits<std::size_t>::max() - 2 * unit) return no_memory(ENOMEM);
   const std::size_t usable = (bytes + unit - 1) / unit * unit;
   const std::size_t mapped = usable + unit - page;
-  // Mapped without access at first: if all memory of the process is locked already, its pages would
-  // come at once, as small ones, before large ones can be asked for.
+  // Maps without access at first: if all memory of the process is locked already, the kernel would
+  // make the pages present at once, as small ones, before large ones can be asked for.
   void* base = ::mmap(nullptr, mapped, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (base == MAP_FAILED) return no_memory(errno);
   region.mapping_ = {static_cast<std::byte*>(base), mapped};
@@ -94,11 +94,11 @@ Expected<MemoryRegion> MemoryRegion::map(std::size_t bytes, const RegionRequest&
   if (request.large_pages) region.grants_.push_back(ask_for_large_pages(whole));
   if (::mprotect(whole.data(), whole.size(), PROT_READ | PROT_WRITE) != 0) return no_memory(errno);
   for (std::size_t at = 0; at < whole.size(); at += page) {
-    // Writes, because a read would only map the one shared page of zeros.
+    // Writes to each page: a read would only map the shared page of zeros.
     *const_cast<volatile std::byte*>(&whole[at]) = std::byte{0};
   }
-  // Keeps the kernel from joining small pages into larger ones later, which stops whoever touches
-  // them. A refusal does no harm.
+  // Keeps the kernel from joining small pages into larger ones later, which would stop a thread
+  // that touches them. A refusal does no harm.
   (void)::madvise(whole.data(), whole.size(), MADV_NOHUGEPAGE);
   if (request.lock) region.grants_.push_back(ask_for_locking(whole));
   return region;

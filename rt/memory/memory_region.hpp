@@ -11,32 +11,32 @@
 
 namespace terracut::memory {
 
-/// What is asked for a region beyond its presence; the system may refuse either.
+/// What to ask for a region besides present pages; the system may refuse either.
 struct RegionRequest {
-  /// Keeps it in memory, however much others need.
+  /// True: locks the region in memory, however much others need.
   bool lock = false;
-  /// Builds it from pages of 2 MiB, which need fewer entries in the processor's address cache.
-  /// Where memory is fragmented the kernel uses small pages.
+  /// True: builds the region from pages of 2 MiB, which need fewer entries in the processor's
+  /// address cache. The kernel uses small pages where memory is fragmented.
   bool large_pages = true;
 };
 
-/// One contiguous piece of zeroed memory, taken from the system; every page is present from the
-/// start, so that no first touch faults. Returned when destroyed. Not real-time safe; movable, not
-/// thread-safe.
+/// Owns one contiguous piece of zeroed memory from the system; every page is present from the
+/// start, so that no first touch faults. The destructor returns the memory. Not real-time safe;
+/// movable, not thread-safe.
 class MemoryRegion {
  public:
-  /// Makes a region of no memory.
+  /// Makes an empty region.
   MemoryRegion() = default;
   MemoryRegion(MemoryRegion&& other) noexcept;
   MemoryRegion& operator=(MemoryRegion&& other) noexcept;
   ~MemoryRegion();
 
-  /// Maps a region, at least page-aligned. `bytes` of 0 gives a region of no memory.
-  /// kCapacityExceeded, with the system's reason, if there is not that much.
+  /// Maps a region of `bytes`, at least page-aligned; 0 gives an empty one. Fails with
+  /// kCapacityExceeded and the system's reason if there is not enough memory.
   [[nodiscard]] static Expected<MemoryRegion> map(std::size_t bytes, const RegionRequest& request);
 
   [[nodiscard]] std::span<std::byte> bytes() const noexcept { return bytes_; }
-  /// Returns what the system granted of each request.
+  /// Returns the system's answer to each request.
   [[nodiscard]] const std::vector<threads::Grant>& grants() const noexcept { return grants_; }
 
  private:

@@ -10,12 +10,13 @@
 
 namespace terracut::memory {
 
-/// Recycles objects: one whose last holder has dropped it is handed out again, memory and all.
-/// Never more objects than are held at a time plus a few spare ones. Any thread without a deadline.
+/// Recycles objects: an object whose last holder has dropped it is handed out again, with the
+/// memory it holds. Keeps at most as many objects as are held at a time, plus kMostSpare. Any
+/// thread without a deadline.
 template <class T>
 class UsedAgain {
  public:
-  /// Returns an object, which may still have the content of a former use. It may outlive this pool.
+  /// Returns an object, which may still have the content of a former use and may outlive this pool.
   [[nodiscard]] std::shared_ptr<T> take() {
     std::unique_ptr<T> thing;
     {
@@ -34,7 +35,8 @@ class UsedAgain {
   }
 
  private:
-  static constexpr std::size_t kMostSpare = 2;  ///< The one just dropped and the one in work.
+  /// Spares kept: the one just dropped and the one in work.
+  static constexpr std::size_t kMostSpare = 2;
   struct Spare {
     Spare() { things.reserve(kMostSpare); }
     std::mutex mutex;

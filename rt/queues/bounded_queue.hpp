@@ -12,13 +12,13 @@
 
 namespace terracut::queues {
 
-/// A queue between threads without a deadline: it locks and allocates. Any thread.
+/// Passes values between threads without a deadline: it locks and allocates. Any thread.
 template <class T>
 class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t most) : most_(most) {}
 
-  /// False if the queue is full or closed.
+  /// Pushes a value. False if the queue is full or closed.
   bool push(T value) {
     const std::scoped_lock lock(mutex_);
     if (closed_ || values_.size() >= most_) return false;
@@ -26,7 +26,7 @@ class BoundedQueue {
     news_.notify_one();
     return true;
   }
-  /// Pushes a value. If the queue is full, removes the oldest and returns it.
+  /// Pushes a value. If the queue is full, removes its oldest value and returns it.
   std::optional<T> push_out(T value) {
     const std::scoped_lock lock(mutex_);
     if (closed_) return value;

@@ -44,11 +44,12 @@ class LatestSlot {
   LatestSlot(const LatestSlot&) = delete;
   LatestSlot& operator=(const LatestSlot&) = delete;
 
-  /// Writer: returns the slot to fill, in [0, kSlots). It holds an older value; overwrite all.
+  /// For the writer: returns the slot to fill, in [0, kSlots). The slot holds an older value;
+  /// overwrite all of it.
   [[nodiscard]] std::size_t writer_slot() const noexcept TERRACUT_NONBLOCKING { return writers_; }
 
-  /// Writer: makes writer_slot() the newest and gets another to fill. True if the previous one was
-  /// never taken: the reader missed it.
+  /// For the writer: makes writer_slot() the newest and gets another slot to fill. True if the
+  /// value published before was never taken: the reader missed it.
   bool publish() noexcept TERRACUT_NONBLOCKING {
     const std::uint8_t before =
         between_.exchange(static_cast<std::uint8_t>(writers_ | kNew), std::memory_order_acq_rel);
@@ -56,8 +57,8 @@ class LatestSlot {
     return (before & kNew) != 0;
   }
 
-  /// Reader: takes the newest slot if one was published since the last call. reader_slot() is then
-  /// that slot until the next call that returns true.
+  /// For the reader: takes the newest slot if one was published since the last call. reader_slot()
+  /// is then that slot until the next call that returns true.
   [[nodiscard]] bool take_if_new() noexcept TERRACUT_NONBLOCKING {
     if ((between_.load(std::memory_order_relaxed) & kNew) == 0) return false;
     const std::uint8_t before = between_.exchange(readers_, std::memory_order_acq_rel);
@@ -65,7 +66,8 @@ class LatestSlot {
     return true;
   }
 
-  /// Reader: returns the slot taken last, in [0, kSlots); before that, one with its initial value.
+  /// For the reader: returns the slot taken last, in [0, kSlots); before the first, a slot with its
+  /// initial value.
   [[nodiscard]] std::size_t reader_slot() const noexcept TERRACUT_NONBLOCKING { return readers_; }
 
  private:
@@ -77,38 +79,40 @@ class LatestSlot {
   alignas(memory::FixedMemory::kAlignment) std::uint8_t readers_ = 2;
 };
 
-/// A LatestSlot together with its three values. T is default-constructible; with publish(value),
-/// copying it must not allocate. Thread contract of LatestSlot.
+/// Owns three values with their LatestSlot. T is default-constructible, and for publish(value)
+/// copying a T must not allocate. Thread contract: as LatestSlot.
 template <class T>
 class LatestValue {
  public:
-  /// Writer: returns the value to fill in place before publish(). Overwrite all of its old content.
+  /// For the writer: returns the value to fill before publish(). Overwrite all of its old content.
   [[nodiscard]] T& draft() noexcept TERRACUT_NONBLOCKING {
     return values_[slots_.writer_slot()].value;
   }
 
-  /// Writer: publishes the draft. True if the previous value was never taken.
+  /// For the writer: publishes the draft. True if the value published before was never taken.
   bool publish() noexcept TERRACUT_NONBLOCKING { return slots_.publish(); }
 
-  /// Writer: publishes a copy.
+  /// For the writer: publishes a copy of `value`.
   bool publish(const T& value) noexcept TERRACUT_NONBLOCKING {
     draft() = value;
     return publish();
   }
 
-  /// Reader: returns the newest value if it has not been taken yet, else nullptr. The value stays
-  /// unchanged until the next call that returns one.
+  /// For the reader: returns the newest value if it has not been taken yet, else nullptr. The value
+  /// stays unchanged until the next call that returns one.
   [[nodiscard]] const T* take_if_new() noexcept TERRACUT_NONBLOCKING {
     return slots_.take_if_new() ? &newest_taken() : nullptr;
   }
 
-  /// Reader: returns the value last taken by take_if_new(); before that a default-constructed T.
+  /// For the reader: returns the value last taken by take_if_new(); before the first, a
+  /// default-constructed T.
   [[nodiscard]] const T& newest_taken() const noexcept TERRACUT_NONBLOCKING {
     return values_[slots_.reader_slot()].value;
   }
 
  private:
-  struct alignas(memory::FixedMemory::kAlignment) Slot {  // neighbouring values share no cache line
+  // Aligned so that no cache line holds two values.
+  struct alignas(memory::FixedMemory::kAlignment) Slot {
     T value{};
   };
   std::array<Slot, LatestSlot::kSlots> values_{};

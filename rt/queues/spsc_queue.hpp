@@ -15,8 +15,8 @@
 
 namespace terracut::queues {
 
-/// A queue from one thread to one other, first in first out; neither ever waits. For small values,
-/// such as the numbers of slots in a pool of frames.
+/// Passes values from one thread to one other, first in first out; neither ever waits. For small
+/// values, such as slot numbers in a pool of frames.
 ///
 ///            popped_                pushed_           Both only count upwards; value n lies in
 ///               |                      |              slot n modulo the number of slots (a power
@@ -48,14 +48,14 @@ class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>, "values are copied between threads bit by bit");
 
  public:
-  /// Takes room for `capacity` values under the name `part`. A queue of capacity 0 is always full
-  /// and always empty.
+  /// Takes memory for `capacity` values, named `part` in the plan. A queue of capacity 0 is always
+  /// full and always empty.
   SpscQueue(std::string_view part, std::size_t capacity, memory::FixedMemory& memory)
       : slots_(memory.take<T>(part, std::bit_ceil(capacity))), capacity_(capacity) {}
   SpscQueue(const SpscQueue&) = delete;
   SpscQueue& operator=(const SpscQueue&) = delete;
 
-  /// Producer only. False if the queue is full; it is then unchanged.
+  /// For the producer: pushes a value. False, and the queue unchanged, if it is full.
   [[nodiscard]] bool try_push(const T& value) noexcept TERRACUT_NONBLOCKING {
     const std::size_t number = pushed_.load(std::memory_order_relaxed);
     if (number - popped_seen_ >= capacity_) {
@@ -67,7 +67,7 @@ class SpscQueue {
     return true;
   }
 
-  /// Consumer only. False if the queue is empty; `value` is then untouched.
+  /// For the consumer: pops the oldest value. False, and `value` unchanged, if the queue is empty.
   [[nodiscard]] bool try_pop(T& value) noexcept TERRACUT_NONBLOCKING {
     const std::size_t number = popped_.load(std::memory_order_relaxed);
     if (number == pushed_seen_) {
@@ -80,7 +80,7 @@ class SpscQueue {
   }
 
   /// Returns how many values wait, [0, capacity]. Exact while neither side is at work; else the
-  /// count of some moment of the call, or between those of two moments.
+  /// true count at some moment of the call, or a number between two such counts.
   [[nodiscard]] std::size_t size_approx() const noexcept TERRACUT_NONBLOCKING {
     // popped_ is read first: a pushed_ read afterwards is at least as high, so the difference
     // cannot be negative. Values popped in between can make it too large, hence the limit.
@@ -92,15 +92,16 @@ class SpscQueue {
  private:
   static constexpr std::size_t kCacheLine = memory::FixedMemory::kAlignment;
 
-  // Never written after construction: shared by both sides at no cost.
+  // Never written after construction, so both sides share these at no cost.
   std::span<T> slots_;
   std::size_t capacity_;
 
-  // Written by the producer.
+  // Written by the producer only.
   alignas(kCacheLine) std::atomic<std::size_t> pushed_{0};
   std::size_t popped_seen_ = 0;
 
-  // Written by the consumer. The class ends with a whole line, to keep neighbours off it.
+  // Written by the consumer only. The class ends with a whole cache line, to keep neighbours off
+  // it.
   alignas(kCacheLine) std::atomic<std::size_t> popped_{0};
   std::size_t pushed_seen_ = 0;
 };

@@ -10,13 +10,13 @@ namespace terracut {
 
 /// The kinds of error that a program may need to tell apart. The message tells a person the rest.
 enum class ErrorCode {
-  kNotFound,          ///< A named file, folder or stream does not exist.
-  kUnreadable,        ///< It exists, but the system refused to read it.
-  kMalformed,         ///< It was read, but is not what it claims to be.
-  kUnsupported,       ///< It is well formed, but of a kind terracut does not handle (another model,
-                      ///< say).
-  kInvalidArgument,   ///< A setting or option outside its documented range.
-  kCapacityExceeded,  ///< It needs more than the memory planned at start, or than the system has.
+  kNotFound,    ///< A named file, folder or stream does not exist.
+  kUnreadable,  ///< The file or folder exists, but the system refused to read it.
+  kMalformed,   ///< The input was read, but is not what it claims to be.
+  /// The input is well formed, but of a kind that terracut does not handle (such as another model).
+  kUnsupported,
+  kInvalidArgument,   ///< A setting or option lies outside its documented range.
+  kCapacityExceeded,  ///< More memory is needed than was planned at start, or than the system has.
   kWriteFailed,       ///< The output could not be written whole; nothing was left in its place.
   kNoCalibration,     ///< Neither a calibration file nor a calibration in the packets was found.
   kMountNotFound,     ///< The sensor's mount was neither stated nor seen well enough to label by.
@@ -28,7 +28,7 @@ enum class ErrorCode {
 /// An error of start-up or file work (never of the per-packet path, which counts instead).
 struct Error {
   ErrorCode code;
-  std::string message;  ///< What was expected, what was found, where, and what to do about it.
+  std::string message;  ///< Says what was expected, what was found, where, and what to do about it.
 };
 
 template <class T>

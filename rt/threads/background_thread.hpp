@@ -12,12 +12,12 @@
 
 namespace terracut::threads {
 
-/// A thread without a deadline, for work that may wait for a disk. A disk that does not answer
-/// holds its thread for ever, so the wait for the work's end can be limited. The owner must tell
-/// the work to end before destroying this, which waits for it.
+/// Runs work without a deadline that may wait for a disk. A disk that does not answer blocks its
+/// thread for ever, so ends_within() limits the wait for the work's end. The owner must tell the
+/// work to end before destroying this object, whose destructor waits for it.
 class BackgroundThread {
  public:
-  /// Called with the reason, on the thread, if the work ends by an exception; must not throw. The
+  /// Called on this thread, with the reason, if the work ends by an exception; must not throw. The
   /// program goes on.
   using OnFailure = std::function<void(std::string_view why)>;
 

@@ -9,7 +9,7 @@
 namespace terracut::threads {
 namespace {
 
-/// Returns one command for both rights: setcap replaces what was set before.
+/// Returns one setcap command for both rights: setcap replaces those set before.
 std::string setcap_command() {
   std::error_code error;
   const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", error);

@@ -3,16 +3,17 @@
 #pragma once
 
 /// TERRACUT_NONBLOCKING marks a function that real-time threads call: it neither allocates nor
-/// locks nor waits, and calls only functions that do not either. It stands after `noexcept`:
+/// locks nor waits, and calls only functions with the same properties. The mark stands after
+/// `noexcept`:
 ///
 ///     void record(std::int64_t value_ns) noexcept TERRACUT_NONBLOCKING;
 ///
-/// Clang 22 and later check it while compiling (-Wfunction-effects), 20 and later while running
-/// (-fsanitize=realtime); other compilers ignore it.
+/// Clang 22 and later check the mark while compiling (-Wfunction-effects), 20 and later while
+/// running (-fsanitize=realtime); other compilers ignore it.
 ///
 /// Marking the declaration is enough. A function whose body the compiler sees needs no mark: the
-/// compiler infers it. So a template that calls a function it is given is checked with that
-/// function.
+/// compiler infers it. So a template that calls a function passed to it is checked together with
+/// that function.
 #if defined(__clang__) && __clang_major__ >= 20
 #define TERRACUT_NONBLOCKING [[clang::nonblocking]]
 #else
@@ -29,8 +30,8 @@
 namespace terracut::threads {
 
 /// Calls `function` unchecked, at compile time and at run time: for system calls that are known not
-/// to wait but that no header marks, and for the places where a thread waits for its work. Each use
-/// says why it may be trusted, and holds only the calls in question.
+/// to wait but that no header marks, and where a thread waits for its work. Each use says why it
+/// may be trusted, and covers only the calls in question.
 template <class Function>
 decltype(auto) trusted_call(Function&& function) noexcept TERRACUT_NONBLOCKING {
 #ifdef __clang__

@@ -64,7 +64,7 @@ Grant set_core(int core) {
 Grant set_priority(int priority) {
   Grant grant{.asked = fifo(priority)};
   const ::sched_param param{.sched_priority = priority};
-  // SCHED_RESET_ON_FORK: else a helper thread would run at our priority.
+  // Without SCHED_RESET_ON_FORK, threads created by this one would run at its priority.
   grant.granted = ::sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &param) == 0;
   if (!grant.granted) grant.error_number = errno;
   grant.in_force = "runs as " + scheduling_in_force();

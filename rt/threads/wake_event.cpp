@@ -24,8 +24,8 @@ Expected<WakeEvent> WakeEvent::make() {
 }
 
 void WakeEvent::wake() const noexcept {
-  // A non-blocking eventfd takes the number or refuses it, at once. It refuses only when the count
-  // is full; the reader is awake then anyway.
+  // A write to a non-blocking eventfd returns at once. It fails only when the count is full; then
+  // the reader is awake anyway.
   trusted_call([this]() noexcept {
     const int kept = errno;
     const std::uint64_t one = 1;
@@ -41,7 +41,7 @@ bool WakeEvent::wait(int descriptor, std::int64_t timeout_ns) const noexcept {
   const int ready = trusted_call(
       [&]() noexcept { return ::ppoll(polled.data(), polled.size(), &timeout, nullptr); });
   if (ready <= 0 || polled[0].revents == 0) return false;
-  // A non-blocking eventfd answers at once.
+  // A read from a non-blocking eventfd returns at once.
   return trusted_call([this]() noexcept {
     std::uint64_t count = 0;
     return ::read(event_.get(), &count, sizeof count) == sizeof count;

@@ -12,17 +12,17 @@
 
 namespace terracut::threads {
 
-/// Waits for a descriptor or for wake() from elsewhere (an eventfd).
+/// Waits until a descriptor can be read or another thread calls wake() (an eventfd).
 class WakeEvent {
  public:
-  /// Errors: kCapacityExceeded when the process has no descriptor left.
+  /// Fails with kCapacityExceeded if the process has no descriptor left.
   [[nodiscard]] static Expected<WakeEvent> make();
 
-  /// May be called from any thread or a signal handler. Keeps errno.
+  /// Ends the current or next wait(). Any thread or a signal handler. Keeps errno.
   void wake() const noexcept TERRACUT_NONBLOCKING;
 
   /// Waits until `descriptor` (-1: none) can be read or has an error, wake() is called, a signal
-  /// comes, or the time is up. True when woken by wake(), which is then used up.
+  /// comes, or the time is up. True if wake() was called; that call is then used up.
   [[nodiscard]] bool wait(int descriptor,
                           std::int64_t timeout_ns) const noexcept TERRACUT_NONBLOCKING;
 
@@ -32,7 +32,7 @@ class WakeEvent {
   files::OwnedDescriptor event_;
 };
 
-/// Converts a time for the system's calls; negative times become 0.
+/// Converts nanoseconds for system calls; negative times become 0.
 [[nodiscard]] constexpr timespec timespec_of(std::int64_t time_ns) noexcept {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   if (time_ns < 0) time_ns = 0;

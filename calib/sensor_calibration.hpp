@@ -15,18 +15,20 @@
 
 namespace terracut::calib {
 
-/// The calibration of one unit of any sensor that terracut decodes.
+/// The calibration of one unit, of any sensor that terracut decodes.
 using SensorCalibration = std::variant<hdl64e::Hdl64eCalibration, ruby128::Ruby128Calibration,
                                        velodyne::VelodyneCalibration>;
 
-/// A model's table where the unit's own is not at hand: the only one of those that
-/// sensor::has_factory_table(), an RS-Ruby128's, and for every other model an HDL-64E's.
+/// Returns a model's table for use without the unit's own: the built-in one if
+/// sensor::has_factory_table(), the nominal one for an RS-Ruby128, and an HDL-64E's for every other
+/// model.
 [[nodiscard]] SensorCalibration nominal(sensor::SensorModel model);
 
-/// The model whose calibration it is; of an HDL-64E the S2 and S3, which stand for all.
+/// Returns the model that `calibration` belongs to; for an HDL-64E the S2 and S3, which stands for
+/// all.
 [[nodiscard]] sensor::SensorModel model_of(const SensorCalibration& calibration) noexcept;
 
-/// fingerprint(), `origin` and ring_profile() of whichever it is.
+/// These return fingerprint(), `origin` and ring_profile() of whichever calibration it is.
 [[nodiscard]] inline std::uint64_t fingerprint(const SensorCalibration& calibration) {
   return std::visit([](const auto& unit) { return fingerprint(unit); }, calibration);
 }

@@ -10,7 +10,8 @@
 #include "calib/sensor_calibration.hpp"
 #include "terracut/calibration.hpp"
 
-/// The data behind the public Calibration and Mount; for the rooms above, not installed.
+/// The data behind the public Calibration and Mount, for the folders that build on calib; not
+/// installed.
 namespace terracut {
 
 struct Calibration::Table {
@@ -31,7 +32,7 @@ struct Calibration::Table {
   };
   return {as_public(found.mount), as_public(found.uncertainty), found.frames};
 }
-/// Returns the error with advice for a program.
+/// Returns `fault` with advice for a program.
 [[nodiscard]] inline Error mount_not_found(const Error& fault) {
   return {ErrorCode::kMountNotFound,
           "the mount is not found: " + fault.message +

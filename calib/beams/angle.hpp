@@ -14,7 +14,7 @@ namespace terracut::beams {
   return rad * (180.0 / std::numbers::pi);
 }
 
-/// One revolution in the unit of the wire's azimuth, hundredths of a degree.
+/// One revolution in hundredths of a degree, the unit of azimuths in packets.
 inline constexpr int kRevolution_cdeg = 36000;
 
 /// Returns `cdeg` reduced to [0, 36000).
@@ -23,7 +23,8 @@ inline constexpr int kRevolution_cdeg = 36000;
   return rest < 0 ? rest + kRevolution_cdeg : rest;
 }
 
-/// Returns the signed step from `from` to `to`, both in [0, 36000), the short way: [-18000, 18000).
+/// Returns the signed step from `from` to `to`, both in [0, 36000), by the shorter way: a value in
+/// [-18000, 18000).
 [[nodiscard]] constexpr int step_cdeg(int from, int to) noexcept {
   return wrap_cdeg(std::int64_t{to} - from + kRevolution_cdeg / 2) - kRevolution_cdeg / 2;
 }

@@ -7,7 +7,8 @@
 
 namespace terracut::beams {
 
-/// Returns the rank of each elevation: 0 the lowest, N - 1 the highest; equal ones by index.
+/// Returns the rank of each elevation: 0 for the lowest, N - 1 for the highest. Equal elevations
+/// are ranked by index.
 template <std::size_t N>
 [[nodiscard]] constexpr std::array<int, N> rows_of_elevations(
     const std::array<double, N>& elevation_rad) noexcept {
@@ -21,7 +22,7 @@ template <std::size_t N>
   return rows;
 }
 
-/// Returns the inverse: at rank r the index that has it.
+/// Returns the inverse of `rows`: at rank r, the index of the laser with that rank.
 template <std::size_t N>
 [[nodiscard]] constexpr std::array<int, N> order_of_rows(const std::array<int, N>& rows) noexcept {
   std::array<int, N> order{};

@@ -31,7 +31,8 @@ Point StraightGeometry::point(int laser, double azimuth_rad, double raw_counts) 
 std::optional<double> StraightGeometry::raw_on_plane(int laser, double azimuth_rad,
                                                      const Point& hit,
                                                      const Direction& normal) const noexcept {
-  // Below this sine of the angle between beam and plane, the rest is rounding.
+  // If the sine of the angle between beam and plane is below this, the result would be rounding
+  // noise.
   constexpr double kParallel = 1e-12;
   const Ray beam = ray(laser, azimuth_rad);
   const double approach = dot(normal, beam.direction);

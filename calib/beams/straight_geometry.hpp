@@ -11,9 +11,9 @@
 
 namespace terracut::beams {
 
-/// Raw counts to metres and back for sensors whose returns lie on straight beams, all but the
-/// HDL-64E, in double: the reference that the packet decoder's float loops are checked against, and
-/// what the simulator inverts.
+/// Converts raw counts to metres and back, in double, for sensors whose returns lie on straight
+/// beams (all but the HDL-64E). The packet decoder's float loops are checked against this class,
+/// and the simulator inverts it.
 ///
 /// With t = the head's azimuth when the laser fires, h = its azimuth offset, v = its elevation,
 /// o = its vertical offset, d = raw counts in metres, R = how far the lens is ahead of the axis of
@@ -23,13 +23,14 @@ namespace terracut::beams {
 ///   y = -(d cos v sin(t + h) + R sin t)
 ///   z =   d sin v + o
 ///
-/// All functions: `laser` >= 0 counts on where lasers fire more than once a column: it is laser
-/// number `laser` % lasers; `azimuth_rad` is the head's azimuth when it fires, clockwise from
-/// straight ahead seen from above, any revolution. Immutable, so any thread may call them; no
-/// allocation, no locks; a few trigonometric functions a call (not meant for the per-packet path).
+/// In all functions, `laser` >= 0 stands for laser number `laser` % lasers, because some lasers
+/// fire more than once a column; `azimuth_rad` is the head's azimuth when the laser fires,
+/// clockwise from straight ahead seen from above, any revolution. Immutable, so any thread may call
+/// them; no allocation, no locks; each call computes a few trigonometric functions (too slow for
+/// the per-packet path).
 class StraightGeometry {
  public:
-  /// `lasers` are those of a Ruby128Calibration or a VelodyneCalibration.
+  /// Takes `lasers` from a Ruby128Calibration or a VelodyneCalibration.
   template <class Lasers>
   StraightGeometry(const Lasers& lasers, double metres_per_count, double lens_ahead_m = 0)
       : metres_per_count_(metres_per_count), lens_ahead_m_(lens_ahead_m) {
@@ -42,16 +43,16 @@ class StraightGeometry {
     }
   }
 
-  /// Returns the beam, on which every point() of the laser lies.
+  /// Returns the beam on which every point() of `laser` lies.
   [[nodiscard]] Ray ray(int laser, double azimuth_rad) const noexcept;
 
-  /// Returns the place of a return. `raw_counts` is not restricted to whole counts; 0 is not
-  /// treated as "no return".
+  /// Returns the point of a return. `raw_counts` need not be whole; 0 is not treated as "no
+  /// return".
   [[nodiscard]] Point point(int laser, double azimuth_rad, double raw_counts) const noexcept;
 
   /// Returns the raw counts, not rounded, for which point() lies on the plane through `hit` with
-  /// `normal` (any length) to within 1e-9 m; nothing if they are outside [1, 65535] or the beam
-  /// runs along the plane.
+  /// `normal` (any length) to within 1e-9 m; nothing if the counts are outside [1, 65535] or the
+  /// beam runs along the plane.
   [[nodiscard]] std::optional<double> raw_on_plane(int laser, double azimuth_rad, const Point& hit,
                                                    const Direction& normal) const noexcept;
 

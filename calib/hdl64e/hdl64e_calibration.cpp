@@ -13,8 +13,9 @@
 namespace terracut::hdl64e {
 namespace {
 
-/// The range of values accepted for a field: the spans of real units (docs/reference/sensors.md)
-/// with a margin for units not seen yet and for tables fitted to recordings.
+/// The range of values accepted for a field: the values seen on real units
+/// (docs/reference/sensors.md), plus a margin for units not seen yet and for tables fitted to
+/// recordings.
 struct Span {
   double low, high;
   bool contains(double v) const { return v >= low && v <= high; }  // false for NaN
@@ -37,7 +38,8 @@ std::string prefix(const Hdl64eCalibration& calibration) {
                                     : "HDL-64E calibration from " + calibration.origin;
 }
 
-/// Returns a hint at the mistake that may have put a number outside its span.
+/// Returns a hint at the mistake that may have put `value_deg` outside its span; empty if there is
+/// none.
 std::string_view angle_hint(double value_deg) {
   // A table in degrees taken for radians shows 1 deg as 57 deg.
   if (std::abs(value_deg) > 40.0) return "; this looks like degrees where radians were expected";
@@ -51,7 +53,7 @@ std::string_view length_hint(double value_m) {
   return "";
 }
 
-/// Keeps the first violation.
+/// Checks values and keeps the first violation.
 class Checker {
  public:
   explicit Checker(const Hdl64eCalibration& calibration) : calibration_(calibration) {}
@@ -158,8 +160,8 @@ std::uint64_t fingerprint(const Hdl64eCalibration& calibration) {
     hash.add(rounded(beams::rad_to_deg(laser.vert_correction_rad), 100));
     hash.add(rounded(beams::rad_to_deg(laser.rot_correction_rad), 100));
     hash.add(rounded(far_m, 1000));
-    // Files write unused near corrections as 0, as a copy of far, or not at all; all three hash as
-    // far.
+    // Files write unused near corrections as 0, as a copy of the far one, or not at all; all three
+    // are hashed as the far one.
     hash.add(rounded(laser.two_point ? laser.dist_correction_x_m : far_m, 1000));
     hash.add(rounded(laser.two_point ? laser.dist_correction_y_m : far_m, 1000));
     hash.add(rounded(laser.vert_offset_m, 1000));

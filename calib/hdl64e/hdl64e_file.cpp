@@ -16,7 +16,7 @@ namespace {
 
 enum class Kind { kXml, kYaml, kAngleTable, kUnknown };
 
-/// True for the first line of an angle table: "-10.2637,9.1205".
+/// True if `text` begins with a line of an angle table: "-10.2637,9.1205".
 bool is_angle_line(std::string_view text) {
   const std::string_view line = text.substr(0, text.find('\n'));
   const std::size_t comma = line.find(',');

@@ -8,10 +8,10 @@
 
 namespace terracut::hdl64e {
 
-/// Reads an HDL-64E calibration file. Its kind is told by content, else by extension: the maker's
-/// db.xml (hdl64e_xml.hpp) or ROS YAML (hdl64e_yaml.hpp). Anything else is kUnsupported; the error
-/// lists the kinds that can be read. RoboSense angle tables (csv) are refused by name. Start-up
-/// only.
+/// Reads an HDL-64E calibration file: the maker's db.xml (hdl64e_xml.hpp) or ROS YAML
+/// (hdl64e_yaml.hpp), told apart by content, else by extension. Fails with kUnsupported for any
+/// other file; the message lists the kinds that can be read, and names a RoboSense angle table
+/// (csv) as such. Start-up only.
 [[nodiscard]] Expected<Hdl64eCalibration> load_hdl64e_calibration(
     const std::filesystem::path& path);
 

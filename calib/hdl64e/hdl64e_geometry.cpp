@@ -10,11 +10,12 @@ namespace terracut::hdl64e {
 namespace {
 
 constexpr double kTolerance_m = 1e-9;
-/// The functions solved here are piecewise nearly linear; three steps are typical.
+/// Most steps of solve(). The functions it solves are nearly linear piece by piece; three steps are
+/// typical.
 constexpr int kMaxSecantSteps = 30;
 
-/// Returns the root of `distance_m(raw)`, whose slope is about one resolution a count; starts at
-/// `raw`.
+/// Returns the root of `distance_m(raw)`, searched from `raw`. The slope of the function is about
+/// one distance resolution a count.
 template <class Function>
 std::optional<double> solve(const Function& distance_m, double raw) noexcept {
   double previous = raw - 1.0;

@@ -13,16 +13,17 @@
 namespace terracut::hdl64e {
 namespace {
 
-// Offsets in the table (HDL-64E S3 manual Rev K, pp. 33-38).
+// Byte offsets in the table (HDL-64E S3 manual Rev K, pp. 33-38).
 constexpr std::string_view kMagic = "UNIT#";
 constexpr std::size_t kFirstLaser = 7;
-constexpr std::size_t kLaserStride = 28;       ///< 21 bytes of the laser, 7 others
-constexpr std::size_t kCrcBytesPerLaser = 20;  ///< all but the laser's number
+constexpr std::size_t kLaserStride = 28;       ///< 21 bytes of the laser and 7 others
+constexpr std::size_t kCrcBytesPerLaser = 20;  ///< all bytes of a laser except its number
 constexpr std::size_t kDate = 256 * 7, kDateBytes = 6;
 constexpr std::size_t kReturnSetting = 259 * 7 + 2;
 constexpr std::size_t kCheck = kStreamTableBytes - 2;
 
-// Counts a unit. Dividing by them gives the doubles nearest to the decimal values, as files do.
+// Counts in the table per degree and per metre. Dividing by these gives the doubles nearest to the
+// decimal values, as files do.
 constexpr double kPerDegree = 100;
 constexpr double kPerMetre = 1000;
 constexpr double kPerSlope = 10;
@@ -63,7 +64,7 @@ tl::unexpected<Error> malformed(std::string_view what) {
   return fail(ErrorCode::kMalformed, fmt::format("calibration in the packet stream: {}", what));
 }
 
-/// Writes words in stream units and remembers the first that does not fit.
+/// Writes words in the stream's units and remembers the first that does not fit.
 class TableWriter {
  public:
   explicit TableWriter(std::array<std::uint8_t, kStreamTableBytes>& bytes) : bytes_(bytes) {}
@@ -88,7 +89,7 @@ class TableWriter {
   std::string problem_;
 };
 
-/// Writes one laser, but not its values of one byte, whose range validate() has checked.
+/// Writes one laser except its one-byte values, whose range validate() has checked.
 void put_laser(TableWriter& table, std::size_t at, const Hdl64eLaser& laser) {
   const double far_m = laser.dist_correction_m;
   table.put_rounded(at + 1, beams::rad_to_deg(laser.vert_correction_rad), kPerDegree,

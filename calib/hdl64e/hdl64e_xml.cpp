@@ -16,14 +16,14 @@
 namespace terracut::hdl64e {
 namespace {
 
-constexpr int kCentimetre = -2;  ///< Decimal exponent that takes the file's lengths to metres.
+constexpr int kCentimetre = -2;  ///< Decimal exponent that converts the file's lengths to metres.
 
 tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorCode::kMalformed, std::move(message));
 }
 
 /// Returns the finite number in the only child `element` of `parent`, times 10^exponent; `fallback`
-/// if there is none.
+/// if there is no such child.
 Expected<double> number_in(const pugi::xml_node& parent, const char* element, int exponent,
                            const std::string& where, const double* fallback) {
   const pugi::xml_node node = parent.child(element);

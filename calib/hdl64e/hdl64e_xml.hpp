@@ -14,13 +14,13 @@ namespace terracut::hdl64e {
 /// boost_serialization/DB; degrees and centimetres). Start-up only: allocates.
 ///
 /// Two-point correction counts as present where distCorrectionX_ or distCorrectionY_ is not zero
-/// and differs from distCorrection_; missing intensity limits are 0 and 255, missing offsets 0.
-/// Lasers with enabled_ 0 are absent, and fewer than 64 lasers are an error. The result is
-/// validated. Errors (kNotFound, kUnreadable, kMalformed, kUnsupported) name the file, the laser
-/// and the field; files above 4 MiB are refused.
+/// and differs from distCorrection_. Missing intensity limits become 0 and 255, missing offsets 0.
+/// Lasers with enabled_ 0 count as missing, and fewer than 64 lasers are an error. The result is
+/// validated. Fails with kNotFound, kUnreadable, kMalformed or kUnsupported; the message names the
+/// file, the laser and the field. Files above 4 MiB are refused.
 [[nodiscard]] Expected<Hdl64eCalibration> read_hdl64e_xml(const std::filesystem::path& path);
 
-/// Reads it from memory; `name` stands for the file in errors and becomes the origin.
+/// Parses the content of such a file; `name` stands for the file in errors and becomes the origin.
 [[nodiscard]] Expected<Hdl64eCalibration> parse_hdl64e_xml(std::span<const char> text,
                                                            const std::string& name);
 

@@ -18,8 +18,8 @@ tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorCode::kMalformed, std::move(message));
 }
 
-/// Returns the scalar at `key` of `map`, null if absent. Some real files repeat a key; that is
-/// accepted if both have the same value.
+/// Returns the scalar at `key` of `map`, null if absent. Some real files repeat a key; the
+/// repetition is accepted if both have the same value.
 Expected<YAML::Node> value_at(const YAML::Node& map, std::string_view key,
                               const std::string& where) {
   YAML::Node found(YAML::NodeType::Undefined);
@@ -40,7 +40,7 @@ Expected<YAML::Node> value_at(const YAML::Node& map, std::string_view key,
   return found;
 }
 
-/// Returns the finite number at `key`; `fallback` if the key is absent and there is a fallback.
+/// Returns the finite number at `key`; if the key is absent, `fallback` (null: an error).
 Expected<double> number_at(const YAML::Node& map, std::string_view key, const std::string& where,
                            const double* fallback) {
   const auto node = value_at(map, key, where);
@@ -57,7 +57,7 @@ Expected<double> number_at(const YAML::Node& map, std::string_view key, const st
   return *value;
 }
 
-/// Reads an intensity limit: a whole number, which some converters write as a float.
+/// Reads an intensity limit: a whole number, which some converters write with a decimal point.
 Status read_intensity(const YAML::Node& map, std::string_view key, const std::string& where,
                       int& target) {
   const double fallback = target;

@@ -9,15 +9,16 @@
 
 namespace terracut::hdl64e {
 
-/// Reads the YAML calibration that the ROS velodyne drivers made common (`lasers:` list of maps in
+/// Parses the YAML calibration format of the ROS velodyne drivers (`lasers:`, a list of maps in
 /// block or inline style; radians and metres). Start-up only: allocates.
 ///
 /// Two-point correction counts as present where dist_correction_x or dist_correction_y is not zero
-/// and differs from dist_correction, unless two_pt_correction_available says false: converters left
-/// the key out of files that hold the values. Missing: min_intensity 0, max_intensity 255,
-/// distance_resolution 0.002 m, offsets and focal values 0. The result is validated.
-/// `name` stands for the file in errors (kMalformed, kUnsupported), which name the laser or line
-/// and the field, and becomes the origin. Aliases and deep nesting are refused.
+/// and differs from dist_correction, unless two_pt_correction_available is false: some converters
+/// left this key out of files that hold the values. Defaults for missing keys: min_intensity 0,
+/// max_intensity 255, distance_resolution 0.002 m, offsets and focal values 0. The result is
+/// validated. `name` stands for the file in errors and becomes the origin. Fails with kMalformed or
+/// kUnsupported; the message names the laser or line and the field. Aliases and deep nesting are
+/// refused.
 [[nodiscard]] Expected<Hdl64eCalibration> parse_hdl64e_yaml(std::span<const char> text,
                                                             const std::string& name);
 

@@ -9,18 +9,20 @@ namespace {
 
 constexpr int kBlockLasers = 32;
 
-/// Returns the rank of laser j of a block, 0 the highest beam. Pairs of neighbours stay together;
-/// the order of pairs is mixed (5 and 16 have no common factor, so every rank occurs once).
+/// Returns the rank of laser j of a block by elevation, 0 for the highest. Pairs of neighbours stay
+/// together; the order of pairs is mixed (5 and 16 have no common factor, so every rank occurs
+/// once).
 constexpr int rank_in_block(int j) {
   return 2 * ((5 * (j / 2) + 3) % 16) + j % 2;
 }
 
-/// Spaces a block evenly from `first` to `last`, plus up to 0.03 deg of made-up assembly error.
+/// Spaces the elevations of a block evenly from `first` to `last`, plus up to 0.03 deg of made-up
+/// assembly error.
 constexpr int elevation_cdeg(int j, int first, int last) {
   return first + (last - first) * rank_in_block(j) / (kBlockLasers - 1) + (11 * j) % 7 - 3;
 }
 
-/// Places lasers in eight columns 2.5 deg apart, plus assembly error.
+/// Places lasers in eight columns 2.5 deg apart, plus made-up assembly error.
 constexpr int rotation_cdeg(int j) {
   return 250 * ((3 * j) % 8) - 875 + (7 * j) % 11 - 5;
 }

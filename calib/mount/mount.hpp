@@ -17,18 +17,19 @@ namespace terracut::mount {
 /// left side.
 struct Mount {
   double height_m = 1.73;  ///< Sensor origin above the ground plane; (0.2, 6).
-  double roll_rad = 0;     ///< [-pi, pi]; either end is upside down.
+  double roll_rad = 0;     ///< Roll in [-pi, pi]; at either end the sensor is upside down.
   double pitch_rad = 0;    ///< [-pi/2, pi/2]
 };
 
-/// True if the mount's angles are in their ranges, with room for pi rounded to float.
+/// True if the mount's angles are in the ranges above, with room for pi rounded to float.
 [[nodiscard]] inline bool has_possible_angles(const Mount& mount) noexcept {
   constexpr double kRounding_rad = 1e-6;
   return std::abs(mount.roll_rad) <= std::numbers::pi + kRounding_rad &&
          std::abs(mount.pitch_rad) <= std::numbers::pi / 2 + kRounding_rad;
 }
 
-/// True if the sensor's z axis points down: its highest beams are then the lowest from the vehicle.
+/// True if the sensor's z axis points down: its highest beams then point lowest in the vehicle
+/// frame.
 [[nodiscard]] inline bool is_upside_down(const Mount& mount) noexcept {
   return std::cos(mount.roll_rad) * std::cos(mount.pitch_rad) < 0;
 }
@@ -49,15 +50,16 @@ using RigidTransform = std::array<double, 12>;
 
 [[nodiscard]] RigidTransform T_vehicle_lidar(const Mount& mount) noexcept;
 
-/// Returns the nearest to `to_rad` of the angle and the angle one revolution on or back.
+/// Of `angle_rad` and the same angle one revolution on or back, returns the nearest to `to_rad`.
 [[nodiscard]] constexpr double nearest_turn(double angle_rad, double to_rad) noexcept {
   const double by_rad = angle_rad - to_rad;
   if (by_rad > std::numbers::pi) return angle_rad - 2 * std::numbers::pi;
   return by_rad < -std::numbers::pi ? angle_rad + 2 * std::numbers::pi : angle_rad;
 }
 
-/// Combines two mounts: `seen` is the mount estimated in the frame that `turn` rotates the sensor
-/// frame to. The height of `turn` is ignored; the roll is the equivalent nearest to its roll.
+/// Combines two mounts: `turn` rotates the sensor frame to another frame, in which the mount `seen`
+/// was estimated. The height of `turn` is ignored. Of equivalent rolls the one nearest to that of
+/// `turn` is returned.
 [[nodiscard]] Mount on_top_of(const Mount& turn, const Mount& seen) noexcept;
 
 [[nodiscard]] constexpr std::array<double, 3> apply(const RigidTransform& T, double x, double y,

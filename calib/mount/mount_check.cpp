@@ -11,9 +11,9 @@
 namespace terracut::mount {
 namespace {
 
-/// Returns how many points lie on ground `of` for each one on ground `against`, where the two, both
-/// below a sensor at (0, 0, 0) and both bent by `bend_per_m`, are apart. 0.06 m apart is twice the
-/// sensor's noise to either side, and what 3.5 degrees of roll make 1 m beside the sensor.
+/// Compares two grounds below a sensor at (0, 0, 0), both bent by `bend_per_m`, where they are at
+/// least 0.06 m apart. Returns the number of points on `of` per point on `against`. 0.06 m is twice
+/// the sensor's noise to either side, and what 3.5 degrees of roll make 1 m beside the sensor.
 double support(std::span<const std::array<float, 3>> points, const Mount& of, const Mount& against,
                double bend_per_m) {
   constexpr double kApart_m = 0.06;
@@ -38,7 +38,7 @@ MountCheck::MountCheck(const Mount& mount, const MountCheckConfig& config)
     : mount_(mount), config_(config) {}
 
 void MountCheck::add_frame(std::span<const std::array<float, 3>> points) {
-  // The points in the sensor frame, levelled as the mount says.
+  // The same points in the sensor frame, levelled as the mount says.
   std::vector<std::array<float, 3>> levelled(points.begin(), points.end());
   const auto height_m = static_cast<float>(mount_.height_m);
   for (auto& point : levelled) point[2] -= height_m;

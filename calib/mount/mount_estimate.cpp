@@ -21,24 +21,26 @@ namespace {
 constexpr double kNearest_m = 3.0;    ///< Nearer points may be the vehicle itself.
 constexpr double kFarthest_m = 15.0;  ///< Farther points may be on another slope.
 constexpr double kLowest_m = 0.2,
-                 kHighest_m = 6.0;         ///< The range searched: all heights that may be stated.
-constexpr double kSteepest_rad = 0.26;     ///< 15 degrees
-constexpr double kReach_m = 0.10;          ///< Half thickness of the ground in the search.
-constexpr double kLeastShare = 0.2;        ///< Least share of points within that thickness.
-constexpr std::size_t kLeastPoints = 150;  ///< An RS-Ruby128 3 m up sees some 250 of the strip.
-/// With so many, a plane of 20 % of the points is found in 98 % of frames, and there are more
-/// frames.
+                 kHighest_m = 6.0;      ///< The heights searched: all that may be stated.
+constexpr double kSteepest_rad = 0.26;  ///< 15 degrees
+constexpr double kReach_m = 0.10;       ///< Half thickness of the ground in the search.
+constexpr double kLeastShare = 0.2;     ///< Least share of points within that thickness.
+/// An RS-Ruby128 3 m up sees about 250 points of the strip.
+constexpr std::size_t kLeastPoints = 150;
+/// Number of random planes tried. With so many, a plane that holds 20 % of the points is found in
+/// 98 % of frames.
 constexpr int kCandidates = 500;
 constexpr int kMaxRefinements = 50;
 constexpr std::size_t kLeastInliers = 50;
 constexpr double kReachPerRms = 2.0;
 constexpr double kLeastReach_m = 0.03;  ///< The sensor's own noise.
 
-/// Points are thinned to so many a cell: ground counts by area, not by how densely it is seen.
+/// Points are thinned to this many a cell: ground counts by area, not by how densely it is seen.
 constexpr double kCell_m = 0.5;
 constexpr int kMostInCell = 8;
 
-/// The length along the road over which unevenness correlates: points of one patch err alike.
+/// The length along the road over which unevenness correlates: all points of a patch this long
+/// share one error.
 constexpr double kPatch_m = 3.0;
 
 /// The road bends where a slope begins: z = bend x^2. The prior, a radius of 170 m, keeps bend and
@@ -47,7 +49,7 @@ constexpr double kPatch_m = 3.0;
 constexpr double kUsualBend_per_m = 0.003;
 constexpr double kUsualUnevenness_m = 0.02;
 
-/// z = slope_x x + slope_y y + offset_m + bend_per_m x^2, the ground in the sensor frame.
+/// The ground in the sensor frame: z = slope_x x + slope_y y + offset_m + bend_per_m x^2.
 struct Ground {
   Eigen::Vector4d terms = Eigen::Vector4d::Zero();  ///< slope_x, slope_y, offset, bend
 
@@ -56,14 +58,14 @@ struct Ground {
   Ground tangent_at(double x_m) const {
     return {{terms[0] + 2 * terms[3] * x_m, terms[1], terms[2] - terms[3] * x_m * x_m, 0}};
   }
-  // The next two are for ground without a bend: its unit normal, and how far below the sensor it
-  // is.
+  // The next two functions are for ground without a bend: they return its unit normal, and how far
+  // it lies below the sensor.
   Eigen::Vector3d up() const { return Eigen::Vector3d(-terms[0], -terms[1], 1).normalized(); }
   double height_m() const { return -terms[2] * up().z(); }
   double above_m(const Eigen::Vector3d& p) const { return (p.z() - row(p).dot(terms)) * up().z(); }
 };
 
-/// xorshift64*: picks the same on every machine, which standard distributions do not promise.
+/// Picks random points by xorshift64*: the same on every machine, unlike standard distributions.
 class Picker {
  public:
   std::size_t below(std::size_t count) {
@@ -90,7 +92,7 @@ std::vector<Eigen::Vector3d> points_in_reach(std::span<const std::array<float, 3
   return kept;
 }
 
-/// Numbers the square cells, `cell_m` wide, by a point in them.
+/// Numbers the square cells of width `cell_m`; a point gives the number of its cell.
 class CellOf {
  public:
   explicit CellOf(double cell_m)
@@ -109,7 +111,7 @@ class CellOf {
   std::size_t across_;
 };
 
-/// Thins the points: keeps all of a cell with few points, and evenly spaced ones of the others.
+/// Thins the points: keeps all points of sparse cells and evenly spaced ones of the others.
 std::vector<Eigen::Vector3d> evened_out(const std::vector<Eigen::Vector3d>& points) {
   const CellOf cell_of(kCell_m);
   std::vector<int> count(cell_of.cells()), seen(cell_of.cells());
@@ -127,7 +129,7 @@ std::optional<Ground> plane_through(const Eigen::Vector3d& a, const Eigen::Vecto
                                     const Eigen::Vector3d& c) {
   Eigen::Vector3d normal = (b - a).cross(c - a);
   const double area = normal.norm();
-  if (!(area > 0.5)) return std::nullopt;  // nearly on one line
+  if (!(area > 0.5)) return std::nullopt;  // the points lie nearly on one line
   normal /= normal.z() < 0 ? -area : area;
   const double height_m = -normal.dot(a);
   const bool plausible =
@@ -136,8 +138,8 @@ std::optional<Ground> plane_through(const Eigen::Vector3d& a, const Eigen::Vecto
   return Ground{Eigen::Vector4d(-normal.x(), -normal.y(), -height_m, 0) / normal.z()};
 }
 
-/// The points by coordinate, so that SIMD tests several against a plane at once: most of an
-/// estimate's time is spent there.
+/// The points, one array per coordinate, so that SIMD tests several against a plane at once: this
+/// takes most of an estimate's time.
 struct Coordinates {
   std::vector<double> x_m, y_m, z_m;
 
@@ -155,7 +157,7 @@ struct Plane {
   double slope_x, slope_y, offset_m, up_z;
 };
 
-/// Returns how many of the points lie on the plane.
+/// Returns how many of the points lie on `plane`.
 TERRACUT_VECTOR_CLONES std::size_t count_on(const Plane& plane, const double* __restrict x_m,
                                             const double* __restrict y_m,
                                             const double* __restrict z_m, std::size_t count) {
@@ -169,7 +171,7 @@ TERRACUT_VECTOR_CLONES std::size_t count_on(const Plane& plane, const double* __
   return on_it;
 }
 
-/// Returns how many of the points lie on a plane. Stops counting once they cannot exceed `others`.
+/// Returns how many of the points lie on `plane`. Stops counting once they cannot exceed `others`.
 std::size_t inliers_of(const Ground& plane, const Coordinates& points, std::size_t others) {
   constexpr std::size_t kAtOnce = 256;
   const Plane flat{.slope_x = plane.terms[0],
@@ -186,7 +188,7 @@ std::size_t inliers_of(const Ground& plane, const Coordinates& points, std::size
   return inliers;
 }
 
-/// Returns the candidate plane that holds most of the points.
+/// Returns the candidate plane that holds the most points.
 std::optional<Ground> search(const std::vector<Eigen::Vector3d>& points) {
   const Coordinates coordinates(points);
   Picker pick;
@@ -210,11 +212,11 @@ std::optional<Ground> search(const std::vector<Eigen::Vector3d>& points) {
 struct Fit {
   Ground ground;
   double rms_m = 0;
-  Eigen::Vector4d deviations;  ///< Standard deviations of ground.terms.
+  Eigen::Vector4d deviations;  ///< Standard deviations of the ground's terms.
 };
 
-/// Fits the ground to the points within `reach_m` of `ground` by least squares. A patch counts as
-/// one measurement.
+/// Fits the ground to the points within `reach_m` of `ground` by least squares. Each patch of
+/// points counts as one measurement.
 std::optional<Fit> fit(const std::vector<Eigen::Vector3d>& points, const Ground& ground,
                        double reach_m, const CellOf& patch_of) {
   Eigen::Matrix4d normal_matrix = Eigen::Matrix4d::Zero();
@@ -248,8 +250,8 @@ std::optional<Fit> fit(const std::vector<Eigen::Vector3d>& points, const Ground&
                  (points_a_patch * inverse.diagonal()).cwiseMax(0).cwiseSqrt()};
 }
 
-/// Repeats the fit on its own inliers until the ground stands still, then with a smaller reach each
-/// time: sidewalks and tyres drop out once the road itself is found.
+/// Repeats the fit on its own inliers until the ground no longer moves, then with a smaller reach
+/// each time: sidewalks and tyres drop out once the road itself is found.
 std::optional<Fit> refine(const std::vector<Eigen::Vector3d>& points, Ground ground) {
   const CellOf patch_of(kPatch_m);
   double reach_m = kReach_m;
@@ -273,9 +275,9 @@ double share_within_reach(const std::vector<Eigen::Vector3d>& points, const Grou
   return static_cast<double>(inliers) / static_cast<double>(points.size());
 }
 
-/// The third row of rotate_y(pitch) rotate_x(roll) is the ground's normal in the sensor frame. A
-/// tilted sensor's z axis does not point straight down: the height is taken at the foot of the
-/// normal.
+/// Returns the mount over `ground`. The ground's normal in the sensor frame is the third row of
+/// rotate_y(pitch) rotate_x(roll). A tilted sensor's z axis does not point straight down, so the
+/// height is measured along the normal.
 Mount mount_over(const Ground& ground) {
   const Ground near = ground.tangent_at(0);
   const Ground below = ground.tangent_at(-near.height_m() * near.up().x());
@@ -296,7 +298,7 @@ Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> poi
   const auto even = evened_out(near);
   const auto seed = search(even);
   const auto found = seed ? refine(even, *seed) : std::optional<Fit>();
-  // Least squares may end at a plane above the sensor.
+  // The least squares fit may end at a plane above the sensor.
   const bool is_below = found && mount_over(found->ground).height_m > 0;
   const double share = is_below ? share_within_reach(even, found->ground) : 0.0;
   if (share < kLeastShare) {
@@ -306,7 +308,7 @@ Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> poi
                     "is seen before and behind it (best {:.0f} %)",
                     kLowest_m, kHighest_m, 100 * kLeastShare, 100 * share));
   }
-  // The tilts are small: slopes are angles, and the height is minus the offset.
+  // The tilts are small, so slopes equal angles, and the height is minus the offset.
   const Eigen::Vector4d& deviation = found->deviations;
   return MountEstimate{mount_over(found->ground),
                        {deviation[2], deviation[1], deviation[0]},

@@ -21,7 +21,7 @@ double median_of(std::vector<double> values) {
 }
 
 /// Returns the standard deviation estimated from the median absolute deviation, which outliers
-/// leave alone.
+/// hardly affect.
 double spread_of(std::span<const Mount> mounts, double Mount::* figure, double middle) {
   constexpr double kOfNormal = 1.4826;
   std::vector<double> distances;
@@ -82,7 +82,7 @@ bool MountFinder::add_estimate(const Expected<MountEstimate>& estimated) {
     return false;
   }
   seen_.push_back(estimated->mount);
-  // Upside down, 179 and -179 degrees of roll are nearly the same.
+  // Rolls of 179 and -179 degrees (upside down) are nearly the same, so take the nearer equivalent.
   seen_.back().roll_rad = nearest_turn(estimated->mount.roll_rad, seen_.front().roll_rad);
   deviations_.push_back(estimated->deviation);
   return true;

@@ -10,7 +10,7 @@
 
 namespace terracut::mount {
 
-/// The pose of one frame in another, as transform trees (ROS tf) store it.
+/// The pose of one frame in another, in the form that transform trees (ROS tf) store.
 struct Pose {
   std::array<double, 3> translation_m{};
   std::array<double, 4> rotation_xyzw{0, 0, 0, 1};  ///< A unit quaternion.
@@ -21,7 +21,7 @@ struct Pose {
   const RigidTransform T = T_vehicle_lidar(mount);
   const double cp = std::cos(mount.pitch_rad / 2), sp = std::sin(mount.pitch_rad / 2);
   const double cr = std::cos(mount.roll_rad / 2), sr = std::sin(mount.roll_rad / 2);
-  // A rotation is inverted by its transpose, a unit quaternion by its conjugate.
+  // The inverse of a rotation is its transpose, that of a unit quaternion its conjugate.
   return {{-mount.height_m * T[8], -mount.height_m * T[9], -mount.height_m * T[10]},
           {-cp * sr, -sp * cr, sp * sr, cp * cr}};
 }

@@ -7,21 +7,20 @@
 #include <limits>
 #include <numbers>
 
-
 namespace terracut::mount {
 namespace {
 
-/// True for a sensor that is upside down and tilted from that by more than 0.05 rad: its rings then
-/// meet the ground far from where a level sensor's would. An upright sensor gets a level sensor's
-/// rings, which make the better grid, however it is tilted.
+/// True for an upside-down sensor tilted by more than 0.05 rad: its rings meet the ground far from
+/// where a level sensor's would. An upright sensor always gets a level sensor's rings, because they
+/// make the better grid even if the sensor is tilted.
 bool leans(const Mount& mount) noexcept {
   constexpr double kLevel_rad = 0.05;
   return is_upside_down(mount) && std::max(std::numbers::pi - std::abs(mount.roll_rad),
                                            std::abs(mount.pitch_rad)) > kLevel_rad;
 }
 
-/// Returns the smallest distance from the beam's start, over all azimuths, at which it meets the
-/// ground; infinity if it never does.
+/// Returns the smallest distance from a beam's start, over all azimuths, at which the beam meets
+/// the ground; infinity if it never does.
 double nearest_ground_m(double elevation_rad, double origin_height_m, const Mount& mount) {
   constexpr int kDirections = 120;
   const RigidTransform T = T_vehicle_lidar({0, mount.roll_rad, mount.pitch_rad});
@@ -38,7 +37,7 @@ double nearest_ground_m(double elevation_rad, double origin_height_m, const Moun
 }
 
 /// Makes the ring of a beam that starts `origin_height_m` above the sensor's origin. `past_axis(d)`
-/// is the beam's distance from the axis of rotation after the horizontal distance d from its start.
+/// converts the horizontal distance d from the beam's start to that from the axis of rotation.
 template <class PastAxis>
 Ring ring_past_axis(double elevation_rad, double origin_height_m, const Mount& mount,
                     double range_limit_m, const PastAxis& past_axis) {

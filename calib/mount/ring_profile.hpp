@@ -11,14 +11,14 @@
 
 namespace terracut::mount {
 
-/// One row of the range image as the pipeline needs it: one laser, rows sorted upwards.
+/// One row of the range image as the pipeline needs it: one laser; rows ascend in elevation.
 struct Ring {
-  /// Of the beam, in the sensor frame; negated for a sensor upside down. Rows ascend in it.
+  /// Elevation of the beam in the sensor frame, negated if the sensor is upside down.
   double elevation_rad = 0;
-  double origin_height_m = 0;  ///< Of the beam's start above the sensor's origin.
-  /// Mean horizontal distance at which this beam meets the mount's ground plane; the least distance
-  /// for a tilted sensor upside down. Infinity if it never meets the ground (elevation at or above
-  /// the horizon) or only beyond the range limit.
+  double origin_height_m = 0;  ///< Height of the beam's start above the sensor's origin.
+  /// Mean horizontal distance at which the beam meets the mount's ground plane; the least distance
+  /// for a tilted sensor upside down. Infinity if the beam never meets the ground (elevation at or
+  /// above the horizon) or only beyond the range limit.
   double ground_distance_m = 0;
 };
 
@@ -30,14 +30,14 @@ struct RingProfile {
   Mount mount;
 };
 
-/// Returns the ring of a beam of the sensor that starts on the axis of rotation, over level ground.
-/// `mount` may turn the sensor upside down. A beam that reaches the ground beyond `range_limit_m`
-/// counts as never reaching it.
+/// Returns the ring, over level ground, of a beam that starts on the axis of rotation. `mount` may
+/// hold the sensor upside down. A beam that reaches the ground only beyond `range_limit_m` counts
+/// as never reaching it.
 [[nodiscard]] Ring ring(double elevation_rad, double origin_height_m, const Mount& mount,
                         double range_limit_m = 120.0);
 
-/// Returns the profile by geometry alone, for a level mount. Beams that reach the ground beyond
-/// `range_limit_m` count as never reaching it.
+/// Returns the profile computed from the calibration alone, for a level mount. A beam that reaches
+/// the ground only beyond `range_limit_m` counts as never reaching it.
 [[nodiscard]] RingProfile ring_profile(const hdl64e::Hdl64eCalibration& calibration,
                                        const Mount& mount, double range_limit_m = 120.0);
 [[nodiscard]] RingProfile ring_profile(const ruby128::Ruby128Calibration& calibration,

@@ -11,34 +11,34 @@
 
 namespace terracut::mount {
 
-/// The part of one recorded return that a ring's ground distance needs.
+/// The part of one recorded return that is needed to measure a ring's ground distance.
 struct RingObservation {
   int row = 0;               ///< Row of the range image, [0, rings).
   float ground_range_m = 0;  ///< Horizontal distance from the sensor.
   bool is_ground = false;
 };
 
-/// Measures the profile's ground distances from recordings, as the paper does: the mean horizontal
-/// distance of each ring's ground returns. Feed frames, then read the profile. Memory is fixed by
-/// the constructor. Cheap, but not real-time: `terracut calibrate` uses it.
+/// Measures the ground distance of each ring from recordings, as the paper does: the mean
+/// horizontal distance of the ring's ground returns. Add frames, then read the profile. The
+/// constructor takes all memory. Cheap, but not real-time: `terracut calibrate` uses it.
 class RingProfileEstimate {
  public:
-  /// Largest factor between a return's distance and the geometry's; others are left out, as they
-  /// are not on this plane (kerbs, banks, mislabelled walls).
+  /// A return is left out if its distance differs from the geometry's by more than this factor: it
+  /// does not lie on the ground plane (kerbs, banks, mislabelled walls).
   static constexpr double kMaxFactor = 1.5;
 
-  /// `geometry` is ring_profile()'s, the start and the fall-back. A ring with fewer than
-  /// `min_returns` ground returns keeps the geometry's distance.
+  /// `geometry` comes from ring_profile(). A ring with fewer than `min_returns` ground returns
+  /// keeps the distance that `geometry` gives.
   explicit RingProfileEstimate(const RingProfile& geometry, std::uint64_t min_returns = 200);
 
-  /// Ignores observations of rows outside the profile or with a range that is not finite.
+  /// Adds returns. Ignores rows outside the profile and ranges that are not finite.
   void add(std::span<const RingObservation> observations) noexcept;
 
-  /// Returns the geometry with the measured distances. Where measuring reverses the order of two
-  /// neighbouring rings (the higher one nearer), both keep the geometry's distance.
+  /// Returns the geometry with the measured distances. If the measured order of two neighbouring
+  /// rings is reversed (the higher one is nearer), both keep the geometry's distance.
   [[nodiscard]] RingProfile profile() const;
 
-  /// Returns the number of rings whose distance in profile() is measured.
+  /// Returns the number of rings for which profile() has a measured distance.
   [[nodiscard]] int measured_rings() const;
 
  private:

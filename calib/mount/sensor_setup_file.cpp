@@ -19,13 +19,15 @@ namespace terracut::mount {
 namespace {
 
 constexpr std::size_t kMaxRings = 1024;
-constexpr double kRounding_deg = 1e-6;  ///< Tolerance that keeps the ends of a range in it.
+/// Tolerance so that rounding keeps the ends of a range in it.
+constexpr double kRounding_deg = 1e-6;
 
 tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorCode::kMalformed, std::move(message));
 }
 
-/// A key of a map and the action for its value. The message already says where the value stands.
+/// A key of a map, and what to do with its value. The function's message says where the value
+/// stands.
 struct Key {
   std::string_view name;
   std::function<Status(const YAML::Node&, const std::string& where)> read;
@@ -60,7 +62,7 @@ Status read_map(const YAML::Node& map, const std::string& file, std::span<const 
   return {};
 }
 
-/// Returns the number `node`, which must lie inside (low, high); infinity is inside (0, inf].
+/// Returns `node` as a number, which must lie inside (low, high); infinity is accepted in (0, inf].
 Expected<double> number_within(const YAML::Node& node, const std::string& where, double low,
                                double high) {
   const auto value = node.IsScalar() ? text::number_from(node.Scalar()) : std::nullopt;

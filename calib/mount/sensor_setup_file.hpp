@@ -13,7 +13,7 @@
 
 namespace terracut::mount {
 
-/// The result of `terracut calibrate` for one vehicle, as a file; `--setup FILE` reads it.
+/// What `terracut calibrate` found for one vehicle; `--setup FILE` reads it from a file:
 ///
 ///     # terracut sensor setup
 ///     mount: {height_m: 1.73, roll_deg: 0.2, pitch_deg: -0.4}
@@ -21,17 +21,17 @@ namespace terracut::mount {
 ///       ground_distance_m: [3.7, 3.8, ..., .inf]    # optional, one a row, lowest elevation first
 struct SensorSetup {
   Mount mount;
-  /// Mean horizontal ground distance of each row, row 0 the lowest; infinite where a ring does not
-  /// reach the ground. If empty, the geometry's distances are used.
+  /// Mean horizontal ground distance of each row, row 0 the lowest; infinite for a ring that does
+  /// not reach the ground. If empty, the distances follow from the calibration.
   std::vector<double> ring_ground_distance_m;
 };
 
-/// Reads a setup. height_m is required; roll_deg and pitch_deg default to 0. Unknown or repeated
-/// keys, numbers outside Mount's ranges and ring distances that are not positive are errors that
-/// name the file and the line.
+/// Reads a setup. height_m is required; roll_deg and pitch_deg default to 0. Fails on unknown or
+/// repeated keys, numbers outside Mount's ranges and ring distances that are not positive; the
+/// message names the file and the line.
 [[nodiscard]] Expected<SensorSetup> read_sensor_setup(const std::filesystem::path& path);
 
-/// Reads it from memory; `name` stands for the file in errors.
+/// Parses the content of such a file; `name` stands for the file in errors.
 [[nodiscard]] Expected<SensorSetup> parse_sensor_setup(std::span<const char> text,
                                                        const std::string& name);
 
@@ -39,8 +39,8 @@ struct SensorSetup {
 [[nodiscard]] Status write_sensor_setup(const std::filesystem::path& path,
                                         const SensorSetup& setup);
 
-/// Puts the setup into a profile from ring_profile(): its mount and, if given, its distances.
-/// kInvalidArgument when the number of distances is not the profile's number of rings.
+/// Puts the setup into a profile from ring_profile(): its mount and, if given, its distances. Fails
+/// with kInvalidArgument if the number of distances is not the profile's number of rings.
 [[nodiscard]] Status apply_setup(const SensorSetup& setup, RingProfile& profile);
 
 }  // namespace terracut::mount

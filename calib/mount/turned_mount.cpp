@@ -24,15 +24,19 @@ constexpr int kTurns = 3;  ///< Number of rotations to either side of level.
 
 /// Accepted heights. Below 0.5 m, returns of nearly level beams look like ground whatever they hit.
 constexpr double kLowestSensor_m = 0.5, kHighestSensor_m = 6.0;
-constexpr float kNear_m = 15.0F;          ///< The ground is taken for a plane up to here.
-constexpr float kOnGround_m = 0.15F;      ///< Farthest from the ground, up or down, to be on it.
-constexpr double kLeastOnGround = 0.5;    ///< Least share of the strip on the ground.
-constexpr float kBelowGround_m = 0.3F;    ///< A point lower than this is below the ground.
-constexpr double kMostBelow = 0.05;       ///< Most points near the sensor that may be below.
-constexpr float kAboveSensor_m = 0.3F;    ///< A point this far above the sensor is above it.
-constexpr double kFewAbove = 0.02;        ///< Fewer returns above the sensor make no floor.
-constexpr double kLevelAbove_m = 0.3;     ///< Half the thickness of a floor above it.
-constexpr double kMostLevelAbove = 0.25;  ///< Most returns above it that may lie in one level.
+constexpr float kNear_m = 15.0F;  ///< Up to here the ground is taken for a plane.
+/// A point this close to the ground, above or below, is on it.
+constexpr float kOnGround_m = 0.15F;
+/// Least share of the strip's points that must lie on the ground.
+constexpr double kLeastOnGround = 0.5;
+constexpr float kBelowGround_m = 0.3F;  ///< A point lower than this is below the ground.
+/// Largest share of near points that may lie below the ground.
+constexpr double kMostBelow = 0.05;
+constexpr float kAboveSensor_m = 0.3F;  ///< A point this far above the sensor is above it.
+constexpr double kFewAbove = 0.02;  ///< A smaller share of returns above the sensor makes no floor.
+constexpr double kLevelAbove_m = 0.3;  ///< Half the thickness of a floor above the sensor.
+/// Largest share of the returns above the sensor in one level.
+constexpr double kMostLevelAbove = 0.25;
 
 Points turned(std::span<const std::array<float, 3>> points, const Mount& mount) {
   const RigidTransform T = T_vehicle_lidar(mount);
@@ -50,7 +54,8 @@ Mount without_height(Mount mount) {
   return mount;
 }
 
-/// Estimates the ground in the frame rotated by `turn`, then again in the frame that levels it.
+/// Estimates the mount in the frame rotated by `turn`, then again in the frame that this estimate
+/// levels.
 Expected<MountEstimate> estimate_about(const Mount& turn,
                                        std::span<const std::array<float, 3>> points) {
   const auto rough = estimate_mount(turned(points, without_height(turn)));
@@ -67,8 +72,8 @@ double share_of(const Points& points, IsIt is_it) {
          static_cast<double>(std::max<std::size_t>(points.size(), 1));
 }
 
-/// True if the returns above the sensor end in a level, as a floor or a ceiling does and a street's
-/// houses and trees do not.
+/// True if the returns above the sensor end in a level, as below a floor or ceiling. Houses and
+/// trees along a street do not end so.
 bool has_level_above(const Points& around, double height_m) {
   std::vector<float> above_m;
   for (const auto& p : around) {
@@ -85,7 +90,7 @@ bool has_level_above(const Points& around, double height_m) {
   return static_cast<double>(level) > kMostLevelAbove * static_cast<double>(above_m.size());
 }
 
-/// Returns the reason against a mount; empty if there is none.
+/// Returns the reason to reject an estimate; empty if there is none.
 std::string doubt_of(const MountEstimate& seen, std::span<const std::array<float, 3>> strip,
                      std::span<const std::array<float, 3>> around) {
   const Mount& mount = seen.mount;
@@ -114,7 +119,7 @@ std::string doubt_of(const MountEstimate& seen, std::span<const std::array<float
   return {};
 }
 
-/// Returns what a rejected mount would mean.
+/// Returns what a rejected mount would mean, for a message.
 std::string hint_of(const Mount& mount) {
   const std::string what = is_upside_down(mount)
                                ? "above it may be a ceiling, or the ground: is it upside down"
@@ -126,7 +131,7 @@ std::string hint_of(const Mount& mount) {
       beams::rad_to_deg(mount.pitch_rad));
 }
 
-/// True if a plane lies beside the sensor, which may be a wall; for a message.
+/// True if there is a plane beside the sensor, which may be a wall; for a message.
 bool lies_on_its_side(std::span<const std::array<float, 3>> around) {
   constexpr double kQuarter_rad = std::numbers::pi / 2;
   const auto has_plane = [&](double roll_rad, double pitch_rad) {

@@ -9,7 +9,7 @@
 namespace terracut::ruby128 {
 namespace {
 
-/// Elevation by channel, thousandths of a degree (source: docs/reference/sensors.md).
+/// Elevation of each channel in thousandths of a degree (source: docs/reference/sensors.md).
 constexpr std::array<int, kRuby128Lasers> kElevation_mdeg{
     -13565, -1090, -4390, 1910,  -6650,  -290,   -3590, 2710,  -5790,  510,    -2790,  3510,  -4990,
     1310,   -1990, 5060,  -4190, 2110,   -19582, -1290, -3390, 2910,   -7150,  -490,   -2590, 3710,
@@ -23,7 +23,8 @@ constexpr std::array<int, kRuby128Lasers> kElevation_mdeg{
     -6290,  10,    -3290, 4710,  -5490,  810,    -2490, 15000, -4690,  1610,   -1690,
 };
 
-/// Beams stand in four columns, 1.7 degrees apart, in either half of the channels.
+/// Returns the azimuth offset. Beams stand in four columns, 1.7 degrees apart, in each half of the
+/// channels.
 constexpr int azimuth_offset_mdeg(std::size_t channel) {
   const int column = static_cast<int>(channel % 4) + (channel < kRuby128Lasers / 2 ? 0 : 4);
   return 5950 - 1700 * column;

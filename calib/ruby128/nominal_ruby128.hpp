@@ -6,9 +6,9 @@
 
 namespace terracut::ruby128 {
 
-/// Returns the maker's table for the model RS-Ruby128 (docs/reference/sensors.md). Real units
-/// differ from it by hundredths of a degree, a Ruby Plus altogether. For simulation, for tests, and
-/// as the last resort if the user explicitly consents. `nominal` is set.
+/// Returns the maker's table for the model RS-Ruby128 (docs/reference/sensors.md); `nominal` is
+/// set. Real units differ from this table by hundredths of a degree, a Ruby Plus altogether. For
+/// simulation, for tests, and as the last resort if the user explicitly consents.
 [[nodiscard]] Ruby128Calibration nominal_ruby128();
 
 }  // namespace terracut::ruby128

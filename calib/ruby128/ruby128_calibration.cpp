@@ -23,7 +23,7 @@ using Channels = std::array<Ruby128Channel, kRuby128Lasers>;
 constexpr std::int64_t kNoAngle = std::numeric_limits<std::int64_t>::min();
 
 /// Allowed values in thousandths of a degree, both ends included. The ends are whole hundredths, so
-/// that rounding to DIFOP's unit never leaves the span.
+/// that a value rounded to hundredths (the unit of DIFOP packets) stays in the span.
 struct Span {
   std::int64_t low_mdeg, high_mdeg;
   bool contains(std::int64_t mdeg) const noexcept { return mdeg >= low_mdeg && mdeg <= high_mdeg; }
@@ -85,7 +85,7 @@ std::string outside(int channel, std::string_view what, double rad, Span span,
                      static_cast<double>(span.high_mdeg) / 1000.0, hint);
 }
 
-/// Returns a hint at the mistake that may have put an angle outside its span.
+/// Returns a hint at the mistake that may have put an elevation outside its span.
 std::string_view hint_for_elevation(double rad) {
   if (std::abs(beams::rad_to_deg(rad)) > 40.0) {
     return "; this looks like degrees where radians were expected";
@@ -104,7 +104,7 @@ std::string_view hint_for_view(const Channels& channels, int one_end, int other_
   return "";
 }
 
-/// The functions check_...() return the fault of the table; empty if there is none.
+/// Each check_...() function returns the fault that it finds in the table; empty if there is none.
 std::string check_channels(const Channels& channels) {
   for (int number = 0; number < kRuby128Lasers; ++number) {
     const Ruby128Channel& channel = at(channels, number);

@@ -29,7 +29,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
 }
 
-/// Returns a line's beginning, safe to print.
+/// Returns the beginning of a line in printable form.
 std::string quoted(std::string_view text) {
   constexpr std::size_t kMost = 40;
   std::string shown(text.substr(0, kMost));
@@ -62,7 +62,7 @@ class Lines {
   int count_ = 0;
 };
 
-/// One line's numbers in degrees.
+/// The numbers of one line, in degrees.
 struct Angles {
   double elevation_deg = 0;
   double azimuth_offset_deg = 0;
@@ -80,7 +80,7 @@ Expected<double> angle_from(std::string_view field, std::string_view what) {
   return *value;
 }
 
-/// Names the separator that a line has in place of the comma; empty if there is none.
+/// Names the separator that `line` has in place of the comma; empty if there is none.
 std::string_view other_separator(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return "semicolon";
   if (line.find(',') != std::string_view::npos) return {};
@@ -88,7 +88,7 @@ std::string_view other_separator(std::string_view line) {
   return line.find('\t') != std::string_view::npos ? "tab" : "";
 }
 
-/// Names the unit of angles that are plainly not in degrees; empty if they may be degrees.
+/// Names the unit of angles that are clearly not in degrees; empty if they may be degrees.
 std::string_view unit_of(const Ruby128Calibration& calibration) {
   double lowest_deg = 0;
   for (const Ruby128Channel& channel : calibration.channels) {
@@ -98,7 +98,7 @@ std::string_view unit_of(const Ruby128Calibration& calibration) {
   return lowest_deg <= -1'000 ? "hundredths of a degree" : "";
 }
 
-/// Parses one line. Its error has no file and line yet.
+/// Parses one line. The error does not name the file and the line; the caller adds both.
 Expected<Angles> angles_from(std::string_view line) {
   if (line.empty()) {
     return fail(ErrorCode::kMalformed, "blank line before the last channel");
@@ -132,7 +132,7 @@ bool starts_like_a_header(std::string_view line) {
   return !line.empty() && !text::number_from(line.substr(0, line.find_first_of(",;|\t")));
 }
 
-/// Names the sensor whose table has so many lines.
+/// Names the sensor whose table has this many lines.
 std::string_view owner_of(int lines) {
   switch (lines) {
     case 16:

@@ -15,21 +15,21 @@ namespace terracut::ruby128 {
 ///
 /// A byte order mark, CR LF, blank lines at the end, spaces around numbers and `+` are accepted.
 /// Refused: any other number of lines; text, NaN and infinity; semicolons and decimal commas; lines
-/// without azimuth offset (some programs read them as zero, but beams point up to 6 degrees beside
-/// the head). The result is validated. Errors (kNotFound, kUnreadable, kMalformed, kUnsupported)
-/// name the file, and the line where it is one line's fault; files above 4 MiB are refused.
+/// without azimuth offset (some programs take it for zero, but beams point up to 6 degrees off the
+/// head). The result is validated. Fails with kNotFound, kUnreadable, kMalformed or kUnsupported;
+/// the message names the file, and the line if one line is at fault. Files above 4 MiB are refused.
 [[nodiscard]] Expected<Ruby128Calibration> read_ruby128_csv(const std::filesystem::path& path);
 
-/// Reads it from memory; `name` stands for the file in errors and becomes the origin.
+/// Parses the content of such a file; `name` stands for the file in errors and becomes the origin.
 [[nodiscard]] Expected<Ruby128Calibration> parse_ruby128_csv(std::span<const char> text,
                                                              const std::string& name);
 
-/// Returns the content of an `angle.csv`, in thousandths of a degree. `calibration` passes
-/// validate(); parsing the text gives angles within half a thousandth, and the same fingerprint().
+/// Returns the content of an `angle.csv`, in thousandths of a degree. `calibration` must pass
+/// validate(). Parsing the text gives angles within half a thousandth, and the same fingerprint().
 [[nodiscard]] std::string ruby128_csv_text(const Ruby128Calibration& calibration);
 
-/// Writes ruby128_csv_text(), whole or not at all. kMalformed or kUnsupported when the calibration
-/// fails validate(), kWriteFailed when the file cannot be written.
+/// Writes ruby128_csv_text(), whole or not at all. Fails with kMalformed or kUnsupported if the
+/// calibration fails validate(), kWriteFailed if the file cannot be written.
 [[nodiscard]] Status write_ruby128_csv(const std::filesystem::path& path,
                                        const Ruby128Calibration& calibration);
 

@@ -6,15 +6,15 @@
 
 namespace terracut::sensor {
 
-/// A laser in the maker's manual (docs/reference/sensors.md says which).
+/// One laser as the maker's manual describes it (docs/reference/sensors.md says which manual).
 struct FactoryLaser {
-  double elevation_deg;           ///< Positive is up.
-  double azimuth_offset_deg = 0;  ///< Added to the head's azimuth; clockwise.
+  double elevation_deg;           ///< Elevation of the beam; positive is up.
+  double azimuth_offset_deg = 0;  ///< Azimuth of the beam from the head's, clockwise.
   double vert_offset_mm = 0;      ///< Height of the beam's start above the sensor's origin.
 };
 
-// Tables of the models whose units all have the model's directions, to a few hundredths of a
-// degree; by the laser's number on the wire, which is NOT in order of elevation.
+// Tables of the models whose units all have the same directions, to a few hundredths of a degree.
+// Indexed by the laser's number in packets, which is NOT in order of elevation.
 
 inline constexpr std::array<FactoryLaser, 16> kVlp16Lasers{{{-15, 0, 11.2},
                                                             {1, 0, -0.7},

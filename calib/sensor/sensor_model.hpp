@@ -15,8 +15,8 @@
 
 namespace terracut::sensor {
 
-/// What sent a UDP payload, as far as the payload itself tells (docs/reference/sensors.md). What is
-/// known of each: kSensorTable.
+/// Which sensor sent a UDP payload, as far as the payload tells (docs/reference/sensors.md).
+/// kSensorTable holds what is known of each model.
 enum class SensorModel : std::uint8_t {
   kUnknown,
   kHdl64e,    ///< HDL-64E S2, S2.1 or S3.
@@ -25,31 +25,35 @@ enum class SensorModel : std::uint8_t {
   kVlp16,  ///< Also sold as Puck LITE.
   kVlp16HiRes,
   kVlp32c,
-  kVls128,              ///< Alpha Prime.
-  kOtherVelodyne,       ///< Velodyne's data packet with a product number not known here.
-  kVelodynePosition,    ///< 512 bytes with NMEA text, of the models below the HDL-64E.
-  kRuby128,             ///< RS-Ruby128.
-  kRubyPlus,            ///< The same layout, other angles and firing times; told by type bytes.
-  kRubyLite,            ///< Ruby Lite / Ruby 80: four blocks of 80 channels.
-  kOtherRoboSense,      ///< RoboSense's data packet of another model.
-  kRoboSenseDeviceInfo  ///< DIFOP, sent about once a second.
+  kVls128,         ///< Alpha Prime.
+  kOtherVelodyne,  ///< A Velodyne data packet with a product number not known here.
+  /// Not a data packet: 512 bytes with NMEA text, from models below the HDL-64E.
+  kVelodynePosition,
+  kRuby128,         ///< RS-Ruby128.
+  kRubyPlus,        ///< RS-Ruby128's layout, but other angles and firing times; told by type bytes.
+  kRubyLite,        ///< Ruby Lite / Ruby 80: packets have four blocks of 80 channels.
+  kOtherRoboSense,  ///< A RoboSense data packet of another model.
+  kRoboSenseDeviceInfo  ///< A DIFOP packet about the sensor, sent about once a second.
 };
 
-/// What is known of a model. What only its packets' decoder needs, its trait knows
+/// What is known of a model. Facts that only the model's packet decoder needs are in its trait
 /// (firmware_io/velodyne/models.hpp).
 struct SensorRow {
   SensorModel model{};
-  std::string_view name;            ///< For people: "Velodyne VLP-16".
-  std::optional<Sensor> sensor{};   ///< What it is decoded as; none: it is not decoded.
-  std::string_view word{};          ///< Of --sensor; empty: it has none of its own.
-  std::uint8_t product_number = 0;  ///< Last byte of a Velodyne's data packet; 0: it has none.
-  std::uint8_t stream_number = 0;   ///< In the labelled stream; never changes. 0: not decoded.
-  std::span<const FactoryLaser> lasers{};  ///< Of every unit; empty: each has a table of its own.
-  /// In dual return. Of a model without its own figure that of an RS-Ruby128, which is above it.
+  std::string_view name;           ///< The model's name for people: "Velodyne VLP-16".
+  std::optional<Sensor> sensor{};  ///< The sensor that packets are decoded as; empty: not decoded.
+  std::string_view word{};  ///< The word for --sensor; empty: the model has no word of its own.
+  std::uint8_t product_number = 0;  ///< Last byte of a Velodyne's data packet; 0: no such number.
+  /// The model's number in the labelled stream; never changes. 0: not decoded.
+  std::uint8_t stream_number = 0;
+  /// The lasers of every unit; empty: each unit has a table of its own.
+  std::span<const FactoryLaser> lasers{};
+  /// Highest packet rate, in dual return. The default is an RS-Ruby128's, which is above that of
+  /// models without a figure of their own.
   double most_packets_per_second = 12'001;
 };
 
-/// In the order in which decoded models are offered to people; kUnknown is the last one.
+/// Decoded models stand in the order in which people are offered them; kUnknown is the last row.
 inline constexpr std::array kSensorTable{
     SensorRow{.model = SensorModel::kHdl64e,
               .name = "Velodyne HDL-64E (S2/S3)",
@@ -93,7 +97,7 @@ inline constexpr std::array kSensorTable{
               .product_number = 0xA1,
               .stream_number = 6,
               .lasers = kVls128Lasers,
-              .most_packets_per_second = 18'750},  // a packet a firing
+              .most_packets_per_second = 18'750},  // each packet holds one firing
     SensorRow{.model = SensorModel::kVlp16HiRes,
               .name = "Velodyne VLP-16 Hi-Res",
               .product_number = 0x24},
@@ -115,20 +119,21 @@ inline constexpr std::array kSensorTable{
 [[nodiscard]] constexpr bool is_decoded(SensorModel model) noexcept {
   return row_of(model).sensor.has_value();
 }
-/// Of a decoded model.
+/// Returns the sensor that a decoded model is decoded as.
 [[nodiscard]] constexpr Sensor sensor_of(SensorModel model) noexcept {
   return row_of(model).sensor.value_or(Sensor::kHdl64e);
 }
-/// All units of it have one table, which is built in.
+/// True if all units of `model` have one table, which is built in.
 [[nodiscard]] constexpr bool has_factory_table(SensorModel model) noexcept {
   return !row_of(model).lasers.empty();
 }
-/// Of an HDL-64E that of the S2 and S3, which stands for all.
+/// Returns the model of a sensor; for an HDL-64E the S2 and S3, which stands for all generations.
 [[nodiscard]] constexpr SensorModel model_of(Sensor sensor) noexcept {
   return std::ranges::find(kSensorTable, std::optional(sensor), &SensorRow::sensor)->model;
 }
 
-/// A user who asked for this model, or for none, means that one, too: an HDL-64E of any generation.
+/// True if `model` is one that the user wants: the one asked for, any if none was asked for, and
+/// any generation of an HDL-64E if an HDL-64E was.
 [[nodiscard]] constexpr bool is_wanted(std::optional<SensorModel> asked,
                                        SensorModel model) noexcept {
   const std::optional<Sensor> sensor = row_of(model).sensor;

@@ -13,30 +13,32 @@
 
 namespace terracut {
 
-/// How the sensor stands above the ground. The vehicle frame has x ahead, y to the left, z up, and
-/// its origin on the ground below the sensor.
+/// The sensor's pose above the ground. The vehicle frame has x ahead, y to the left, z up, and its
+/// origin on the ground below the sensor.
 struct Mount {
-  double height_m = 1.73;  ///< Sensor above the ground; (0.2, 6).
-  double roll_rad = 0;     ///< Positive lifts the left side; [-pi, pi], the ends are upside down.
-  double pitch_rad = 0;    ///< Positive looks down in front; [-pi/2, pi/2]
+  double height_m = 1.73;  ///< Height of the sensor above the ground, inside (0.2, 6).
+  /// Positive lifts the left side. In [-pi, pi]; at the ends the sensor is upside down.
+  double roll_rad = 0;
+  double pitch_rad = 0;  ///< Positive looks down in front. In [-pi/2, pi/2].
 };
 
-/// The sensor's pose as found from the ground before and behind it.
+/// The sensor's pose as found from the ground in front of and behind the sensor.
 struct FoundMount {
   Mount mount;
-  /// Half the width of the 95 % interval.
+  /// Half the width of the 95 % interval of each figure.
   Mount uncertainty;
-  std::size_t frames = 0;  ///< The number used.
+  std::size_t frames = 0;  ///< Number of frames the pose was found from.
 };
 
-/// The calibration table of one unit. A value: copies share the table.
+/// The calibration table of one unit. Cheap to copy: copies share the table.
 class Calibration {
  public:
-  /// Reads Velodyne's db.xml or the ROS driver's yaml of an HDL-64E, or RoboSense's angle.csv of an
-  /// RS-Ruby128. kNotFound, kUnreadable or kMalformed, with file and line.
+  /// Reads an HDL-64E's table (Velodyne's db.xml or the ROS driver's yaml) or an RS-Ruby128's
+  /// (RoboSense's angle.csv). Fails with kNotFound, kUnreadable or kMalformed; the message names
+  /// file and line.
   [[nodiscard]] static Expected<Calibration> load(const std::filesystem::path& file);
-  /// Returns the model's table, for when the unit's own is not at hand. Heights of an HDL-64E and
-  /// an RS-Ruby128 are then some centimetres off; the other sensors have no other table.
+  /// Returns the model's table, for use if the unit's own is not at hand. Heights of an HDL-64E and
+  /// an RS-Ruby128 are then some centimetres off; units of other models have no table of their own.
   [[nodiscard]] static Calibration nominal(Sensor sensor);
 
   [[nodiscard]] Sensor sensor() const noexcept;

@@ -6,9 +6,9 @@
 
 namespace terracut {
 
-/// A model whose packets are decoded.
+/// A sensor model whose packets are decoded.
 enum class Sensor : std::uint8_t {
-  kHdl64e,  ///< Any generation.
+  kHdl64e,  ///< HDL-64E of any generation.
   kRuby128,
   kVlp16,
   kHdl32e,

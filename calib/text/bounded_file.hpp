@@ -11,11 +11,12 @@
 
 namespace terracut::text {
 
-/// Calibration and setup files are far smaller; a larger file is something else.
+/// Largest file read. Calibration and setup files are far smaller.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{4} << 20;
 
-/// Returns the file's bytes. kNotFound, kUnreadable, or kUnsupported above kMaxFileBytes; the
-/// message names the file and `what` it should have been ("an HDL-64E calibration").
+/// Returns the file's bytes. Fails with kNotFound, kUnreadable, or kUnsupported above
+/// kMaxFileBytes; the message names the file and `what` it should have been ("an HDL-64E
+/// calibration").
 [[nodiscard]] Expected<std::string> read_bounded_file(const std::filesystem::path& path,
                                                       std::string_view what);
 

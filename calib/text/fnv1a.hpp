@@ -6,7 +6,8 @@
 
 namespace terracut::text {
 
-/// FNV-1a over whole numbers, byte by byte: gives tables the same fingerprint on every machine.
+/// Computes the FNV-1a hash of whole numbers, byte by byte: the same table gets the same
+/// fingerprint on every machine.
 class Fnv1a {
  public:
   constexpr void add(std::int64_t value) noexcept {

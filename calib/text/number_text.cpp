@@ -17,7 +17,7 @@ std::optional<double> number_from(std::string_view text) noexcept {
   const std::size_t first = text.find_first_not_of(kSpace);
   if (first == std::string_view::npos) return std::nullopt;
   text = text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-  // These are YAML's spellings; std::from_chars knows the bare words.
+  // YAML writes infinity and NaN with a dot; std::from_chars reads only the words without it.
   if (text == ".inf" || text == "+.inf") return std::numeric_limits<double>::infinity();
   if (text == "-.inf") return -std::numeric_limits<double>::infinity();
   if (text == ".nan" || text == ".NaN") return std::numeric_limits<double>::quiet_NaN();
@@ -42,7 +42,7 @@ std::optional<double> number_from(std::string_view text, int exponent) {
     std::string_view written = text.substr(e + 1);
     if (written.starts_with('+')) written.remove_prefix(1);
     int own = 0;
-    // number_from() has accepted the text, so only a huge exponent fails here.
+    // number_from() has accepted the text, so only a huge exponent can fail here.
     const auto [end, error] = std::from_chars(written.data(), written.data() + written.size(), own);
     if (error != std::errc{} || std::abs(own) > 9999) return plain;
     exponent += own;

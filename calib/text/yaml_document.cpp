@@ -14,14 +14,14 @@
 namespace terracut::text {
 namespace {
 
-/// The reason for refusing the document.
+/// Why a document is refused.
 struct Refusal {
   int line;
   std::string what;
 };
 
-/// Walks the text without building it. Throws a Refusal at the first thing too large or at a second
-/// document.
+/// Walks through the text without building a tree. Throws a Refusal at the first item that is too
+/// large, or at a second document.
 class Guard final : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override { ++documents_; }
@@ -77,8 +77,8 @@ Expected<YAML::Node> load_yaml_document(std::string_view text, const std::string
   if (text.size() > kMaxFileBytes) {
     return fail(ErrorCode::kUnsupported, name + ": is larger than 4 MiB");
   }
-  // Counts brackets first: the scanner reads ahead without a limit and takes 1 GB for 4 MiB of
-  // brackets, before the guard sees the first of them.
+  // Counts brackets before parsing: the scanner reads ahead without a limit and would take 1 GB for
+  // 4 MiB of brackets before the guard sees the first of them.
   const auto is_opening = [](char c) { return c == '[' || c == '{'; };
   if (std::count_if(text.begin(), text.end(), is_opening) > kMaxYamlNodes) {
     return fail(ErrorCode::kUnsupported,

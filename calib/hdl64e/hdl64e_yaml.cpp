@@ -122,7 +122,7 @@ Expected<Hdl64eLaser> laser_from(const YAML::Node& map, const std::string& where
   return laser;
 }
 
-/// Returns the list of 64 lasers; its length must equal the file's own num_lasers.
+/// Returns the list of 64 lasers. An error if its length differs from the file's num_lasers.
 Expected<YAML::Node> laser_list(const YAML::Node& root, const std::string& name) {
   const YAML::Node lasers = root["lasers"];
   if (!lasers.IsDefined() || !lasers.IsSequence()) {

@@ -43,9 +43,9 @@ constexpr int kMostInCell = 8;
 /// share one error.
 constexpr double kPatch_m = 3.0;
 
-/// The road bends where a slope begins: z = bend x^2. The prior, a radius of 170 m, keeps bend and
-/// height from running away where one ring alone meets the ground and they cannot be told apart,
-/// and makes the uncertainty show it.
+/// Expected size of the road's bend, in z = bend x^2, where a slope begins: a radius of 170 m.
+/// Where only one ring meets the ground, bend and height cannot be told apart; this prior keeps
+/// both from running away, and the uncertainty shows it.
 constexpr double kUsualBend_per_m = 0.003;
 constexpr double kUsualUnevenness_m = 0.02;
 

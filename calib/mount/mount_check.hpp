@@ -44,11 +44,11 @@ class MountCheck {
   void add_frame(std::span<const std::array<float, 3>> points);
 
   /// Returns the mount that the ground shows, the median over the frames that contradict the given
-  /// one; nothing while the given mount is not contradicted.
+  /// mount; nothing while these are too few.
   [[nodiscard]] std::optional<Mount> contradiction() const;
 
-  /// Returns the mean mount over all frames so far whose ground is within the tolerances: a long
-  /// drive knows it better than its first second. Nothing without such a frame.
+  /// Returns the mean mount over all frames whose ground is within the tolerances: a long drive
+  /// measures the mount better than its first second. Returns nothing without such a frame.
   [[nodiscard]] std::optional<Mount> by_drive() const;
 
   /// Returns the number of frames in which a ground was found.

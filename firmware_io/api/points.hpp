@@ -10,11 +10,11 @@
 #include "firmware_io/frame/frame_info.hpp"
 #include "terracut/frame.hpp"
 
-/// Converts internal frames to those that users see; not installed.
+/// Converts internal frames to public ones; not installed.
 namespace terracut {
 
-/// Writes the image's returns to the beginning of `points`, in order of arrival. There must be room
-/// for them.
+/// Writes the returns of `image` to the beginning of `points`, in order of arrival. `points` must
+/// be large enough for all returns.
 inline void copy_points(const frame::RangeImage& image, std::span<Point> points) noexcept {
   frame::for_each_return(image, [&](const frame::PlacedReturn& placed) noexcept {
     points[placed.return_index] = {placed.point.x_m, placed.point.y_m, placed.point.z_m,
@@ -22,7 +22,8 @@ inline void copy_points(const frame::RangeImage& image, std::span<Point> points)
   });
 }
 
-/// Converts a frame. Its points are stored in `room`, which must hold as many as a frame may have.
+/// Converts a frame. Its points are stored in `room`, which must be large enough for the returns of
+/// any frame.
 [[nodiscard]] inline Frame public_frame(const frame::Frame& frame, std::span<Point> room) noexcept {
   copy_points(*frame.image, room);
   return {.number = frame.info.number,
@@ -35,7 +36,7 @@ inline void copy_points(const frame::RangeImage& image, std::span<Point> points)
           .labels = {}};
 }
 
-/// Runs `make`, which constructs an object that takes all its memory at once, and turns an
+/// Runs `make`, which constructs an object that takes all its memory at once, and converts an
 /// exception into an error.
 template <class Make>
 [[nodiscard]] auto made(Make&& make) -> Expected<decltype(make())> {

@@ -10,13 +10,13 @@
 
 namespace terracut::can {
 
-/// Identifies a message on the bus. The same number in the other format is another message.
+/// Identifies a message on the bus. The same number in the other id format is another message.
 struct CanId {
   static constexpr std::uint32_t kStandardMost = 0x7FF;       ///< 11 bits
   static constexpr std::uint32_t kExtendedMost = 0x1FFFFFFF;  ///< 29 bits
 
   std::uint32_t number = 0;
-  bool extended = false;  ///< 29 bits instead of 11.
+  bool extended = false;  ///< True: an id of 29 bits; false: 11 bits.
 
   [[nodiscard]] constexpr bool valid() const noexcept {
     return number <= (extended ? kExtendedMost : kStandardMost);
@@ -24,22 +24,22 @@ struct CanId {
   friend constexpr auto operator<=>(const CanId&, const CanId&) = default;
 };
 
-/// One frame of a CAN bus, classic or FD. A plain value.
+/// One CAN frame, classic or FD.
 struct CanFrame {
-  static constexpr std::size_t kMostBytes = 64;        ///< of an FD frame
-  static constexpr std::size_t kMostClassicBytes = 8;  ///< of a classic frame
+  static constexpr std::size_t kMostBytes = 64;        ///< most data bytes of an FD frame
+  static constexpr std::size_t kMostClassicBytes = 8;  ///< most data bytes of a classic frame
 
-  std::int64_t stamp_ns = 0;  ///< When it was received, nanoseconds since 1970 (UTC).
-  CanId id;                   ///< In an error frame: the kind of error, extended false.
+  std::int64_t stamp_ns = 0;  ///< Time of reception, nanoseconds since 1970 (UTC).
+  CanId id;  ///< In an error frame, the number is the kind of error, and extended is false.
   bool fd = false;
-  bool bit_rate_switch = false;  ///< FD: the data were sent at the higher bit rate.
-  bool sender_passive = false;   ///< FD: its sender had seen too many errors (ESI).
-  bool remote = false;           ///< A request for data; it carries none.
-  bool error = false;            ///< Made by the local controller; it was never on the bus.
-  std::uint8_t length = 0;       ///< Bytes of data; in a remote frame, bytes asked for.
+  bool bit_rate_switch = false;  ///< For FD: the data were sent at the higher bit rate.
+  bool sender_passive = false;   ///< For FD: the sender had seen too many errors (ESI).
+  bool remote = false;           ///< True for a request for data, which carries no data itself.
+  bool error = false;            ///< True if the local controller made the frame to report a fault.
+  std::uint8_t length = 0;  ///< Number of data bytes; in a remote frame, of the bytes asked for.
   std::array<std::uint8_t, kMostBytes> data{};  ///< Bytes from `length` on are 0.
 
-  /// True for a message with data, the only kind of frame that signals are read from.
+  /// True for a message with data; signals are read only from these.
   [[nodiscard]] constexpr bool is_data() const noexcept { return !remote && !error; }
   [[nodiscard]] constexpr std::span<const std::uint8_t> payload() const noexcept {
     return std::span(data).first(remote ? 0 : length);

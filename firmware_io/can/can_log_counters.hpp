@@ -11,9 +11,11 @@ namespace terracut::can {
 struct CanLogCounters {
   std::uint64_t records = 0;
   std::uint64_t delivered = 0;
-  std::uint64_t no_frame = 0;         ///< Well formed, but not a CAN frame: comments, CAN XL, UDP.
-  std::uint64_t other_interface = 0;  ///< Frames of another interface than the one asked for.
-  std::uint64_t malformed = 0;        ///< The source's first_fault() describes the first.
+  /// Well-formed lines that are not CAN frames: comments, CAN XL, UDP.
+  std::uint64_t no_frame = 0;
+  std::uint64_t other_interface = 0;  ///< Frames of an interface other than the one asked for.
+  /// Malformed lines; first_fault() of the source describes the first.
+  std::uint64_t malformed = 0;
 };
 
 }  // namespace terracut::can

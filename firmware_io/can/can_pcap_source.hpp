@@ -21,7 +21,8 @@ namespace terracut::can {
 /// does not say which bus a frame was on. Not thread-safe; blocks on the disk.
 class CanPcapSource {
  public:
-  /// Errors of PcapFile::open(), and kUnsupported for a capture of another link layer.
+  /// Opens the file. Fails as PcapFile::open() does, and with kUnsupported for a capture of another
+  /// link layer.
   [[nodiscard]] static Expected<CanPcapSource> open(std::filesystem::path path);
 
   /// Reads from memory, which must outlive the source; `name` stands for the path in messages.
@@ -29,7 +30,7 @@ class CanPcapSource {
                                                            std::string name);
 
   /// Returns the next frame; nothing at the end. Records without a frame are counted and skipped.
-  /// An error means that the file breaks off, see PcapFile::next().
+  /// Fails if the file breaks off (see PcapFile::next()).
   [[nodiscard]] Expected<std::optional<CanFrame>> next();
 
   [[nodiscard]] const CanLogCounters& counters() const noexcept { return counters_; }

@@ -20,12 +20,13 @@ namespace terracut::can {
 /// thread-safe; blocks on the disk.
 class CanRecording {
  public:
-  /// Opens a recording. A log delivers only frames of `interface` (empty: of any); a capture does
-  /// not tell interfaces. Errors of CandumpSource::open() or CanPcapSource::open().
+  /// Opens a recording. A log delivers only frames of `interface` (if empty, of any); a capture
+  /// does not name interfaces. Fails as CandumpSource::open() or CanPcapSource::open() does.
   [[nodiscard]] static Expected<CanRecording> open(const std::filesystem::path& path,
                                                    std::string interface = {});
 
-  /// Returns the next frame; nothing at the end. Errors of the two sources' next().
+  /// Returns the next frame; nothing at the end. Fails as CandumpSource::next() or
+  /// CanPcapSource::next() does.
   [[nodiscard]] Expected<std::optional<CanFrame>> next() {
     return std::visit([](auto& source) { return source.next(); }, source_);
   }

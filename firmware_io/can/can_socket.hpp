@@ -13,7 +13,7 @@
 
 namespace terracut::can {
 
-/// The system call in open_can_socket() that failed, and its errno.
+/// Which system call in open_can_socket() failed, and its errno.
 struct CanSocketFailure {
   enum class Step : std::uint8_t { kSocket, kOptions, kFilter, kBind };
   Step step;
@@ -24,13 +24,14 @@ struct CanSocketFailure {
 inline constexpr std::size_t kMostCanFilters = 512;
 
 /// Opens a non-blocking raw CAN socket on one interface. It takes FD frames and receives only data
-/// frames with exactly these ids (none without ids; at most kMostCanFilters) and, if asked, all
-/// error frames. Allocates nothing, so that an interface that came back can be opened at any time.
+/// frames with exactly the given ids (none if there are no ids; at most kMostCanFilters) and, if
+/// asked, all error frames. Allocates nothing, so that an interface that came back can be opened at
+/// any time.
 [[nodiscard]] tl::expected<files::OwnedDescriptor, CanSocketFailure> open_can_socket(
     int interface_index, std::span<const CanId> ids, bool error_frames) noexcept;
 
-/// Returns the failure in words, with how to mend it. kUnsupported: the kernel has no CAN;
-/// kNotFound: the interface is gone or no CAN interface; kUnreadable: anything else.
+/// Returns the failure in words, with how to mend it, as kUnsupported if the kernel has no CAN,
+/// kNotFound if the interface is gone or no CAN interface, else kUnreadable.
 [[nodiscard]] Error explain(const CanSocketFailure& failure, const std::string& interface);
 
 }  // namespace terracut::can

@@ -23,20 +23,21 @@ inline constexpr std::size_t kWireHeaderBytes = 8;
 /// big endian in captures of a CAN interface (link type 227).
 enum class CanIdOrder : std::uint8_t { kNative, kBigEndian };
 
-/// Why bytes are not a frame that is read here.
+/// Why bytes were not accepted as a frame.
 enum class CanReject : std::uint8_t {
-  kXl,         ///< CAN XL.
-  kTruncated,  ///< Fewer bytes than the header or its length field needs.
-  kLength,     ///< A length that this kind of frame cannot have.
-  kId,         ///< A number of more than 11 bits in the 11-bit format.
+  kXl,         ///< A CAN XL frame.
+  kTruncated,  ///< There are fewer bytes than the header or its length field needs.
+  kLength,     ///< The length is one that this kind of frame cannot have.
+  kId,         ///< An 11-bit id has a number of more than 11 bits.
 };
 
-/// Parses the frame in `bytes`; its stamp is left 0. It is FD if its flag says so or if it has as
-/// many bytes as only FD frames have: older kernels and captures do not set the flag.
+/// Parses the frame in `bytes`; the stamp stays 0. The frame is FD if its flag says so or if it is
+/// as long as only FD frames are: older kernels and captures do not set the flag.
 [[nodiscard]] tl::expected<CanFrame, CanReject> parse_can_wire(
     std::span<const std::uint8_t> bytes, CanIdOrder order) noexcept TERRACUT_NONBLOCKING;
 
-/// Writes the frame as a socket takes it, native order. Returns the bytes used: 16 or 72.
+/// Writes the frame as a socket expects it, the id in native order. Returns the bytes used: 16
+/// or 72.
 [[nodiscard]] std::size_t write_can_wire(const CanFrame& frame,
                                          std::span<std::uint8_t, kFdWireBytes> bytes) noexcept
     TERRACUT_NONBLOCKING;

@@ -27,18 +27,18 @@ struct CandumpLine {
 };
 
 /// What is wrong with a line. `what` is a text of static duration, for a message. A well-formed
-/// line without a frame (`DROPCOUNT`, a comment, CAN XL) is not `malformed`.
+/// line that is no frame (`DROPCOUNT`, a comment, CAN XL) is not `malformed`.
 struct CandumpFault {
   std::string_view what;
   bool malformed = true;
 };
 
-/// Parses `line`, given without its end. Takes any bytes. Allocates nothing.
+/// Parses `line`, given without its line end. Accepts any bytes. Allocates nothing.
 [[nodiscard]] tl::expected<CandumpLine, CandumpFault> parse_candump_line(
     std::string_view line) noexcept;
 
-/// Returns the frame's line with its end. The stamp must not be negative; it gets 6 decimals, or 9
-/// if it has nanoseconds.
+/// Returns the line for a frame, with its line end. The stamp must not be negative; it is written
+/// with 6 decimals, or 9 if the nanoseconds need them.
 [[nodiscard]] std::string candump_line(const CanFrame& frame, std::string_view interface);
 
 }  // namespace terracut::can

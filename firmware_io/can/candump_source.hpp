@@ -21,10 +21,11 @@ namespace terracut::can {
 /// disk.
 class CandumpSource {
  public:
-  /// The most characters of a line; frames need at most 260.
+  /// The longest line, in characters; frames need at most 260.
   static constexpr std::size_t kMostLine = 511;
 
-  /// Delivers only frames of `interface`; empty: of any. kNotFound or kUnreadable.
+  /// Opens a log and delivers only frames of `interface` (if empty, of any). Fails with kNotFound
+  /// or kUnreadable.
   [[nodiscard]] static Expected<CandumpSource> open(const std::filesystem::path& path,
                                                     std::string interface = {});
 
@@ -32,10 +33,9 @@ class CandumpSource {
   CandumpSource(std::unique_ptr<std::istream> stream, std::string name, std::string interface = {});
 
   /// Returns the next frame; nothing at the end. Lines without a frame are counted and skipped,
-  /// however long they are; after the first malformed one nothing is allocated for them.
-  ///
-  /// Errors at the end: kMalformed if no line was a frame; kNothingCameOut if all frames were of
-  /// other interfaces; kUnreadable if the system refused to read on.
+  /// however long they are; after the first malformed one they cause no allocation. Fails at the
+  /// end with kMalformed if no line was a frame, kNothingCameOut if all frames were of other
+  /// interfaces, kUnreadable if the system refused to read on.
   [[nodiscard]] Expected<std::optional<CanFrame>> next();
 
   [[nodiscard]] const CanLogCounters& counters() const noexcept { return counters_; }

@@ -29,10 +29,11 @@ namespace terracut::can {
 
 struct SocketCanConfig {
   std::string interface{};   ///< "can0"
-  std::vector<CanId> ids{};  ///< The messages wanted, [1, 512] ids; the kernel filters.
-  std::size_t batch = 64;    ///< The most frames a receive() returns, > 0.
-  std::size_t receive_buffer_bytes = 1U << 20;  ///< About 1300 frames.
-  bool wait_for_interface = false;  ///< A missing interface is no error; it is used when it comes.
+  std::vector<CanId> ids{};  ///< The messages to receive, 1 to 512 ids; the kernel filters.
+  std::size_t batch = 64;    ///< The most frames that receive() returns, > 0.
+  std::size_t receive_buffer_bytes = 1U << 20;  ///< Enough for about 1300 frames.
+  /// True: a missing interface is no error; it is used when it comes.
+  bool wait_for_interface = false;
 };
 
 /// Receives frames of a CAN interface, many for one system call, with the kernel's time stamps and
@@ -44,13 +45,14 @@ struct SocketCanConfig {
 /// wake().
 class SocketCanSource {
  public:
-  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface (unless waited
-  /// for), or no CAN interface. kUnsupported: the kernel has no CAN. kUnreadable: another refusal
-  /// of the system. An interface that is down is no error.
+  /// Opens the interface. Fails with kInvalidArgument for a setting out of its range, kNotFound if
+  /// there is no such interface (unless waited for) or it is no CAN interface, kUnsupported if the
+  /// kernel has no CAN, kUnreadable if the system refuses otherwise. An interface that is down is
+  /// no error.
   [[nodiscard]] static Expected<SocketCanSource> open(SocketCanConfig config,
                                                       memory::FixedMemory& memory);
 
-  /// Receives over any datagram socket that carries the kernel's frames (can_wire.hpp), one a
+  /// Receives over any datagram socket that carries the kernel's frames (can_wire.hpp), one in each
   /// datagram, such as one end of a socket pair. `config.interface` is ignored: the descriptor is
   /// never replaced, and link() stays kUnknown.
   [[nodiscard]] static Expected<SocketCanSource> adopt(files::OwnedDescriptor descriptor,
@@ -58,13 +60,13 @@ class SocketCanSource {
                                                        memory::FixedMemory& memory);
 
   /// Waits at most `timeout_ns` and returns [1, batch] data frames in order of arrival, or none if
-  /// the time is up or wake() was called. Valid until the next call. Error frames are counted, not
-  /// returned.
+  /// the time is up or wake() was called. The frames are valid until the next call. Error frames
+  /// are counted, not returned.
   [[nodiscard]] std::span<const CanFrame> receive(std::int64_t timeout_ns) noexcept
       TERRACUT_NONBLOCKING;
 
-  /// Ends the current receive(), or the next one that would wait, with an empty result. From any
-  /// thread or a signal handler.
+  /// Ends the current receive(), or the next one that would wait, with an empty result. Any thread
+  /// or a signal handler.
   void wake() const noexcept { wake_.wake(); }
 
   [[nodiscard]] const CanReceiveCounters& counters() const noexcept { return counters_; }
@@ -91,7 +93,8 @@ class SocketCanSource {
 
   SocketCanConfig config_;
   threads::WakeEvent wake_;
-  files::OwnedDescriptor probe_;  ///< An idle socket for asking about interfaces; empty if adopted.
+  /// An idle socket, used to ask the kernel about interfaces; empty if adopted.
+  files::OwnedDescriptor probe_;
   files::OwnedDescriptor socket_;
   int interface_index_ = 0;
 

@@ -9,11 +9,11 @@
 
 namespace terracut::capture {
 
-/// Accounts for the records of a capture that was decoded to the end of the part asked for. Each
-/// record is in exactly one place, as the datagrams of a live run are in net::DatagramAccount.
+/// Accounts for every record of a capture, decoded to the end of the part asked for. Each record is
+/// counted exactly once, as the datagrams of a live run are in net::DatagramAccount.
 struct CaptureAccount {
   PcapCounters read;
-  std::uint64_t before_start = 0, behind_end = 0;  ///< outside the part asked for
+  std::uint64_t before_start = 0, behind_end = 0;  ///< records outside the part asked for
   std::uint64_t device_info = 0;                   ///< packets without returns
   std::uint64_t decoded = 0;
   frame::LossCounters losses;

@@ -7,28 +7,29 @@
 
 namespace terracut::capture {
 
-/// The time since the start of a capture, from the stamps of its packets in file order. The
-/// recording machine's clock may be set while it records, and files are joined in any order. So
-/// stamps need not ascend, and no stamp is a reason to drop a packet.
+/// Computes the time since the start of a capture from the stamps of its packets in file order.
+/// Stamps need not ascend, because the recording machine's clock may be set while it records, and
+/// files are joined in any order; so no stamp is a reason to drop a packet.
 ///
-/// Packets a little out of order keep their times. After a step back by more than kDisorder_ns time
-/// goes on from where it was. If stamps had jumped ahead less than kDisorder_ns before, as one odd
-/// stamp does, it goes on from before that jump.
+/// Packets slightly out of order keep their times. After a step back by more than kDisorder_ns,
+/// time continues from its value before the step. If stamps had jumped ahead less than kDisorder_ns
+/// before, as one odd stamp does, it continues from its value before that jump.
 class CaptureClock {
  public:
-  /// Less than the steps in which NTP sets a clock, 128 ms, and more than the disorder of a network
-  /// card's queues.
+  /// Shorter than the steps in which NTP sets a clock (128 ms), and longer than packets are
+  /// reordered in the queues of a network card.
   static constexpr std::int64_t kDisorder_ns = 100'000'000;
 
-  /// Returns a packet's time since the first packet; below 0 if it is a little earlier. Takes
-  /// stamps of PcapRecord. Times end at four years.
+  /// Returns a packet's time since the first packet; negative if the packet is slightly earlier.
+  /// `stamp_ns` is that of a PcapRecord. Times end at four years.
   std::int64_t add(std::int64_t stamp_ns) noexcept;
   /// Returns the time of a stamp near that of the newest packet; 0 before the first.
   [[nodiscard]] std::int64_t since_begin_ns(std::int64_t stamp_ns) const noexcept {
     return begun_ ? newest_.since_ns + (stamp_ns - newest_.stamp_ns) : 0;
   }
 
-  /// Return how often stamps stepped back by more than kDisorder_ns, and the longest step.
+  /// These return how often stamps stepped back by more than kDisorder_ns, and the longest such
+  /// step.
   [[nodiscard]] std::uint64_t steps_back() const noexcept { return steps_back_; }
   [[nodiscard]] std::int64_t longest_step_back_ns() const noexcept { return longest_back_ns_; }
 
@@ -40,7 +41,7 @@ class CaptureClock {
   bool begun_ = false;
   Instant newest_;
   std::optional<Instant> before_ahead_;  ///< The time before stamps last jumped ahead.
-  std::int64_t ahead_stamp_ns_ = 0;      ///< The stamp they jumped to.
+  std::int64_t ahead_stamp_ns_ = 0;      ///< The stamp that they jumped to.
   std::uint64_t steps_back_ = 0;
   std::int64_t longest_back_ns_ = 0;
 };

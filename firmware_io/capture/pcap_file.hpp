@@ -15,18 +15,19 @@ struct pcap;  // libpcap's handle, pcap_t
 
 namespace terracut::capture {
 
-/// One record of a capture file, as it was captured.
+/// One record of a capture file.
 struct PcapRecord {
-  std::span<const std::uint8_t> bytes;  ///< From the link layer on; valid until the next record.
-  std::int64_t stamp_ns = 0;            ///< Since 1970 (UTC), [0, year 2255].
+  /// The record from its link layer on; valid until the next record.
+  std::span<const std::uint8_t> bytes;
+  std::int64_t stamp_ns = 0;  ///< Nanoseconds since 1970 (UTC), from 0 to the year 2255.
 };
 
 /// Reads the records of a capture file (pcap with micro- or nanosecond stamps in either byte order,
 /// or pcapng) in file order, whatever they hold. Not thread-safe; blocks on the disk.
 class PcapFile {
  public:
-  /// Errors: kNotFound, kUnreadable or kMalformed (empty or no capture; the message says what it
-  /// looks like).
+  /// Opens the file. Fails with kNotFound, kUnreadable, or kMalformed (an empty file or no capture;
+  /// the message says what it looks like).
   [[nodiscard]] static Expected<PcapFile> open(std::filesystem::path path);
 
   /// Reads from memory, which must outlive this object; `name` stands for the path in messages.
@@ -35,12 +36,12 @@ class PcapFile {
 
   /// Returns the next record; nothing at the end.
   ///
-  /// An error (kMalformed, or kUnsupported for interfaces of different link types in one pcapng)
-  /// means that the file breaks off: the message says after which packet and at which byte, and
-  /// every further call returns the same error. Allocates nothing a record.
+  /// Fails with kMalformed (or kUnsupported for interfaces of different link types in one pcapng)
+  /// if the file breaks off: the message says after which packet and at which byte, and every
+  /// further call fails in the same way. Allocates nothing per record.
   [[nodiscard]] Expected<std::optional<PcapRecord>> next();
 
-  /// Goes back to the first record (a file is opened again).
+  /// Goes back to the first record, by opening the file again.
   [[nodiscard]] Status rewind();
 
   [[nodiscard]] int link_type() const noexcept { return link_type_; }  ///< libpcap's DLT_ number.
@@ -57,7 +58,7 @@ class PcapFile {
   [[nodiscard]] Error broken_off(const char* reason);
 
   std::string name_;
-  std::filesystem::path path_;  ///< Empty if reading from memory.
+  std::filesystem::path path_;  ///< Empty if the capture is read from memory.
   std::span<const std::uint8_t> memory_;
   std::unique_ptr<::pcap, Close> handle_;
   int link_type_ = 0;

@@ -19,27 +19,27 @@
 
 namespace terracut::capture {
 
-/// The datagrams of a capture that are wanted; an empty filter passes all. Fields are those of
-/// Datagram.
+/// Selects datagrams of a capture; an empty filter passes all. The fields are those of Datagram.
 struct PcapFilter {
   std::optional<std::uint16_t> port{};            ///< UDP destination port.
   std::optional<std::uint32_t> source_address{};  ///< IPv4 of the sender, host byte order.
   std::optional<std::uint16_t> source_port{};
   std::optional<std::uint64_t> source_mac{};
   std::optional<std::uint32_t> destination_address{};
-  std::optional<std::uint32_t> vlan{};                          ///< 0: datagrams in no VLAN.
-  std::function<bool(const packet::Datagram&)> is_of_stream{};  ///< Asked last.
+  std::optional<std::uint32_t> vlan{};  ///< 0: only datagrams outside any VLAN.
+  /// A further condition, tested last.
+  std::function<bool(const packet::Datagram&)> is_of_stream{};
 };
 
-/// Counts frames: frames == delivered + left_out().
+/// Counts the frames of a capture; frames == delivered + left_out().
 struct PcapCounters {
   std::uint64_t frames = 0;     ///< Records read from the file.
   std::uint64_t delivered = 0;  ///< Datagrams returned by next().
   std::array<std::uint64_t, packet::kFrameRejects>
-      refused{};                   ///< Frames without datagram, by reason.
+      refused{};                   ///< Frames without a UDP datagram, by reason.
   std::uint64_t other_port = 0;    ///< Datagrams to another port.
   std::uint64_t other_source = 0;  ///< Datagrams to the right port from another sender.
-  /// Datagrams of the right port and sender that the filter's other conditions reject.
+  /// Datagrams to the right port from the right sender that fail the filter's other conditions.
   std::uint64_t other_stream = 0;
 
   [[nodiscard]] std::uint64_t refused_total() const noexcept;
@@ -52,8 +52,8 @@ struct PcapCounters {
 /// order, or pcapng), in file order. Stamps are always nanoseconds. Not thread-safe.
 class PcapSource {
  public:
-  /// Errors: kNotFound, kUnreadable, kMalformed (empty or no capture; the message says what it
-  /// looks like) or kUnsupported (a link layer without IP).
+  /// Opens the file. Fails with kNotFound, kUnreadable, kMalformed (an empty file or no capture;
+  /// the message says what it looks like) or kUnsupported (a link layer without IP).
   [[nodiscard]] static Expected<PcapSource> open(std::filesystem::path path,
                                                  PcapFilter filter = {});
 
@@ -64,17 +64,18 @@ class PcapSource {
   /// Returns the next datagram that passes the filter; nothing at the end. Frames without a UDP
   /// datagram are counted and skipped. The payload is valid until the next call.
   ///
-  /// An error (kMalformed, or kUnsupported for interfaces of different link types in one pcapng)
-  /// means that the file breaks off: the message says after which packet and at which byte, and
-  /// every further call returns the same error. Everything returned before stays valid, so a replay
-  /// may finish with a warning. Allocates nothing a packet.
+  /// Fails with kMalformed (or kUnsupported for interfaces of different link types in one pcapng)
+  /// if the file breaks off: the message says after which packet and at which byte, and every
+  /// further call fails in the same way. Everything returned before stays valid, so a replay may
+  /// finish with a warning. Allocates nothing per packet.
   [[nodiscard]] Expected<std::optional<packet::Datagram>> next();
 
-  /// Goes back to the first packet (a file is opened again). Counters go on.
+  /// Goes back to the first packet, by opening the file again. Counters keep their values.
   [[nodiscard]] Status rewind();
 
   [[nodiscard]] const PcapCounters& counters() const noexcept { return counters_; }
-  [[nodiscard]] int link_type() const noexcept { return file_.link_type(); }  ///< libpcap's DLT_
+  /// DLT_ number of libpcap.
+  [[nodiscard]] int link_type() const noexcept { return file_.link_type(); }
   [[nodiscard]] const std::string& name() const noexcept { return file_.name(); }
 
  private:

@@ -24,10 +24,11 @@ class PcapWriter {
  public:
   static constexpr std::size_t kMaxPayloadBytes = 65507;  ///< The largest UDP payload over IPv4.
   static constexpr std::size_t kFileHeaderBytes = 24;
-  static constexpr std::size_t kRecordHeaderBytes = 16 + 14 + 20 + 8;  ///< Before the payload.
+  /// Bytes before each payload.
+  static constexpr std::size_t kRecordHeaderBytes = 16 + 14 + 20 + 8;
 
-  /// Makes missing parent folders. kInvalidArgument when `path` is something other than a file;
-  /// kWriteFailed when the temporary file cannot be made.
+  /// Creates the temporary file and missing parent folders. Fails with kInvalidArgument if `path`
+  /// is something other than a file, kWriteFailed if the temporary file cannot be made.
   [[nodiscard]] static Expected<PcapWriter> create(std::filesystem::path path);
 
   PcapWriter(PcapWriter&& other) noexcept;
@@ -37,13 +38,14 @@ class PcapWriter {
   /// True if payload and stamp are in the ranges of write().
   [[nodiscard]] static bool can_write(const packet::Datagram& datagram) noexcept;
 
-  /// Appends one frame. Stamps may be in any order, in [0, 2^32) seconds since 1970.
+  /// Appends one frame. Stamps may be in any order, in [0, 2^32) seconds since 1970. Fails with
   /// kInvalidArgument for a stamp or payload out of range (the datagram is left out, the capture
-  /// stays good); kWriteFailed if the disk refuses: then every further call fails and no file is
+  /// stays good), kWriteFailed if the disk refuses; then every further call fails and no file is
   /// left.
   [[nodiscard]] Status write(const packet::Datagram& datagram);
 
-  /// Writes what is still buffered and renames the file to its path. Call once; later calls fail.
+  /// Writes what is still buffered and renames the file to its path. Call this once; later calls
+  /// fail.
   [[nodiscard]] Status finish();
 
   [[nodiscard]] std::uint64_t packets() const noexcept { return packets_; }

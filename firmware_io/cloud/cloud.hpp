@@ -14,11 +14,11 @@
 
 namespace terracut::cloud {
 
-/// The fewest and most lasers that a sensor may have.
+/// The fewest and the most lasers of a supported sensor.
 inline constexpr int kFewestLasers = 8;
 inline constexpr int kMostLasers = 256;
 
-/// The names of the laser number's field, the usual ones first, and of the intensity's, as
+/// The field names of the laser number (the usual ones first) and of the intensity, as
 /// FieldTable::field_like() compares them.
 inline constexpr std::string_view kLaserFields[] = {
     "ring",        "channel",      "laser",         "row",          "laserid",
@@ -47,8 +47,9 @@ struct CloudView {
   return std::ranges::any_of(points, scan::is_place);
 }
 
-/// Returns the laser of a point of an organised cloud. A sensor has fewer lasers than directions;
-/// most drivers write one row a laser, some one column.
+/// Returns the laser of a point of an organised cloud, whose drivers mostly write one row per
+/// laser, some one column. The shorter side counts the lasers: a sensor has fewer lasers than
+/// directions.
 class OrganisedLasers {
  public:
   explicit OrganisedLasers(const CloudView& cloud) noexcept
@@ -65,15 +66,15 @@ class OrganisedLasers {
   bool by_row_;
 };
 
-/// A frame read from a file. Its buffers are reused for the next one.
+/// A frame read from a file. Its buffers are reused for the next frame.
 struct Cloud {
   std::vector<scan::ScanPoint> points;
   std::vector<std::uint16_t> laser;
   std::size_t rows = 1;
-  /// For messages, of a file with named fields: where the laser numbers come from, "field ring", or
-  /// why there are none, "its fields are x y z".
+  /// For messages about files with named fields: which field gives the laser numbers ("field
+  /// ring"), or why there are none ("its fields are x y z").
   std::string laser_note;
-  bool has_viewpoint = false;  ///< The file states the sensor's place among the points.
+  bool has_viewpoint = false;  ///< True if the file states the sensor's place among the points.
 
   [[nodiscard]] CloudView view() const noexcept { return {points, laser, rows, laser_note}; }
 };

@@ -11,16 +11,16 @@
 
 namespace terracut::cloud {
 
-/// True if the file's name ends in .bin, .pcd or .ply, in lower or upper case.
+/// True if the file's name ends in .bin, .pcd or .ply, in either case.
 [[nodiscard]] bool is_cloud_file(const std::filesystem::path& path);
-/// Cloud files of a folder.
+/// Tells which files of a folder are clouds.
 inline constexpr scan::ScanKind kCloudFiles{
     is_cloud_file, "KITTI's .bin (float32 x y z remission), nuScenes' .pcd.bin, .pcd or .ply"};
 
-/// Where the sensor stands among the points of a file.
+/// Where the sensor is among the points of a file.
 enum class SensorPlace : std::uint8_t {
   kOrigin,
-  kViewpoint,  ///< At a PCD's VIEWPOINT; at the origin if it has none.
+  kViewpoint,  ///< At the VIEWPOINT of a PCD file; at the origin if it has none.
 };
 
 /// Reads a cloud by the ending of its name:
@@ -32,14 +32,15 @@ enum class SensorPlace : std::uint8_t {
 ///             others, as azimuth and time, are not needed
 ///   .ply      the same by its properties
 ///
-/// Intensity above 1 counts as 0..255, above 255 as 16 bits. A cloud may be empty or have no point
-/// with a place (scan::is_place()), as when the sensor is covered. Errors name the file: those of
-/// its format, kMalformed for a missing x, y or z, and those of check_reach().
+/// Intensities up to 1 are scaled to 0..255, those above 255 count as 16 bits. A cloud may be empty
+/// or have no point with a valid position (scan::is_place()), as when the sensor is covered. Fails
+/// with the errors of the file's format, kMalformed for a missing x, y or z, and those of
+/// check_reach(); the message names the file.
 [[nodiscard]] Status read_cloud(const std::filesystem::path& path, Cloud& cloud,
                                 SensorPlace sensor = SensorPlace::kOrigin);
 
-/// Reads nuScenes' format, whatever the file's name and wherever its points are. kMalformed if a
-/// laser's number is not a whole number from 0 to 255 at a point with a place.
+/// Reads nuScenes' format, whatever the file's name, without check_reach(). Fails with kMalformed
+/// if the laser number of a point with a valid position is not a whole number from 0 to 255.
 [[nodiscard]] Status read_nuscenes_bin(const std::filesystem::path& path, Cloud& cloud);
 
 }  // namespace terracut::cloud

@@ -9,9 +9,9 @@
 
 namespace terracut::cloud {
 
-/// Checks that the points are metres from the sensor. kMalformed if most of them (finite, not null)
-/// lie farther than a sensor sees. The message says how far, and the likely cause: millimetres,
-/// centimetres, coordinates of a map, another layout of the file.
+/// Checks that coordinates are metres from the sensor. Fails with kMalformed if most points (of
+/// those finite and not null) are farther away than a sensor sees. The message says how far, and
+/// the likely cause: millimetres, centimetres, map coordinates, another file layout.
 [[nodiscard]] Status check_reach(std::span<const scan::ScanPoint> points);
 
 }  // namespace terracut::cloud

@@ -24,30 +24,29 @@ namespace terracut::cloud {
 ///   if (const Status placed = to_image.place(cloud); !placed) return placed;
 ///   look_at(to_image.image());
 ///
-/// Allocates nothing for clouds no larger than the largest before, or than reserve()d, except where
-/// RowFinder does.
+/// Allocates only for a cloud larger than all before and than reserve()d, and where RowFinder does.
 class CloudToImage {
  public:
   CloudToImage(const SensorRows& rows, const mount::Mount& mount, memory::FixedMemory& memory)
       : finder_(rows), image_(rows.shape(), rows.shape().cells(), memory), to_image_(mount) {}
 
-  /// Takes room for clouds of so many points.
+  /// Takes memory for clouds of `points` points.
   void reserve(std::size_t points) {
     rings_.ring_of_point.reserve(points);
     to_image_.reserve(points);
   }
 
-  /// The errors of RowFinder::find(), which leave the cloud before in its place.
+  /// Places a cloud. Fails as RowFinder::find() does; then the image keeps the cloud before.
   [[nodiscard]] Status place(const CloudView& cloud) {
     if (Status found = finder_.find(cloud, rings_); !found) return found;
     placed_ = to_image_.place(cloud.points, rings_.ring_of_point, image_);
     return {};
   }
 
-  /// Of the last cloud, as what follows.
+  /// Returns the image of the last cloud placed. The functions below refer to this cloud, too.
   [[nodiscard]] const frame::RangeImage& image() const noexcept { return image_; }
   [[nodiscard]] const scan::ScanToImage::Summary& placed() const noexcept { return placed_; }
-  /// As scan::ScanToImage's.
+  /// Does the same as the function of scan::ScanToImage.
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
     return to_image_.point_of_return();
   }

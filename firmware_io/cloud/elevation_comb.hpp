@@ -13,24 +13,24 @@
 namespace terracut::cloud {
 
 /// Finds the lasers of a sensor from its points alone: if all beams start near the origin, the
-/// points' elevations form a comb. They do not in a frame that was compensated for motion or merged
-/// from several, nor for a sensor without rows; these are refused. Lasers that see nothing beyond a
-/// metre, such as those that look at the floor around a robot, are found if their near points form
-/// teeth.
+/// elevations of the points form a comb with one tooth per laser. Refuses frames without such a
+/// comb: those compensated for motion or merged from several, and those of a sensor without rows.
+/// Lasers that see nothing beyond a metre, such as those that look at the floor around a robot, are
+/// found if their near points form teeth.
 class ElevationComb {
  public:
   void add(std::span<const scan::ScanPoint> points);
 
-  /// Returns the elevation of each laser from the highest down, radians. kUnsupported if the
-  /// elevations do not form kFewestLasers to kMostLasers teeth with gaps between them; the message
-  /// says what was found.
+  /// Returns the elevation of each laser from the highest down, radians. Fails with kUnsupported if
+  /// the elevations do not form kFewestLasers to kMostLasers teeth with gaps between them; the
+  /// message says what was found.
   [[nodiscard]] Expected<std::vector<double>> elevations_rad() const;
 
  private:
   static constexpr int kBinsPerDegree = 100;  ///< The densest sensors' rows are 0.1 degrees apart.
   static constexpr std::size_t kBins = 180 * kBinsPerDegree;
 
-  /// Counts points by elevation, from straight down.
+  /// Counts points by elevation, beginning straight below the sensor.
   struct Histogram {
     std::array<std::uint32_t, kBins> points_at{};
     std::size_t points = 0;
@@ -45,7 +45,7 @@ class ElevationComb {
     std::size_t begin, end;
     std::uint64_t points = 0;
     double mean_bin = 0;
-    bool is_narrow = false;  ///< Narrower than the gaps beside it.
+    bool is_narrow = false;  ///< True if the tooth is narrower than the gaps beside it.
 
     [[nodiscard]] std::size_t bins() const noexcept { return end - begin; }
   };

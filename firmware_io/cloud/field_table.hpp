@@ -13,19 +13,19 @@
 
 namespace terracut::cloud {
 
-/// The points of a cloud file with named fields, stored by field: one value a point and field,
-/// whatever its type in the file.
+/// The points of a cloud file with named fields, stored field by field: each point has one value
+/// per field, whatever the field's type in the file.
 struct FieldTable {
   std::size_t points = 0;
   /// The number of rows of an organised cloud, all of equal length; 1 if not organised.
   std::size_t rows = 1;
-  /// The sensor's place among the points: x y z, then its quaternion w x y z. Nothing if the file
-  /// states none, or the origin.
+  /// The sensor's position x y z among the points, then its rotation as a quaternion w x y z.
+  /// Nothing if the file states none, or the origin.
   std::optional<std::array<double, 7>> viewpoint;
   std::vector<std::string> names;           ///< The fields with one value a point.
-  std::vector<std::vector<double>> values;  ///< In the order of `names`.
+  std::vector<std::vector<double>> values;  ///< The values of each field, in the order of `names`.
 
-  /// Returns nothing for a field that is missing or has several values a point.
+  /// Returns the values of a field; nothing if it is missing or has several values a point.
   [[nodiscard]] std::optional<std::span<const double>> field(std::string_view name) const {
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) return std::nullopt;

@@ -12,15 +12,15 @@
 
 namespace terracut::cloud {
 
-/// Reads a file that begins with lines of text.
+/// Reads the lines of text at the beginning of a file.
 struct HeaderLines {
-  std::string_view rest;   ///< The part not read yet.
-  std::size_t number = 0;  ///< Number of the line read last, from 1.
+  std::string_view rest;   ///< The part of the file that has not been read yet.
+  std::size_t number = 0;  ///< Number of the line read last, counted from 1.
 
-  /// Skips the byte order mark of `content`.
+  /// Begins to read `content`, after its byte order mark if it has one.
   explicit HeaderLines(std::string_view content) : rest(without_byte_order_mark(content)) {}
 
-  /// Returns the next line without its end; empty after the last.
+  /// Returns the next line without its line end; empty after the last line.
   [[nodiscard]] std::string_view next() noexcept {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view line = rest.substr(0, end);
@@ -29,8 +29,8 @@ struct HeaderLines {
     return line;
   }
 
-  /// Reads the next line that has words and is no comment; false if there is none. `words` gets its
-  /// first `most` words.
+  /// Reads the next line that has words and is no comment; false if there is none. `words` gets the
+  /// first `most` words of the line.
   [[nodiscard]] bool next_words(std::size_t most, std::vector<std::string_view>& words) {
     words.clear();
     while (words.empty() && !rest.empty()) {
@@ -41,7 +41,7 @@ struct HeaderLines {
   }
 };
 
-/// No line of a header has more words.
+/// The most words that a line of a header may have.
 inline constexpr std::size_t kMostHeaderWords = kMostFields + 2;
 
 }  // namespace terracut::cloud

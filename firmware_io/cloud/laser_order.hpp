@@ -11,22 +11,22 @@
 
 namespace terracut::cloud {
 
-/// The ring of each laser by its number, 0 the highest; scan::kNoRing for lasers of which nothing
-/// is known.
+/// The ring of each laser, indexed by laser number; 0 is the highest ring, scan::kNoRing means that
+/// nothing is known of the laser.
 using RingOfLaser = std::vector<std::int16_t>;
 
-/// Collects the elevations that each laser measured and derives the order of the lasers, whatever
+/// Collects the elevations that each laser measured and sorts the lasers by elevation, whatever
 /// their numbers.
 class LaserElevations {
  public:
   explicit LaserElevations(std::size_t lasers) : seen_(lasers), samples_(lasers) {}
 
-  /// `laser` has one number a point, below the count given to the constructor.
+  /// Adds a cloud. `laser` has one number per point, below the count given to the constructor.
   void add(std::span<const scan::ScanPoint> points, std::span<const std::uint16_t> laser);
 
-  /// Returns the order. If the numbers ascend or descend with the elevation, lasers without points
-  /// get the ring between their neighbours'; else they get none, and the others have all rings from
-  /// 0 on.
+  /// Returns the order. If the numbers ascend or descend with elevation, a laser without points
+  /// gets the ring between its neighbours'. Otherwise it gets none, and the other lasers share all
+  /// rings from 0 on.
   [[nodiscard]] RingOfLaser order();
 
  private:
@@ -36,7 +36,7 @@ class LaserElevations {
 
   [[nodiscard]] static double typical_elevation_rad(std::vector<Sample>& samples);
 
-  std::vector<std::size_t> seen_;  ///< The number of points, by laser.
+  std::vector<std::size_t> seen_;  ///< Number of points, indexed by laser.
   std::vector<std::vector<Sample>> samples_;
 };
 

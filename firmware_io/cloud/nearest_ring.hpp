@@ -10,23 +10,24 @@
 
 namespace terracut::cloud {
 
-/// Finds the ring nearest to a point by its place alone. Uses plain IEEE arithmetic: the same
-/// result on every machine.
+/// Finds the ring nearest to a point from its position alone. Uses plain IEEE arithmetic: the
+/// result is the same on every machine.
 class NearestRing {
  public:
-  /// `table` has at least two rings.
+  /// Needs a table of at least two rings.
   explicit NearestRing(const scan::RingTable& table);
 
-  /// Returns scan::kNoRing for a point without a place, and for one farther outside the outermost
-  /// rings than both a degree and the distance to the next ring. Allocates nothing.
+  /// Returns the ring; scan::kNoRing for a point without a valid position, and for one farther
+  /// outside the outermost rings than both a degree and the distance to the next ring. Allocates
+  /// nothing.
   [[nodiscard]] std::int16_t operator()(const scan::ScanPoint& point) const noexcept;
 
  private:
   struct Line {
-    float slope, offset_m, most_off;  ///< Most height off the line over distance.
+    float slope, offset_m, most_off;  ///< most_off: most height off the line, over distance.
   };
 
-  /// Bins over the sine of the elevation, each with its ring.
+  /// Number of bins over the sine of the elevation; each bin has a ring.
   static constexpr int kBins = 8192;
 
   std::vector<Line> lines_;

@@ -12,10 +12,10 @@
 namespace terracut::cloud {
 
 /// Reads the vertices of a PLY file (Stanford's polygon format, 1.0: `ascii`,
-/// `binary_little_endian` or `binary_big_endian`). The vertices must be the first element; their
-/// lists are skipped, and later elements (faces, say) are ignored. Errors as those of read_pcd().
+/// `binary_little_endian` or `binary_big_endian`). The vertices must be the first element; lists in
+/// them are skipped, and later elements (such as faces) are ignored. Fails as read_pcd() does.
 [[nodiscard]] Expected<FieldTable> read_ply(const std::filesystem::path& path);
-/// Reads from memory; `name` stands for the path in messages.
+/// Parses a PLY file in memory; `name` stands for the path in messages.
 [[nodiscard]] Expected<FieldTable> parse_ply(std::string_view content, const std::string& name);
 
 }  // namespace terracut::cloud

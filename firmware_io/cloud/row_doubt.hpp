@@ -8,9 +8,9 @@
 
 namespace terracut::cloud {
 
-/// Returns why the clouds that rows were learnt from hardly come from one sensor in its own frame,
-/// with the likely cause, for people; empty if nothing speaks against it. Labels are worse in such
-/// a case, but need not be useless.
+/// Returns, for people, why the clouds from which `rows` were learnt are probably not from one
+/// sensor in its own frame, and the likely cause; empty if nothing suggests this. In such a case
+/// labels are worse, but not always useless.
 [[nodiscard]] std::string doubt_of(const SensorRows& rows);
 
 }  // namespace terracut::cloud

@@ -19,21 +19,21 @@
 
 namespace terracut::cloud {
 
-/// How the laser of a point is known, in the order tried.
+/// How the laser of a point is found; the sources are tried in this order.
 enum class RowSource : std::uint8_t {
-  kLaserNumbers,  ///< Each point has a number.
+  kLaserNumbers,  ///< Each point has a laser number.
   kOrganisation,  ///< The cloud is organised in rows.
   kKittiOrder,    ///< Points come ring after ring from the top, as in KITTI's files; 64 rings.
-  kElevations,    ///< Points form rows by elevation.
+  kElevations,    ///< The points form rows by elevation.
 };
 
-/// Returns "the field of the laser's number" and the like.
+/// Returns the source in words: "the field of the laser's number" and so on.
 [[nodiscard]] std::string_view description_of(RowSource source) noexcept;
 
 /// What was learnt about a sensor from its first clouds.
 struct SensorRows {
   RowSource source = RowSource::kKittiOrder;
-  scan::FittedRings rings;    ///< One a laser.
+  scan::FittedRings rings;    ///< One ring per laser.
   RingOfLaser ring_of_laser;  ///< Empty unless kLaserNumbers or kOrganisation.
   int columns = 0;            ///< Firings in one revolution.
 
@@ -45,9 +45,10 @@ struct SensorRows {
 /// Returns a cloud of a sequence, valid until the next call.
 using ReadCloud = std::function<Expected<CloudView>(std::size_t index)>;
 
-/// The order and elevations of lasers, found from clouds whose points name their laser in any
+/// Finds the order and elevations of lasers from clouds whose points name their laser in any
 /// numbering. `name_lasers` returns the clouds with `laser` filled, each number below `lasers`.
-/// kMalformed if the points of a laser lie on no cone around the origin, as in a map's frame.
+/// Fails with kMalformed if the points of a laser lie on no cone around the origin, as in a map's
+/// frame.
 struct NumberedLasers {
   RingOfLaser ring_of_laser;
   scan::FittedRings rings;
@@ -55,21 +56,21 @@ struct NumberedLasers {
 [[nodiscard]] Expected<NumberedLasers> fit_numbered_lasers(std::size_t lasers, std::size_t clouds,
                                                            const ReadCloud& name_lasers);
 
-/// Learns a sensor's rows from at most 40 of its clouds. Start-up: allocates, takes up to a second.
-/// Clouds without a place are left out. kUnsupported or kMalformed, with what was found, if nothing
-/// tells the lasers apart, if most of them look the same way, or if check_reach() fails; if no
-/// cloud can be read, the error of one.
+/// Learns a sensor's rows from at most 40 of its clouds. Leaves out clouds without any valid
+/// position. Fails with kUnsupported or kMalformed, and what was found, if nothing tells the lasers
+/// apart, if most of them look the same way, or if check_reach() fails; if no cloud can be read,
+/// with the error of one. Start-up: allocates, takes up to a second.
 [[nodiscard]] Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read);
 
-/// Finds the ring of each point of further clouds of that sensor.
+/// Finds the ring of each point in further clouds of the same sensor.
 class RowFinder {
  public:
   explicit RowFinder(SensorRows rows);
 
-  /// Fills `found`. Points without a place, and those of unknown lasers, get kNoRing; a cloud
-  /// without any place is never an error. kMalformed if a cloud lacks what tells its lasers.
-  /// Allocates only for the largest cloud so far, and when the rings of a cloud in KITTI's order
-  /// are not whole.
+  /// Fills `found`. Points without a valid position and those of unknown lasers get kNoRing; a
+  /// cloud with no valid position at all is never an error. Fails with kMalformed if a cloud lacks
+  /// the information that tells its lasers. Allocates only for a cloud larger than all before, and
+  /// if the rings of a cloud in KITTI's order are incomplete.
   [[nodiscard]] Status find(const CloudView& cloud, scan::RingRecovery& found) const;
 
   [[nodiscard]] const SensorRows& rows() const noexcept { return rows_; }

@@ -20,14 +20,15 @@ namespace terracut::decode {
 }
 
 /// Finds the blind sector of a sensor with a limited field of view, which sends nothing while its
-/// head passes there. Azimuths missing in three successive frames are blind; anything else missing
-/// is lost.
+/// head passes the sector. Azimuths missing in three successive frames are blind; all others
+/// missing are lost.
 ///
-/// A wide gap is pending until the head has passed again: a packet from there means loss, a third
-/// gap a blind sector. The ends of a known sector are exact to a packet: sensors that keep sending
-/// at their rhythm end the gap anywhere within a packet, others always alike.
+/// A wide gap is pending until the head has passed there again: a packet from inside the gap means
+/// loss, a third gap in a row a blind sector. The ends of a known sector are exact to one packet: a
+/// sensor that goes on sending at its rhythm ends the gap anywhere within a packet, others always
+/// at the same azimuth.
 ///
-/// Angles in ticks of head azimuth, unwrapped (rotor_sector.hpp). Fixed memory, O(1) a call,
+/// Angles are in ticks of head azimuth, unwrapped (rotor_sector.hpp). Fixed memory, O(1) per call,
 /// noexcept. One thread.
 class BlindSector {
  public:
@@ -39,32 +40,33 @@ class BlindSector {
   struct Stride {
     std::int64_t mean_ticks = 1, widest_ticks = 1;
   };
-  /// What is certainly lost.
+  /// The firings that are certainly lost.
   struct Loss {
     std::int64_t packets = 0, ticks = 0;
   };
   struct Verdict {
-    /// The lost part of a gap, including the blind sector if that lies in it; empty if all of the
-    /// gap is blind.
+    /// The lost part of a gap; if it includes the blind sector, that counts as lost here, too.
+    /// Empty if all of the gap is blind.
     packet::RotorInterval lost;
     bool is_pending = false;   ///< The gap may be blind; if not, take_due() returns the loss later.
-    std::int64_t packets = 0;  ///< Packets lost in it, unless pending.
+    std::int64_t packets = 0;  ///< Packets lost in the gap; 0 while the gap is pending.
   };
   /// Returns the least width of a blind sector; narrower gaps are losses.
   [[nodiscard]] std::int64_t least_ticks() const noexcept { return sector_.revolution_ticks / 72; }
 
-  /// Judges a gap in which the head was not seen. By their stamps `packets` are missing in it;
-  /// `rejected` of them came but were rejected.
+  /// Judges a gap in which the head was not seen. By their stamps, `packets` are missing in the
+  /// gap; `rejected` of these came but were rejected.
   [[nodiscard]] Verdict judge(const packet::RotorInterval& gap, std::int64_t packets,
                               std::int64_t rejected,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
-  /// Notes that a packet sweeps over `swept`; called after judge() of the gap before it.
+  /// Notes that a packet sweeps over `swept`; to be called after judge() of the gap before that
+  /// packet.
   void pass(const packet::RotorInterval& swept) noexcept TERRACUT_NONBLOCKING;
   /// True if the blind sector lies where PacketAzimuths::behind_sector says, to within a packet.
   [[nodiscard]] bool is_inside(const packet::PacketAzimuths& azimuths) const noexcept
       TERRACUT_NONBLOCKING;
-  /// Replaces pass() for a packet with the sector `inside`, or the part of it that was seen; the
-  /// packet begins at `begin_ticks`.
+  /// Replaces pass() for a packet that has the blind sector, or the part of it that was seen,
+  /// inside: `inside`. The packet begins at `begin_ticks`.
   [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const packet::RotorInterval& inside,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
   /// Notes that a late packet fills part of a gap: its first or last remaining part, unless several
@@ -76,7 +78,7 @@ class BlindSector {
   void end() noexcept TERRACUT_NONBLOCKING { refute(); }
 
   /// Returns where the next packet is expected to begin if the head was seen until `rotor_ticks`:
-  /// there, or after the blind sector if no packet began there in earlier frames.
+  /// at that azimuth, or after the blind sector if no packet began there in earlier frames.
   [[nodiscard]] std::int64_t next_packet(std::int64_t rotor_ticks) const noexcept
       TERRACUT_NONBLOCKING;
   [[nodiscard]] const packet::RotorSector& sector() const noexcept { return sector_; }
@@ -105,10 +107,11 @@ class BlindSector {
   void count(const Gap& gap) noexcept;
 
   packet::RotorSector sector_;
-  /// Widest that a gap without loss began before the sector, and ended after it.
+  /// The earliest azimuth at which a gap without loss began before the sector, and the latest at
+  /// which one ended after it.
   std::int64_t earliest_ticks_ = 0, latest_ticks_ = 0;
   std::array<Gap, kFramesToLearn> gaps_;  ///< Gaps of successive frames, newest last.
-  int gaps_known_ = 0;                    ///< The last so many are valid.
+  int gaps_known_ = 0;                    ///< Number of valid elements at the end of gaps_.
   Loss due_;
 };
 

@@ -33,8 +33,8 @@
 namespace terracut::decode {
 
 /// Turns data packets of one spinning sensor into frames of returns. Returns are placed in their
-/// cells a few packets at a time, all of a frame's before it is handed out. Whatever differs
-/// between models is in a trait (packet_returns.hpp).
+/// cells a few packets at a time; all of a frame's returns are placed before it is handed out.
+/// Everything that differs between models is in a trait (packet_returns.hpp).
 ///
 /// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
 /// decoded packet is placed or counted (overflow_full_returns, late_returns); a packet is decoded
@@ -49,24 +49,25 @@ namespace terracut::decode {
 class Decoder {
  public:
   struct Config {
-    int columns = 0;  ///< Firings per frame at the sensor's spin rate; 0: as at 10 Hz.
-    /// Room for so many returns a cell on average; returns beyond it are counted and lost. 0:
+    int columns = 0;  ///< Firings per frame at the sensor's spin rate; 0: those at 10 Hz.
+    /// Memory for this many returns per cell on average; returns beyond it are counted and lost. 0:
     /// enough for single return at 10 Hz, with a margin.
     int returns_per_cell = 0;
-    /// Which return owns a cell in dual return. All of them are placed and labelled.
+    /// Which return owns a cell in dual return. All returns are placed and labelled.
     frame::CellOwner dual_owner = frame::CellOwner::kStrongest;
     int images = 3;  ///< FrameBuilder::Config::images
-    /// Frames keep their returns as measured, in less than a third of the memory; make_reader()
-    /// turns them into points where needed. Ignored if `motion` is set.
+    /// True: frames keep their returns as measured, in less than a third of the memory;
+    /// make_reader() turns these into points where needed. Ignored if `motion` is set.
     bool keeps_measured = false;
-    /// Packets that come up to so many packets late still find their frame: a frame is handed over
-    /// when the hindmost beam of the packet so many before the newest begins past the seam. Costs
-    /// that many packets' time, plus one, as latency. 0: handed over with the frame's last packet.
-    /// Of packets still later only returns of frames handed over are lost, and counted.
+    /// A packet up to this many packets late still finds its frame: a frame is handed over only
+    /// when the hindmost beam of the packet this many before the newest begins past the seam. Costs
+    /// the time of that many packets, plus one, as latency; with 0, frames are handed over with
+    /// their last packet. Of later packets, only returns of frames already handed over are lost,
+    /// and counted.
     int reorder_packets = 2;
-    /// Deskews every frame before it is handed over (FrameInfo::deskew). The decoder's thread
-    /// becomes the reader of the motion, which must outlive the decoder. Null: returns are handed
-    /// over as seen.
+    /// If set, every frame is deskewed before it is handed over (FrameInfo::deskew). The decoder's
+    /// thread becomes the reader of the motion, which must outlive the decoder. Null: returns are
+    /// handed over as seen.
     vehicle::EgoMotion* motion = nullptr;
     frame::FrameInstant deskew_at = frame::FrameInstant::kEnd;
     hdl64e::Hdl64eSensor::Config hdl64e;
@@ -74,31 +75,32 @@ class Decoder {
     velodyne::VelodyneConfig velodyne;
   };
 
-  /// Decodes the sensor that the calibration belongs to.
+  /// Makes a decoder for the sensor that the calibration belongs to.
   Decoder(const calib::SensorCalibration& calibration, const mount::Mount& mount,
           const Config& config, memory::FixedMemory& memory);
 
   /// Takes one datagram, whose payload must stay as it is until next() has returned null.
   ///
   /// A packet that contradicts the stream is kept (packets_kept()) until enough packets agree with
-  /// it to begin another stream, or until the old stream goes on. Then it is decoded, or rejected
-  /// and counted.
+  /// it to begin another stream, or until the old stream continues. Then the packet is decoded, or
+  /// rejected and counted.
   void push(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
   /// Ends the stream, at its end or before the source jumps (a replay loop). Open frames are handed
-  /// out, marked incomplete unless seen whole. The stream's state is reset, but not its counters.
+  /// out by next(), marked incomplete unless all of them was seen. Resets the stream's state, but
+  /// not the counters.
   void end_stream() noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns the next frame that is complete after push() or end_stream(); null if there is none
-  /// and all that was pushed is decoded. Must be called until it returns null. The frame is valid
-  /// until the next call. `in_exchange` and the image's lifetime: FrameBuilder::next().
+  /// Returns the next frame completed by push() or end_stream(); null if there is none and all
+  /// pushed packets are decoded. Call this until it returns null. The frame is valid until the next
+  /// call. For `in_exchange` and the lifetime of the image see FrameBuilder::next().
   [[nodiscard]] frame::Frame* next(frame::RangeImage* in_exchange = nullptr) noexcept
       TERRACUT_NONBLOCKING;
-  /// Returns why the last datagram was rejected (and counted, unless kDeviceInfo), if it was; valid
-  /// once next() has returned null.
+  /// Returns why the last datagram was rejected (and counted, unless kDeviceInfo); nothing if it
+  /// was not rejected. Valid once next() has returned null.
   [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept { return rejected_; }
 
-  /// Returns the oldest frame not handed over yet, for starting on its columns before it is whole.
-  /// If frames are deskewed, none of its columns count as complete.
+  /// Returns the oldest frame not handed over yet, so that work on its columns can start before it
+  /// is complete. If frames are deskewed, no columns count as complete.
   [[nodiscard]] frame::ArrivingFrame arriving() noexcept {
     if (!frames_.started()) return {};
     const packet::RotorInterval to_come{
@@ -109,7 +111,8 @@ class Decoder {
                 static_cast<float>(packet::kRevolution_ticks)};
   }
 
-  /// Counts since construction. Packets that may still come late become losses a few packets later.
+  /// Returns the losses since construction. Missing packets that may still come late are counted as
+  /// lost only a few packets later.
   [[nodiscard]] frame::LossCounters losses() const noexcept { return frames_.total_losses(); }
   [[nodiscard]] std::uint64_t packets_decoded() const noexcept { return packets_; }
   /// Returns the number of packets neither decoded nor rejected yet.
@@ -119,11 +122,11 @@ class Decoder {
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return frames_.shape(); }
   /// Returns the most returns a frame may have, as RangeImage::return_capacity() does.
   [[nodiscard]] std::size_t return_capacity() const noexcept { return frames_.return_capacity(); }
-  /// Returns the lead of each row's beam over the head when it fires, in revolutions.
+  /// Returns for each row how far its beam is ahead of the head when it fires, in revolutions.
   [[nodiscard]] std::span<const float> beam_turns() const noexcept { return beam_turns_; }
   /// Returns the measured device time between packets; 0 until about 15 packets have been decoded.
   [[nodiscard]] std::int64_t packet_period_ns() const noexcept { return tracker_.period_ns(); }
-  /// Returns the device clock of the last packet that passed the sensor's checks (PacketAzimuths).
+  /// Returns the device stamp of the last packet that passed the sensor's checks (PacketAzimuths).
   [[nodiscard]] std::int64_t device_stamp_us() const noexcept { return azimuths_.device_stamp_us; }
   /// True if the last decoded packet carried two returns per firing.
   [[nodiscard]] bool dual_return() const noexcept { return azimuths_.dual_return; }
@@ -137,10 +140,10 @@ class Decoder {
     return blind_azimuths(blind_.sector());
   }
   /// Makes a reader for frames that keep their returns as measured; null if frames have points.
-  /// Takes memory; must not outlive this.
+  /// Takes memory; the reader must not outlive this decoder.
   [[nodiscard]] std::unique_ptr<frame::TileReader> make_reader(memory::FixedMemory& memory) const;
-  /// Returns all images, for a hand-over by exchange (FrameBuilder); the first two are open at the
-  /// start.
+  /// Returns all images, for handing frames over by exchange (FrameBuilder); the first two are open
+  /// at the start.
   [[nodiscard]] std::span<frame::RangeImage> images() noexcept { return frames_.images(); }
 
  private:
@@ -150,7 +153,7 @@ class Decoder {
                    PacketReturns<velodyne::VelodyneSensor<VelodyneModel>>...>;
   using SensorReturns = velodyne::Models::In<ReturnsOf>;
 
-  /// Sizes that differ between sensors.
+  /// Sizes that depend on the sensor.
   struct Model {
     int rows;
     std::size_t lasers;
@@ -167,7 +170,7 @@ class Decoder {
   Decoder(const Model& model, const calib::SensorCalibration& calibration,
           const mount::Mount& mount, const Config& config, memory::FixedMemory& memory);
 
-  /// Calls `function` with the sensor: a switch a call instead of virtual functions.
+  /// Calls `function` with the sensor: by a switch, instead of virtual functions.
   template <std::size_t kIndex = 0, class Function>
   decltype(auto) with_sensor(Function&& function) noexcept {
     auto* sensor = std::get_if<kIndex>(&sensor_);
@@ -206,7 +209,7 @@ class Decoder {
     return static_cast<int>(std::clamp<std::int64_t>(columns, 0, frames_.shape().columns));
   }
 
-  /// Returns the share of packets missing over many frames that a sensor sends while it is not
+  /// Returns which share of the packets missing over many frames a sensor sends while it is not
   /// blind.
   [[nodiscard]] std::int64_t seen_share(std::int64_t packets) const noexcept {
     return packets - packets * (blind_.sector().once.ticks() / packet::kTicksPerCdeg) /
@@ -219,22 +222,22 @@ class Decoder {
     count_rejected(reason);
     rejected_ = reason;
   }
-  /// Converts a host stamp for a packet with a sector inside: the device stamps the first firing,
-  /// the host the arrival, and the sector lies between. A capture's stamps may be anything, so this
-  /// may wrap.
+  /// Converts the host stamp of a packet with a blind sector inside: the device stamps the first
+  /// firing, the host the arrival, and the sector lies between the two. A capture's stamps may be
+  /// anything, so the result may wrap.
   [[nodiscard]] std::int64_t host_began_ns(std::int64_t stamp_ns) const noexcept {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp_ns) -
                                      static_cast<std::uint64_t>(azimuths_.sector_ns()));
   }
-  /// The packet being decoded; azimuths_ belongs to it.
+  /// The packet being decoded; azimuths_ holds its azimuths.
   struct Job {
     std::span<const std::uint8_t> payload;
     std::int64_t stamp_ns = 0;
     Placement placed;
     packet::BeamSpread spread;
-    packet::RotorInterval swept;  ///< The head's way in it, without late columns.
+    packet::RotorInterval swept;  ///< The head's way in the packet, without late columns.
     int late_columns = 0;
-    std::int64_t first_frame = 0, last_frame = 0;  ///< Frames its beams may touch.
+    std::int64_t first_frame = 0, last_frame = 0;  ///< Frames that the packet's beams may touch.
     BlindSector::Stride stride;
     std::int64_t step_ticks = 0;
   };
@@ -242,20 +245,20 @@ class Decoder {
   enum class Step : std::uint8_t {
     kNothing,
     kTakeKept,  ///< Decode the kept packets as a new stream.
-    kRestart,   ///< Start the stream; the old one's frames are handed out.
-    kPlace,     ///< Place the packet's returns; there is room for them.
+    kRestart,   ///< Start the stream; the frames of the old one are handed out.
+    kPlace,     ///< Place the packet's returns; there is room for all of them.
     kEnd,       ///< End the stream.
   };
   /// Does one step; false if none is left.
   bool go_on() noexcept;
-  /// The packets in doubt, if any, are the stream from here on; what is to be done `then`.
+  /// Makes the packets in doubt, if any, a new stream; `then` is the step after that.
   void begin_anew(Step then) noexcept;
   void take_kept() noexcept;
-  /// Decodes what the tracker has placed, in two or three steps.
+  /// Decodes the packet that the tracker has placed, in two or three steps.
   void take(std::span<const std::uint8_t> payload, std::int64_t stamp_ns,
             const Placement& placed) noexcept;
   void restart() noexcept;
-  /// Updates the stream's state, and ends the frames that must be over before the packet is placed.
+  /// Updates the stream's state, and ends the frames that must end before the packet is placed.
   void judge() noexcept;
   void place() noexcept;
   void end_frames_before(std::int64_t frame) noexcept;
@@ -263,15 +266,15 @@ class Decoder {
   void place_rest() noexcept;
   void end() noexcept;
 
-  /// Judges the gap between the last packet and this one, which came in order.
+  /// Judges the gap between the last packet and the present one, which came in order.
   void judge_gap(const Placement& placed, const packet::RotorInterval& swept,
                  const BlindSector::Stride& stride, const packet::BeamSpread& spread,
                  std::int64_t step_ticks) noexcept;
-  /// Judges a sector inside the packet.
+  /// Judges a blind sector inside the packet.
   void cross_sector(const packet::RotorInterval& swept, const BlindSector::Stride& stride,
                     const packet::BeamSpread& spread, std::int64_t step_ticks) noexcept;
-  /// Returns the packets missing by their stamps. Stamps around a packet with a sector inside
-  /// include its time: then the loss after it is counted by azimuth.
+  /// Returns how many packets are missing by their stamps. The stamps around a packet with a sector
+  /// inside include the time of the sector: so the loss after such a packet is counted by azimuth.
   [[nodiscard]] std::int64_t missing_before(const Placement& placed,
                                             const packet::RotorInterval& swept) const noexcept {
     if (!has_crossed_) return placed.missing;
@@ -281,7 +284,8 @@ class Decoder {
   }
   /// Returns how many columns of a packet are too late. A packet with a sector inside arrives when
   /// the head is back in view: its columns from before the sector may belong to a frame that was
-  /// handed over, or must be because of the columns after it; only two are open.
+  /// handed over, or has to be because of the columns after the sector, as only two frames are
+  /// open.
   [[nodiscard]] int columns_too_late(const Placement& placed, const packet::BeamSpread& spread,
                                      std::int64_t last_frame) const noexcept {
     const std::int64_t hindmost_ticks =
@@ -316,14 +320,14 @@ class Decoder {
   struct {
     bool has_begun = false;
     Step then = Step::kNothing;
-  } anew_;  ///< While packets that were in doubt become the stream.
+  } anew_;  ///< Set while packets that were in doubt become the stream.
   std::optional<frame::Reject> rejected_;
-  std::int64_t frontier_ticks_ = 0;          ///< The head has been seen up to here.
-  std::int64_t complete_ticks_ = 0;          ///< Up to here no more returns are expected.
-  std::int64_t placed_ticks_ = 0;            ///< As complete_ticks_, for placed returns.
+  std::int64_t frontier_ticks_ = 0;          ///< The head has been seen up to this azimuth.
+  std::int64_t complete_ticks_ = 0;          ///< No more returns are expected up to this azimuth.
+  std::int64_t placed_ticks_ = 0;            ///< All returns are placed up to this azimuth.
   std::int64_t completes_behind_ticks_ = 0;  ///< Usual distance of complete_ticks_ behind the head.
   std::int64_t steps_ticks_ = 0, steps_ = 0;
-  bool has_crossed_ = false;  ///< The last packet has a sector inside.
+  bool has_crossed_ = false;  ///< True if the last packet has a sector inside.
   std::uint64_t packets_ = 0, columns_ = 0;
 };
 

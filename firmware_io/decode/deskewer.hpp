@@ -17,16 +17,16 @@
 namespace terracut::decode {
 
 /// Deskews a frame: removes the vehicle's motion by moving every return to where it would have been
-/// seen at one instant of the frame, if its object stood still. A return stays in its cell (row,
-/// column), the one of its beam, and keeps its height: the motion is in the ground plane of the
-/// vehicle frame.
+/// seen at one instant of the frame, if its object stood still. A return stays in its cell (row and
+/// column of its beam) and keeps its height: the motion is in the ground plane of the vehicle
+/// frame.
 ///
-/// It runs in one pass when the frame is handed over. By then the motion until the frame's end is
+/// Runs in one pass when the frame is handed over. By then the motion until the frame's end is
 /// known, the reference may be the frame's end, and a packet costs only a note of the head's
 /// position. The pass is one multiplication, row by row. Row and column of a cell give the azimuth
-/// of the head when its beam fired (a table unit's beams point up to 10 degrees, 3 ms, off the
-/// head); the azimuth gives the instant, the instant the pose. Instants and poses are kept every 8
-/// columns of the head's azimuth and interpolated linearly: off by a part in 10^6 of the motion.
+/// of the head when its beam fired (beams may point up to 10 degrees, 3 ms, off the head); the
+/// azimuth gives the instant, the instant the pose. Instants and poses are computed every 8 columns
+/// of the head's azimuth and interpolated linearly: off by a part in 10^6 of the motion.
 ///
 /// Real-time safe but for the constructor. One thread, the reader of the EgoMotion.
 class Deskewer {
@@ -45,18 +45,18 @@ class Deskewer {
   Deskewer(const Deskewer&) = delete;
   Deskewer& operator=(const Deskewer&) = delete;
 
-  /// Begins a stream: earlier notes do not belong to it. If there was a stream before, earlier
-  /// samples of motion do not either, since a clock may have been set in between.
+  /// Begins a stream and drops earlier notes. If there was a stream before, also drops earlier
+  /// samples of motion, since a clock may have been set in between.
   void restart() noexcept TERRACUT_NONBLOCKING;
   /// Notes that a clock was set when the head was at `rotor_ticks`: later instants cannot be
   /// compared with earlier ones, nor with samples of motion added before. Frames begun by then have
   /// no ego motion.
   void begin_anew(std::int64_t rotor_ticks) noexcept TERRACUT_NONBLOCKING;
-  /// Notes that the head stood at `rotor_ticks` (unwrapped) at `instant_ns`. A note in which either
-  /// falls is ignored.
+  /// Notes that the head was at `rotor_ticks` (unwrapped) at `instant_ns`. A note is ignored if
+  /// either value is below that of the last note.
   void note(std::int64_t rotor_ticks, std::int64_t instant_ns) noexcept TERRACUT_NONBLOCKING;
 
-  /// Moves the returns of a frame; `frame` is its azimuth in revolutions.
+  /// Moves the returns of an image; `frame` is the frame's azimuth in revolutions.
   [[nodiscard]] frame::DeskewInfo apply(std::int64_t frame,
                                         frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING;
 
@@ -77,7 +77,7 @@ class Deskewer {
   [[nodiscard]] std::int64_t instant_of(std::int64_t node) const noexcept;
   [[nodiscard]] std::int64_t instant_at(std::int64_t rotor_ticks) const noexcept;
   [[nodiscard]] std::int64_t reference_ns(std::int64_t frame) const noexcept;
-  /// Returns the sensor's place at the reference of a deskewed frame.
+  /// Returns the sensor's place at the reference instant of a deskewed frame.
   [[nodiscard]] frame::Place go_to(std::int64_t reference_ns) noexcept;
   void spread_poses(std::int64_t first_column, std::int64_t first_node) noexcept;
 
@@ -87,11 +87,12 @@ class Deskewer {
 
   std::span<std::int64_t> instants_ns_;  ///< Indexed by node; a ring buffer.
   std::int64_t first_node_ = 0, next_node_ = 0;
-  std::int64_t anew_node_ = kFromTheStart;  ///< Earlier nodes have instants of another clock.
+  /// Nodes before this one have instants of another clock.
+  std::int64_t anew_node_ = kFromTheStart;
   bool noted_ = false;
-  /// The last two notes. The nodes between them are filled only when needed: there may be several
-  /// frames of them, more than the ring holds, and the frame in which they begin is not handed over
-  /// yet.
+  /// The last two notes. The nodes between them are filled only when needed: these may be several
+  /// frames of nodes, more than the ring buffer holds, and the frame in which they begin is not
+  /// handed over yet.
   Note before_, newest_;
 
   // The last frame deskewed.
@@ -101,8 +102,9 @@ class Deskewer {
   // The frame being deskewed.
   std::span<std::int64_t> node_ns_;
   std::span<vehicle::PlanarPose> node_poses_;
-  std::span<float> cosine_, sine_, x_m_, y_m_;  ///< Per column of the head, from first_shift_.
-  std::span<frame::PlanarMotions> by_row_;      ///< Each row's part of those four.
+  /// Indexed by column of the head, from first_shift_.
+  std::span<float> cosine_, sine_, x_m_, y_m_;
+  std::span<frame::PlanarMotions> by_row_;  ///< For each row, its part of the four arrays above.
 };
 
 }  // namespace terracut::decode

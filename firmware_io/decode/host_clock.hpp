@@ -9,26 +9,28 @@ namespace terracut::decode {
 
 /// Estimates when packets left a sensor, on the host's clock, from their arrival and the device's
 /// even stamps. A packet may arrive late, when the network or the machine is busy, but never early.
-/// So the least delay seen is taken for every packet's, and forgotten slowly, though faster than
-/// clocks drift apart or NTP slews them. One thread.
+/// So the least delay seen is assumed for every packet. This delay is forgotten slowly, though
+/// faster than clocks drift apart or NTP slews them. One thread.
 ///
-/// It starts again if one of the clocks was set: at a packet more than 20 ms late, or when packets
-/// come more than 2 ms earlier, within a short time, than any before. Earlier results are then not
-/// comparable, or were off by more than that: packets held up for longer than 20 ms look the same.
+/// Starts again if one of the clocks was set: at a packet more than 20 ms late, or when packets
+/// come, within a short time, more than 2 ms earlier than any before. Earlier results are then not
+/// comparable, or were wrong by more than that: packets delayed by more than 20 ms look like a
+/// clock that was set.
 class HostClock {
  public:
   struct Sent {
     std::int64_t instant_ns = 0;
-    bool anew = false;  ///< True if not comparable with earlier instants.
+    bool anew = false;  ///< True if not comparable with the instants returned before.
   };
 
-  /// `wrap_us`: the device clock counts [0, wrap_us).
+  /// `wrap_us` says where the device clock wraps: it counts [0, wrap_us).
   explicit HostClock(std::int64_t wrap_us) noexcept : wrap_us_(wrap_us) {}
 
-  /// Tells that the next packet is the first one of a stream.
+  /// Notes that the next packet is the first of a stream.
   void reset() noexcept { known_ = false; }
 
-  /// Takes each packet in the order of the stream, but not one that was overtaken.
+  /// Returns when a packet left the sensor. To be called for each packet in the stream's order,
+  /// except packets that were overtaken.
   [[nodiscard]] Sent sent(std::int64_t device_us, std::int64_t arrived_ns) noexcept {
     std::int64_t step_us = device_us - device_us_;
     if (step_us < 0) step_us += wrap_us_;
@@ -53,14 +55,15 @@ class HostClock {
 
   static constexpr std::int64_t kLatest_ns = 20'000'000;
   static constexpr std::int64_t kEarliest_ns = 2'000'000;
-  static constexpr std::int64_t kLongestStep_us = 100'000'000;  // more: outages, backward steps
+  // Longer steps: outages, backward steps.
+  static constexpr std::int64_t kLongestStep_us = 100'000'000;
   static constexpr std::int64_t kDrift = 1'000;  // 1000 ppm: NTP slews by 500, quartz drifts by 100
-  static constexpr std::int64_t kDecay = 250;    // 4000 ppm, faster than all of these
+  static constexpr std::int64_t kDecay = 250;    // 4000 ppm, faster than both of these
 
   std::int64_t wrap_us_;
   bool known_ = false;
   std::int64_t device_us_ = 0, sent_ns_ = 0;
-  std::int64_t earlier_ns_ = 0;  ///< How much earlier than expected recent packets came.
+  std::int64_t earlier_ns_ = 0;  ///< By how much recent packets came earlier than expected.
 };
 
 }  // namespace terracut::decode

@@ -23,15 +23,15 @@
 
 namespace terracut::decode {
 
-/// How the returns of a packet are placed.
+/// Where the returns of a packet belong.
 struct PacketPlace {
-  std::int64_t rotor_cdeg = 0;  ///< Placement::rotor_cdeg
-  int late_columns = 0;         ///< Number of first columns left out and counted.
+  std::int64_t rotor_cdeg = 0;  ///< See Placement::rotor_cdeg.
+  int late_columns = 0;  ///< Number of columns at the beginning that are left out and counted.
   frame::CellOwner owner{};
 };
 
 /// Takes the returns of packets from their bytes to their cells. Collects several packets, then
-/// places them laser by laser:
+/// places their returns laser by laser:
 ///
 ///   packet  --transposed-->  tile: what each laser found in 24 firings, next to the core
 ///   tile    --a laser's constants, 24 firings in vectors-->  points, next to each other in a row
@@ -57,7 +57,7 @@ struct PacketPlace {
 template <class Sensor>
 class PacketReturns {
  public:
-  /// `columns` of the range image, [16, 36000].
+  /// `columns` is the number of columns of the range image, [16, 36000].
   PacketReturns(const typename Sensor::Calibration& calibration, const mount::Mount& mount,
                 const typename Sensor::Config& config, int columns, memory::FixedMemory& memory)
       : sensor_(calibration, mount, config),
@@ -77,8 +77,8 @@ class PacketReturns {
   [[nodiscard]] Sensor& trait() noexcept { return sensor_; }
   [[nodiscard]] const Sensor& trait() const noexcept { return sensor_; }
 
-  /// Reads a packet that the trait's check() has passed. Its returns are placed by flush(), or when
-  /// enough have been collected; its frames must be open until then.
+  /// Reads a packet that the trait's check() has accepted. Its returns are placed by flush(), or
+  /// when enough are collected; the packet's frames must stay open until then.
   void add(std::span<const std::uint8_t> payload, const packet::PacketAzimuths& azimuths,
            const PacketPlace& place, FrameBuilder& frames) noexcept {
     const auto columns = static_cast<std::size_t>(azimuths.columns);
@@ -113,13 +113,13 @@ class PacketReturns {
  private:
   static constexpr auto kLasers = static_cast<std::size_t>(Sensor::kChannels);
 
-  /// The returns to place, and their frames.
+  /// Returns to be placed, and their frames.
   struct Tile {
     std::size_t firings;
-    std::int64_t first_frame;                  ///< The older of two frames.
+    std::int64_t first_frame;                  ///< Number of the older of the two frames.
     std::array<frame::RangeImage*, 2> images;  ///< Images of the two frames.
     bool is_in_one_frame;
-    std::size_t frame;  ///< The frame, if only one.
+    std::size_t frame;  ///< Index of the frame, if all returns are in one.
   };
   using Numbers = std::array<frame::TileRow<std::uint32_t>, 2>;  ///< Indexed by frame and firing.
 
@@ -135,7 +135,7 @@ class PacketReturns {
         azimuths.dual_return ? 1U : static_cast<std::uint64_t>(late_columns);
   }
 
-  /// Fills the rest of a tile that is not full with firings without returns.
+  /// Fills the rest of an incomplete tile with firings that have no returns.
   void complete(std::size_t firings) noexcept {
     if (firings == frame::kTileFirings) return;
     for (std::size_t f = firings; f < frame::kTileFirings; ++f) {
@@ -169,7 +169,7 @@ class PacketReturns {
             .frame = most < columns_ ? 0U : 1U};
   }
 
-  /// Keeps the tile as measured, in each of the two frames that it has returns of.
+  /// Keeps the tile as measured, in each of its frames that has returns of the tile.
   void keep(const Tile& tile, FrameBuilder& frames) noexcept {
     for (std::size_t n = 0; n < 2; ++n) {
       if (tile.is_in_one_frame && tile.frame != n) continue;
@@ -215,7 +215,8 @@ class PacketReturns {
     return frame == 0 ? column : column - columns_;
   }
 
-  /// False, and nothing is placed, if an overflow list might run full.
+  /// Places the tile's returns laser by laser; false, and nothing is placed, if an overflow list
+  /// might become full.
   [[nodiscard]] bool place_by_laser(const Tile& tile) noexcept {
     Numbers numbers = count(tile);
     std::array<std::uint32_t, 2> returns{};
@@ -240,7 +241,7 @@ class PacketReturns {
     return true;
   }
 
-  /// Places a laser's returns in adjacent columns; false if a cell of them is taken.
+  /// Places a laser's returns in adjacent columns; false if one of their cells is taken.
   [[nodiscard]] bool place_run(const Tile& tile, std::size_t laser,
                                frame::TileRow<std::uint32_t>& numbers) noexcept {
     frame::RangeImage& image = *tile.images[tile.frame];
@@ -261,7 +262,7 @@ class PacketReturns {
     const int row = sensor_.rows()[laser];
     const std::size_t newest = frame_of(beams_[laser].most);
     tile.images[newest]->fetch_to_write(row, column_in(newest, beams_[laser].most));
-    // Which firings have a return is close to random, so the loop has no branch.
+    // Which firings have a return is nearly random, so the loop has no branch.
     std::array<std::uint8_t, frame::kTileFirings> hits;
     std::size_t hit_count = 0;
     for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
@@ -302,12 +303,13 @@ class PacketReturns {
   packet::RotorDirections directions_;
   TileColumns<Sensor> columns_of_;
   SensorTileReader<Sensor> reader_;
-  std::span<packet::FiringTile<kLasers>> tile_;  ///< One element.
+  std::span<packet::FiringTile<kLasers>> tile_;  ///< A span of one tile.
   std::span<frame::BeamColumns> beams_;          ///< Indexed by laser.
-  std::span<frame::TilePoints> points_;  ///< Indexed by laser, if their cells do not hold them.
-  frame::TileRow<std::int64_t> rotor_cdeg_{};  ///< Per firing.
+  /// Indexed by laser; used if the cells do not hold the points.
+  std::span<frame::TilePoints> points_;
+  frame::TileRow<std::int64_t> rotor_cdeg_{};  ///< Indexed by firing.
   frame::TileHeads heads_{};
-  std::size_t firings_ = 0;  ///< Added and not placed yet.
+  std::size_t firings_ = 0;  ///< Firings added and not placed yet.
   frame::CellOwner owner_{};
 };
 

@@ -15,20 +15,20 @@
 
 namespace terracut::decode {
 
-/// Packets that contradict the stream (Arrival::kDoubtful), with their bytes, until it is known
-/// whether they are strays or, with the one that is a kNewStream, the stream from here on. All but
-/// the constructor is real-time safe. One thread.
+/// Keeps packets that contradict the stream (Arrival::kDoubtful), with their bytes, until it is
+/// known whether they are strays or, together with a packet that is kNewStream, begin another
+/// stream. Real-time safe except for the constructor. One thread.
 class PacketsInDoubt {
  public:
   struct Packet {
     packet::PacketAzimuths azimuths;
     std::int64_t stamp_ns = 0;
-    std::int64_t rotor_cdeg = 0;  ///< Placement::rotor_cdeg
-    frame::Reject reason{};       ///< Unless others agree with it.
+    std::int64_t rotor_cdeg = 0;  ///< See Placement::rotor_cdeg.
+    frame::Reject reason{};       ///< Why the packet is rejected if no others agree with it.
     std::span<const std::uint8_t> payload{};
   };
 
-  /// `packet_bytes`: the size of a data packet.
+  /// `packet_bytes` is the size of a data packet.
   PacketsInDoubt(std::size_t packet_bytes, memory::FixedMemory& memory)
       : packet_bytes_(packet_bytes),
         packets_(memory.take<Packet>("packets in doubt", kMost)),
@@ -36,14 +36,15 @@ class PacketsInDoubt {
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
-  /// At most StreamTracker::kNewStream_packets, the last of them the kNewStream.
+  /// Keeps a packet. At most StreamTracker::kNewStream_packets are kept, the last of them the
+  /// kNewStream.
   void keep(const packet::Datagram& datagram, const packet::PacketAzimuths& azimuths,
             const Placement& placed) noexcept {
     const auto bytes = bytes_.subspan(size_ * packet_bytes_, packet_bytes_);
     std::ranges::copy(datagram.payload, bytes.begin());
     packets_[size_++] = {azimuths, datagram.stamp_ns, placed.rotor_cdeg, placed.reject, bytes};
   }
-  /// They were strays, each of which is counted for its own reason.
+  /// Drops the packets as strays and counts each for its own reason.
   void drop(frame::LossCounters& losses) noexcept {
     for (const Packet& packet : packets_.first(size_)) {
       ++losses.rejected[static_cast<std::size_t>(packet.reason)];
@@ -51,15 +52,15 @@ class PacketsInDoubt {
     size_ = next_ = 0;
   }
 
-  /// They are a stream: the oldest that was not taken yet. Null, and all are forgotten, when there
-  /// is none left.
+  /// Takes the packets as a stream: returns the oldest that was not taken yet. Returns null and
+  /// forgets all packets when none is left.
   [[nodiscard]] const Packet* take() noexcept {
     if (next_ < size_) return &packets_[next_++];
     size_ = next_ = 0;
     return nullptr;
   }
-  /// It lies more than a frame before the newest. Such a packet is left out: for more revolutions
-  /// more frames would be handed out at once.
+  /// True if `packet` lies more than a frame before the newest. Such a packet is left out: with
+  /// more revolutions, more frames would be handed out at once.
   [[nodiscard]] bool is_too_old(const Packet& packet) const noexcept {
     return packet.rotor_cdeg < packets_[size_ - 1].rotor_cdeg - beams::kRevolution_cdeg;
   }
@@ -69,9 +70,9 @@ class PacketsInDoubt {
 
   std::size_t packet_bytes_;
   std::span<Packet> packets_;
-  std::span<std::uint8_t> bytes_;  ///< Their payloads.
+  std::span<std::uint8_t> bytes_;  ///< The payloads of the packets kept.
   std::size_t size_ = 0;
-  std::size_t next_ = 0;  ///< To be taken.
+  std::size_t next_ = 0;  ///< Index of the packet to be taken next.
 };
 
 }  // namespace terracut::decode

@@ -15,7 +15,7 @@
 
 namespace terracut::decode {
 
-/// Turns tiles of one sensor model into points; `Sensor` is its trait (packet_returns.hpp).
+/// Computes the points of tiles of one sensor model; `Sensor` is its trait (packet_returns.hpp).
 template <class Sensor>
 class SensorTileReader final : public frame::TileReader {
  public:
@@ -62,13 +62,13 @@ class SensorTileReader final : public frame::TileReader {
   }
 
  private:
-  /// The head's advance from a firing's azimuth to the firing of each group of lasers.
+  /// How far the head advances from a firing's azimuth until each group of lasers fires.
   struct Directions {
     std::array<float, Sensor::kGroups> sin{}, cos{};
   };
 
   Sensor sensor_;
-  std::span<packet::GroupHeads<Sensor::kGroups>> heads_;  ///< Has one element.
+  std::span<packet::GroupHeads<Sensor::kGroups>> heads_;  ///< A span of one element.
   packet::StepAdvances<Directions> advances_;
   const std::uint16_t* raw_ = nullptr;
 };

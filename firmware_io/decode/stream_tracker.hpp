@@ -16,69 +16,73 @@ namespace terracut::decode {
 
 /// How a packet relates to the stream it arrived in.
 enum class Arrival : std::uint8_t {
-  kNext,       ///< It continues the stream, perhaps after a gap.
-  kReordered,  ///< An older packet than the newest seen.
-  kRestart,    ///< Nothing before it belongs to it: the first packet, or one after a long outage.
-  kDoubtful,   ///< It contradicts the stream; the caller keeps it until that is decided.
-  kNewStream,  ///< It agrees with the doubtful ones before it: call begin() with the first of them.
-  kRejected,   ///< Not to be decoded.
+  kNext,       ///< The packet continues the stream, perhaps after a gap.
+  kReordered,  ///< The packet is older than the newest seen.
+  kRestart,    ///< The packet begins a stream: the first, or the first after a long outage.
+  kDoubtful,   ///< The packet contradicts the stream; the caller keeps it until that is decided.
+  /// It agrees with the doubtful packets before it: call begin() with the first of them.
+  kNewStream,
+  kRejected,  ///< The packet is not to be decoded.
 };
 
 struct Placement {
   Arrival arrival = Arrival::kRejected;
-  frame::Reject reject = frame::Reject::kCount;  ///< The reason if rejected, also after doubt.
-  /// Unwrapped azimuth of the first column; while in doubt, counted from the first doubtful packet.
+  frame::Reject reject = frame::Reject::kCount;  ///< Why the packet is rejected, also after doubt.
+  /// Unwrapped azimuth of the packet's first column; while in doubt, counted from the first
+  /// doubtful packet.
   std::int64_t rotor_cdeg = 0;
-  /// Between this packet and the newest before it: packets missing by the stamps, and packets that
-  /// came but were rejected.
+  /// How many packets are missing by the stamps between this packet and the newest before it, and
+  /// how many came in between but were rejected.
   std::int64_t missing = 0, explained = 0;
-  bool is_first_in_doubt = false;  ///< kDoubtful, and it does not agree with those kept before.
+  /// True if kDoubtful and the packet does not agree with those kept before.
+  bool is_first_in_doubt = false;
 };
 
 /// Puts the packets of one spinning sensor into order by their device stamps and azimuths, and
 /// counts those that are missing. Independent of the sensor.
 ///
-/// The device's clock and the head's angle check each other: from the newest packet's angle, its
-/// speed and the time since, the tracker knows within some degrees where the head must be, and
-/// unwraps the azimuth to the frame nearest to that. So neither a lost half revolution nor a step
-/// back starts a false frame. A packet that contradicts the stream by its stamp or its angle is in
-/// doubt. If kNewStream_packets come in a row that agree with each other but not with the stream,
-/// they begin another one (a reboot, a loop of a replay); otherwise they were strays and do no
-/// harm. Missing packets follow from the device stamps, which advance by a constant period. It is
-/// measured from the stream; until then, and if the measurement fits no unit, it is the model's
-/// own. Fixed memory; every call O(1), noexcept. One thread.
+/// The device's clock and the head's angle check each other: from the newest packet's angle, the
+/// head's speed and the time since, the tracker knows within some degrees where the head must be,
+/// and unwraps the azimuth to the nearest frame. So neither a lost half revolution nor a step back
+/// starts a false frame. A packet whose stamp or angle contradicts the stream is in doubt. If
+/// kNewStream_packets in a row agree with each other but not with the stream, they begin another
+/// stream (a reboot, a loop of a replay); otherwise they were strays and do no harm. Missing
+/// packets follow from the device stamps, which advance by a constant period. The period is
+/// measured from the stream; until then, and if the measurement fits no unit, the model's own is
+/// used. Fixed memory; every call O(1), noexcept. One thread.
 class StreamTracker {
  public:
   static constexpr int kNewStream_packets = 32;
 
-  /// `clock_wrap_us`: the device clock counts [0, clock_wrap_us).
+  /// `clock_wrap_us` says where the device clock wraps: it counts [0, clock_wrap_us).
   StreamTracker(std::int64_t clock_wrap_us, memory::FixedMemory& memory);
 
-  /// Places a packet. Counts clock jumps in `losses`; the caller counts a rejection and says, by
-  /// miss(), how many of the missing packets were expected. `host_stamp_ns` is the datagram's, used
-  /// only to tell an outage from a jump.
+  /// Places a packet and counts clock jumps in `losses`. The caller counts a rejection and says, by
+  /// miss(), how many of the missing packets were expected. `host_stamp_ns` is the datagram's
+  /// stamp, used only to tell an outage from a jump.
   [[nodiscard]] Placement place(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// After kNewStream: begin() takes the first of the kept packets, go_on() the others in order and
-  /// then the last one itself. They place packets as place() does, without doubt.
+  /// To be called after kNewStream: begin() takes the first of the kept packets, go_on() the others
+  /// in order and finally the kNewStream packet. Both place packets as place() does, without doubt.
   [[nodiscard]] Placement begin(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] Placement go_on(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// Counts so many of the packets missing before the one just placed (kNext, kRestart) as lost,
-  /// some packets later unless they come out of order. To be called for each such packet.
+  /// Counts `packets` of those missing before the packet just placed (kNext, kRestart) as lost.
+  /// Counting is delayed by some packets, in case they come out of order. To be called for each
+  /// such packet.
   void miss(std::int64_t packets, frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// Notes that a packet with this stamp arrived but was rejected before place(): it is not
-  /// missing.
+  /// Notes that a packet with this stamp arrived but was rejected before place(), so that it does
+  /// not count as missing.
   void note_rejected(std::int64_t device_stamp_us) noexcept TERRACUT_NONBLOCKING;
-  /// Notes that the head stands still at this azimuth.
+  /// Notes that the head stands still at `azimuth_cdeg`.
   void note_stationary(std::int64_t device_stamp_us, std::int32_t azimuth_cdeg,
                        frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// Counts packets still expected as lost and resets the stream (but not its period).
+  /// Counts packets still expected as lost and resets the stream, but not its period.
   void end_of_stream(frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// Returns the device time from packet to packet, nanoseconds, within the model's range
@@ -89,7 +93,7 @@ class StreamTracker {
   struct Seen {
     std::uint32_t stamp_us = 0;
     std::uint16_t first_cdeg = 0, last_cdeg = 0;
-    std::uint32_t packet = 0;  ///< Number of the packet, from 1; 0 = never used.
+    std::uint32_t packet = 0;  ///< Number of the packet, from 1; 0 if the entry was never used.
   };
 
   /// The step from one accepted packet to the next.
@@ -112,8 +116,8 @@ class StreamTracker {
   [[nodiscard]] static Seen seen(const packet::PacketAzimuths& azimuths) noexcept;
   [[nodiscard]] static std::size_t slot_of(const packet::PacketAzimuths& azimuths) noexcept;
   [[nodiscard]] bool is_repeat(const packet::PacketAzimuths& azimuths) const noexcept;
-  /// Remembers an accepted packet. Doubtful ones are not remembered: a forged copy sent ahead must
-  /// not make the real packet a repeat.
+  /// Remembers an accepted packet, to recognise repeats. Doubtful packets are not remembered: a
+  /// forged copy sent ahead must not make the real packet a repeat.
   void remember(const packet::PacketAzimuths& azimuths) noexcept;
   void adopt_range(const packet::PacketAzimuths& azimuths, frame::LossCounters& losses) noexcept;
   [[nodiscard]] std::int64_t period_in_use_ns() const noexcept {
@@ -142,20 +146,20 @@ class StreamTracker {
 
   bool started_ = false;
   Newest newest_;
-  Newest doubtful_;           ///< The newest of the packets in doubt that agree with each other.
-  int doubtful_packets_ = 0;  ///< How many of them came in a row.
+  Newest doubtful_;           ///< The newest of the packets in doubt, which agree with each other.
+  int doubtful_packets_ = 0;  ///< Number of packets in doubt in a row.
 
   std::int64_t nominal_period_ns_ = 1, shortest_period_ns_ = 1, longest_period_ns_ = 1;
-  std::int64_t period_ns_ = 0;  ///< Measured, in the range above; 0 while it is not.
+  std::int64_t period_ns_ = 0;  ///< The measured period, in the range above; 0 if not measured yet.
   std::int64_t averaged_us_ = 0, averaged_steps_ = 0;
   std::array<Step, kPeriodSamples> to_measure_{};
   std::size_t steps_ = 0;
   std::int64_t explained_ = 0;  ///< Packets since the newest that arrived but were rejected.
-  /// Packets missing that may still come out of order. It may be below 0 while the period is
-  /// measured: reordered packets are counted before the missing ones are known.
+  /// Missing packets that may still come out of order. May be negative while the period is
+  /// measured, since reordered packets are counted before the missing ones are known.
   std::int64_t missing_ = 0;
   int packets_since_missing_ = 0;
-  int off_period_ = 0;  ///< Steps in a row that are no multiple of the period.
+  int off_period_ = 0;  ///< Number of steps in a row that are no multiple of the period.
 };
 
 }  // namespace terracut::decode

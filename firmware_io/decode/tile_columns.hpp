@@ -16,11 +16,11 @@
 
 namespace terracut::decode {
 
-/// Finds the columns of the beams of a tile. `Sensor` is a trait (packet_returns.hpp).
+/// Finds the image columns of the beams of a tile. `Sensor` is a trait (packet_returns.hpp).
 template <class Sensor>
 class TileColumns {
  public:
-  /// `columns` of the range image, [16, 36000].
+  /// `columns` is the number of columns of the range image, [16, 36000].
   TileColumns(const Sensor& sensor, int columns, memory::FixedMemory& memory)
       : columns_(columns),
         advance_column_(
@@ -32,7 +32,7 @@ class TileColumns {
     }
   }
 
-  /// Fills `beams`, one a laser, with columns counted from the frame from which `heads` count.
+  /// Fills `beams`, one for each laser. Columns count from the frame from which `heads` counts.
   /// Real-time safe.
   void find(const Sensor& sensor, const frame::TileHeads& heads,
             std::span<frame::BeamColumns> beams) noexcept TERRACUT_NONBLOCKING {
@@ -71,14 +71,14 @@ class TileColumns {
   }
 
  private:
-  /// The head's advance from a firing's azimuth to the firing of each group of lasers.
+  /// How far the head advances from a firing's azimuth until each group of lasers fires.
   struct Columns {
     std::array<std::int32_t, Sensor::kGroups> whole{}, rest{};
   };
 
   int columns_;
   std::array<packet::ColumnAngle, static_cast<std::size_t>(Sensor::kChannels)>
-      offset_;                                                             ///< To the head.
+      offset_;  ///< Beam offsets from the head.
   std::span<frame::TileRow<std::int32_t>> advance_column_, advance_rest_;  ///< Indexed by group.
   packet::StepAdvances<Columns> advances_;
 };

@@ -8,18 +8,18 @@
 namespace terracut::frame {
 
 /// The instant to which a frame's returns are moved: when the head passes straight ahead for the
-/// first time, straight behind, or straight ahead again.
+/// first time (start), straight behind (middle), or straight ahead again (end).
 enum class FrameInstant : std::uint8_t { kStart, kMiddle, kEnd };
 
 enum class DeskewState : std::uint8_t {
-  kOff,   ///< Not asked for: every return lies where the sensor saw it.
+  kOff,   ///< Deskewing was not asked for: every return lies where the sensor saw it.
   kDone,  ///< All returns lie where static objects were at one instant.
-  /// As kOff, though asked for: the vehicle's motion is unknown, or a clock was set while the frame
-  /// arrived.
+  /// Deskewing was asked for but not done: the vehicle's motion is unknown, or a clock was set
+  /// while the frame arrived.
   kNoEgoMotion,
 };
 
-/// Returns a stable lower_snake_case name, as in reports.
+/// Returns a stable lower_snake_case name, used in reports.
 [[nodiscard]] constexpr std::string_view to_string(DeskewState state) noexcept {
   switch (state) {
     case DeskewState::kOff:
@@ -32,23 +32,25 @@ enum class DeskewState : std::uint8_t {
   return "unknown";
 }
 
-/// The sensor's place in the ground plane, relative to where a journey began: p_journey = R p + t.
-/// Places of one journey can be compared; between two journeys the motion is unknown.
+/// The sensor's position and heading in the ground plane, relative to where a journey began:
+/// p_journey = R p + t. Places of one journey can be compared; between two journeys the motion is
+/// unknown.
 struct Place {
-  std::uint32_t journey = 0;  ///< 1 and up; 0: the place is unknown.
+  std::uint32_t journey = 0;  ///< Number of the journey, from 1; 0: the place is unknown.
   double x_m = 0, y_m = 0;
-  double cosine = 1, sine = 0;  ///< The heading.
+  double cosine = 1, sine = 0;  ///< Cosine and sine of the heading.
 };
 
 /// Whether and how the vehicle's motion was removed from a frame.
 struct DeskewInfo {
   DeskewState state = DeskewState::kOff;
   FrameInstant at = FrameInstant::kEnd;
-  std::int64_t reference_ns = 0;  ///< The instant `at`, on the clock of datagrams; unset for kOff.
-  /// Stamp of the newest motion known minus the instant of the frame's last firing; about 0 if both
-  /// use one clock. 0 without any motion.
+  /// Time of the instant `at`, on the datagrams' clock; unset for kOff.
+  std::int64_t reference_ns = 0;
+  /// Stamp of the newest motion sample minus the instant of the frame's last firing; about 0 if
+  /// both use one clock. 0 if there is no sample.
   std::int64_t newest_motion_ns = 0;
-  Place place;  ///< The sensor's place at that instant; known for kDone.
+  Place place;  ///< The sensor's place at the instant `at`; known for kDone.
 };
 
 }  // namespace terracut::frame

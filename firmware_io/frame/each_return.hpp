@@ -11,7 +11,7 @@ namespace terracut::frame {
 
 /// One return of a frame and its place in the image.
 struct PlacedReturn {
-  std::uint32_t return_index = 0;  ///< From 0, in order of arrival.
+  std::uint32_t return_index = 0;  ///< Number of the return, from 0 in order of arrival.
   int row = 0;
   int column = 0;
   Return point;

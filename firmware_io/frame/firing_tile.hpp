@@ -13,13 +13,13 @@
 namespace terracut::frame {
 
 /// The number of firings processed together: enough to fill vectors with one laser's returns, few
-/// enough that all lasers' stay in the cache next to the core.
+/// enough that the returns of all lasers stay in the cache next to the core.
 inline constexpr std::size_t kTileFirings = 24;
 /// One value for each firing of a tile.
 template <class Value>
 using TileRow = std::array<Value, kTileFirings>;
 
-/// Calls `visit(firing)` for each bit that is set, in order.
+/// Calls `visit(firing)` for each bit of the mask that is set, in ascending order.
 template <class Visit>
 void for_each_firing(std::uint32_t firings, Visit visit) noexcept {
   for (; firings != 0; firings &= firings - 1) {
@@ -27,14 +27,14 @@ void for_each_firing(std::uint32_t firings, Visit visit) noexcept {
   }
 }
 
-/// Points of one laser of a tile, vehicle frame, metres; NaN where it has no return.
+/// Points of one laser of a tile in the vehicle frame, metres; NaN where the laser has no return.
 struct TilePoints {
   alignas(64) TileRow<float> x_m;
   alignas(64) TileRow<float> y_m;
   alignas(64) TileRow<float> z_m;
   alignas(64) TileRow<float> ground_range_m;
 };
-/// Where to write points, kTileFirings of each.
+/// Where to write points: arrays of kTileFirings each.
 struct PointsOut {
   float *x_m, *y_m, *z_m, *ground_range_m;
 };
@@ -42,30 +42,30 @@ struct PointsOut {
   return {points.x_m.data(), points.y_m.data(), points.z_m.data(), points.ground_range_m.data()};
 }
 
-/// Columns of one laser's beams, counted from the first column of some frame; those of the n-th
-/// frame after it begin at n times the columns of a frame.
+/// Columns of one laser's beams, counted from the first column of some frame; columns of the n-th
+/// frame after that begin at n times the columns of a frame.
 struct BeamColumns {
   alignas(64) TileRow<std::int32_t> column;
   std::int32_t least = 0, most = 0;
-  bool is_one_run = false;  ///< Each firing is in the column after that of the firing before.
+  bool is_one_run = false;  ///< True if each firing is one column after the firing before.
 };
 
 /// Where the head was at each firing of a tile.
 struct TileHeads {
-  TileRow<std::int32_t> head_cdeg;    ///< Azimuth, unwrapped, from the start of some frame.
-  TileRow<std::int32_t> step_ticks;   ///< From this firing to the next, 1e-5 degrees.
-  TileRow<float> sin_head, cos_head;  ///< Sine and cosine of head_cdeg, looked up once.
-  std::uint32_t is_dual = 0;          ///< A bit for each firing that is one of two returns.
+  TileRow<std::int32_t> head_cdeg;    ///< Azimuth, unwrapped, counted from the start of some frame.
+  TileRow<std::int32_t> step_ticks;   ///< Rotation from this firing to the next, 1e-5 degrees.
+  TileRow<float> sin_head, cos_head;  ///< Sine and cosine of head_cdeg.
+  std::uint32_t is_dual = 0;          ///< A set bit for each firing that is one of two returns.
 };
 
-/// Makes points of the distances that one sensor model measured; holds its calibration, mount and
-/// firing times. Has memory for one tile at a time; one thread.
+/// Computes points from the distances that one sensor model measured; holds its calibration, mount
+/// and firing times. Has memory for one tile at a time; one thread.
 class TileReader {
  public:
   virtual ~TileReader() = default;
 
-  /// Opens a tile for compute_points(). `raw` is its wire distances, laser by laser, kTileFirings
-  /// each, 0 for no return; must stay valid until another tile is opened.
+  /// Opens a tile for compute_points(). `raw` has the tile's wire distances, laser by laser,
+  /// kTileFirings each, 0 for no return; it must stay valid until another tile is opened.
   virtual void open(const TileHeads& heads,
                     const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING = 0;
   virtual void compute_points(std::size_t laser,

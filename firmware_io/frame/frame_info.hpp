@@ -11,8 +11,8 @@
 
 namespace terracut::frame {
 
-/// Head azimuths at which the sensor sends nothing, hundredths of a degree clockwise from straight
-/// ahead, [from, to), perhaps across 0. Both 0: none, or not known yet.
+/// Range of head azimuths, [from, to), perhaps across 0, at which the sensor sends nothing;
+/// hundredths of a degree clockwise from straight ahead. Both 0: none, or not known yet.
 struct BlindAzimuths {
   std::int32_t from_cdeg = 0, to_cdeg = 0;
 
@@ -22,17 +22,18 @@ struct BlindAzimuths {
   }
 };
 
-/// The head's position at the first firing of a frame's first and last packet: revolutions from
-/// straight ahead, about 0 and 1, off by as much as beams point off the head. Both equal if there
-/// are no packets.
+/// The head's position at the first firing of a frame's first and last packet, in revolutions from
+/// straight ahead: about 0 and 1, except that beams point off the head. Both are equal if there are
+/// no packets.
 struct HeadSweep {
   float first_turns = 0, last_turns = 0;
 };
 
 /// Facts about one frame besides its returns.
 struct FrameInfo {
-  std::uint32_t number = 0;          ///< From 0, in order of hand-over.
-  std::int64_t first_packet_ns = 0;  ///< Datagram stamps of the first and last packet touching it.
+  std::uint32_t number = 0;  ///< Number of the frame, from 0, in order of hand-over.
+  /// Datagram stamps of the first and last packet that touch the frame.
+  std::int64_t first_packet_ns = 0;
   std::int64_t last_packet_ns = 0;
   HeadSweep head;
   std::uint32_t packets = 0;  ///< Packets decoded since the last frame was handed over.
@@ -42,11 +43,11 @@ struct FrameInfo {
   bool complete = false;
   BlindAzimuths blind;
   LossCounters losses;  ///< Losses since the last frame was handed over.
-  DeskewInfo deskew;    ///< Whether it was deskewed.
+  DeskewInfo deskew;    ///< Whether and how the frame was deskewed.
 };
 
-/// One frame: the returns of one revolution of the head. Whoever hands it out says how long the
-/// image is valid.
+/// One frame: the returns of one revolution of the head. The function that hands the frame out says
+/// how long its image is valid.
 struct Frame {
   FrameInfo info;
   RangeImage* image = nullptr;
@@ -55,10 +56,11 @@ struct Frame {
 /// The frame that is being filled.
 struct ArrivingFrame {
   const RangeImage* image = nullptr;
-  /// Columns [0, complete_columns) are complete, but a packet later than the decoder waits for may
-  /// still change any of them.
+  /// Columns [0, complete_columns) are complete; only a packet that comes later than the decoder
+  /// waits for may still change them.
   int complete_columns = 0;
-  /// Share of the revolution until its last packet; a blind sector does not count.
+  /// Share of the revolution that is still to come after the last packet; a blind sector does not
+  /// count.
   float share_to_come = 0;
 };
 

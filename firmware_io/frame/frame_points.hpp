@@ -17,29 +17,30 @@
 
 namespace terracut::frame {
 
-/// Makes points of frames that keep their returns as measured, on demand, in planes of a whole
-/// image, one frame after the other.
+/// Computes points of frames that keep their returns as measured, where they are needed, into
+/// planes of a whole image; one frame after the other.
 ///
 /// Takes its memory in the constructor. One thread; real-time safe.
 class FramePoints {
  public:
-  /// `reader` is the sensor's.
+  /// `reader` is made by the sensor's decoder.
   FramePoints(ImageShape shape, std::unique_ptr<TileReader> reader, memory::FixedMemory& memory);
 
-  /// Starts a frame, or starts it again, with no points made.
+  /// Begins a frame, or begins it again, with no points computed.
   void begin(const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
-  /// Makes the points of the columns before `end` whose returns have arrived; to be called from
+  /// Computes the points of returns that have arrived in columns before `end`; to be called from
   /// left to right after begin(). A cell without a return has a NaN height. Calls
-  /// `take_extra(column, z_m, ground_range_m)` once for each return made that does not own its
+  /// `take_extra(column, z_m, ground_range_m)` once for each such return that does not own its
   /// cell.
   template <class TakeExtra>
   void make_until(int end, const RangeImage& image, TakeExtra take_extra) noexcept;
-  /// True if all points of the frame are made.
+  /// True if all points of the frame are computed.
   [[nodiscard]] bool has_all_of(const RangeImage& image) const noexcept {
     return has_begun(image) && next_ == image.measured()->tiles();
   }
-  /// Makes points where `is_wanted(row, ColumnRange)`, unless all of the frame's are made. Other
-  /// cells, and cells without a return, hold any values. Ends what begin() started.
+  /// Computes points where `is_wanted(row, ColumnRange)`, unless all of the frame's are computed.
+  /// Other cells, and cells without a return, hold arbitrary values. Ends the frame that begin()
+  /// began.
   template <class IsWanted>
   void make_where(const RangeImage& image, IsWanted is_wanted) noexcept;
   [[nodiscard]] PointPlanes planes() const noexcept {
@@ -53,26 +54,27 @@ class FramePoints {
   [[nodiscard]] bool has_begun(const RangeImage& image) const noexcept {
     return image_ == &image && generation_ == image.generation();
   }
-  /// Makes the points of a laser in the open tile; `take_extra` as in make_until().
+  /// Computes the points of a laser in the open tile; `take_extra` is as in make_until().
   template <class TakeExtra>
   void make_row(const MeasuredReturns& returns, std::size_t tile, std::size_t laser,
                 TakeExtra take_extra) noexcept;
-  /// Prefetches about a cache line and a half of each plane.
+  /// Prefetches about one and a half cache lines of each plane.
   void fetch_to_write(std::size_t cell) const noexcept TERRACUT_NONBLOCKING;
 
   ImageShape shape_;
   std::unique_ptr<TileReader> reader_;
   std::span<float> x_m_, y_m_, z_m_, ground_range_m_;
-  const RangeImage* image_ = nullptr;  ///< The frame started by begin().
+  const RangeImage* image_ = nullptr;  ///< The image of the frame begun by begin().
   std::uint32_t generation_ = 0;
-  std::size_t next_ = 0;  ///< The first tile whose points are not made.
+  std::size_t next_ = 0;  ///< The first tile whose points are not computed yet.
   TilePoints points_;
 };
 
 template <class TakeExtra>
 void FramePoints::make_until(int end, const RangeImage& image, TakeExtra take_extra) noexcept {
   const MeasuredReturns& returns = *image.measured();
-  // Tiles come from left to right, except late ones, which are made a little too soon.
+  // Tiles come from left to right, except late ones: some of their points may be made before `end`
+  // reaches them, which does no harm.
   for (; next_ < returns.tiles() && returns.tile(next_).least < end; ++next_) {
     reader_->open(returns.tile(next_).heads, returns.raw(next_));
     for (std::size_t i = 0; i < returns.lasers(); ++i) {
@@ -117,7 +119,7 @@ void FramePoints::make_row(const MeasuredReturns& returns, std::size_t tile, std
   for_each_firing(row.owned, [&](std::size_t f) noexcept {
     const int column = columns[f];
     const std::size_t cell = first + static_cast<std::size_t>(column);
-    // An earlier return owned the cell and was made a point: it is an extra now.
+    // An earlier return owned this cell and its point was made: it is now an extra.
     if (z_m_[cell] == z_m_[cell]) take_extra(column, z_m_[cell], ground_range_m_[cell]);
     x_m_[cell] = points_.x_m[f];
     y_m_[cell] = points_.y_m[f];

@@ -8,11 +8,11 @@ namespace terracut::frame {
 
 /// Size of a range image.
 struct ImageShape {
-  int rows = 64;       ///< Lasers; row 0 is the lowest elevation.
+  int rows = 64;       ///< Number of lasers; row 0 has the lowest elevation.
   int columns = 2083;  ///< Columns in 360 degrees; column 0 starts straight ahead, then clockwise.
 
-  /// Returns the cells from one row to the next: columns rounded up to a multiple of 16, for SIMD
-  /// loads.
+  /// Returns the number of cells from one row to the next: columns rounded up to a multiple of 16,
+  /// for SIMD loads.
   [[nodiscard]] constexpr int stride() const noexcept { return (columns + 15) / 16 * 16; }
   [[nodiscard]] constexpr std::size_t cells() const noexcept {
     return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride());
@@ -25,7 +25,7 @@ struct ImageShape {
   [[nodiscard]] constexpr double pitch_deg() const noexcept { return 360.0 / columns; }
 };
 
-/// Adjacent columns, [begin, end), not across the seam.
+/// Adjacent columns [begin, end), which do not cross the seam.
 struct ColumnRange {
   int begin, end;
   [[nodiscard]] constexpr std::size_t size() const noexcept {

@@ -20,9 +20,9 @@ enum class Reject : std::uint8_t {
   kAzimuthMismatch,    ///< Blocks that fire together carry different azimuths.
   kAzimuthJump,        ///< Azimuths inside a packet do not advance like a rotating head.
   kRepeated,           ///< The same packet (device stamp and azimuths) as one already decoded.
-  kLate,               ///< It is older than its frame still accepts (reordered too far).
+  kLate,               ///< The packet is too old for its frame (reordered too far).
   kStationary,         ///< The head is not rotating, so there is no frame to build.
-  kClockJump,  ///< Its device stamp contradicts the stream's, and no other packet confirms it.
+  kClockJump,  ///< The packet's stamp contradicts the stream's, and no other packet confirms it.
   kCount,
 };
 inline constexpr std::size_t kRejectReasons = static_cast<std::size_t>(Reject::kCount);
@@ -36,13 +36,14 @@ struct LossCounters {
   std::uint64_t kernel_drops = 0;          ///< Datagrams the socket buffer could not hold.
   std::uint64_t network_gap_packets = 0;   ///< Packets missing by the device's own stamps.
   std::uint64_t azimuth_hole_columns = 0;  ///< Firings missing inside a frame, whatever the cause.
-  std::array<std::uint64_t, kRejectReasons> rejected{};  ///< Packets, by reason.
-  std::uint64_t overflow_full_returns = 0;  ///< Returns beyond the frame's fixed overflow list.
-  /// Returns before a blind sector inside their packet, which came too late for their frame; their
-  /// firings count as holes as well.
+  std::array<std::uint64_t, kRejectReasons> rejected{};  ///< Packets rejected, by reason.
+  /// Returns for which the frame's overflow list had no room.
+  std::uint64_t overflow_full_returns = 0;
+  /// Returns from before a blind sector inside their packet that came too late for their frame;
+  /// their firings also count as holes.
   std::uint64_t late_returns = 0;
   std::uint64_t skipped_frames = 0;  ///< Frames not segmented for lack of time.
-  std::uint64_t clock_jumps = 0;     ///< Device stamp jumps without a loss (replay loop, reset).
+  std::uint64_t clock_jumps = 0;  ///< Jumps of device stamps without a loss (replay loop, reset).
 
   LossCounters& operator+=(const LossCounters& other) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::uint64_t rejected_total() const noexcept;

@@ -15,51 +15,51 @@
 
 namespace terracut::frame {
 
-/// The returns of a frame as its sensor measured them, in tiles of firings: distances, intensities,
-/// head positions, and for each return whether it owns its cell of the range image. Takes a third
-/// of the memory of points and is written in one stream; FramePoints makes points of it where and
-/// when they are needed.
+/// Keeps the returns of a frame as its sensor measured them, in tiles of firings: distances,
+/// intensities, head positions, and for each return whether it owns its cell of the range image.
+/// Takes a third of the memory of points and is written in one stream; FramePoints computes points
+/// from it where they are needed.
 ///
 /// Returns are numbered in order of arrival: firing, laser. Fixed memory; only the constructor
 /// allocates. One writer until the frame is handed over, then readers only.
 class MeasuredReturns {
  public:
-  /// One laser's returns in a tile; one bit a firing.
+  /// The returns of one laser in a tile; masks have one bit per firing.
   struct LaserRow {
     std::int32_t least = 0, most = -1;  ///< No return is in a column outside [least, most].
-    std::uint32_t returns = 0;          ///< Number of returns of this frame.
-    std::uint32_t owned = 0;            ///< Number of them that own their cells.
-    /// Firing f is in column least + f, and no earlier return is in any of these columns.
+    std::uint32_t returns = 0;          ///< Mask of the returns of this frame.
+    std::uint32_t owned = 0;            ///< Mask of the returns that own their cells.
+    /// True if firing f is in column least + f, and no earlier return is in any of these columns.
     bool is_run = false;
   };
   struct Tile {
-    TileHeads heads;                      ///< Counted from the start of this frame.
+    TileHeads heads;                      ///< Head positions, counted from the start of this frame.
     TileRow<std::uint32_t> first_return;  ///< The number of each firing's first return.
-    std::int32_t least = 0, most = -1;    ///< Over all lasers.
+    std::int32_t least = 0, most = -1;    ///< The least and the greatest column over all lasers.
   };
   /// A tile to be added.
   struct NewTile {
-    TileHeads heads;           ///< Counted from the start of this frame.
-    const std::uint16_t* raw;  ///< Laser by laser, kTileFirings each; 0: no return.
+    TileHeads heads;           ///< Head positions, counted from the start of this frame.
+    const std::uint16_t* raw;  ///< Wire distances, laser by laser, kTileFirings each; 0: no return.
     const std::uint8_t* intensity;
-    /// Indexed by laser; this frame begins at `first_column`.
+    /// Columns of the beams, indexed by laser; this frame begins at `first_column`.
     std::span<const BeamColumns> beams;
     std::int32_t first_column;
   };
 
   static constexpr std::size_t kMostLasers = 256;
 
-  /// Takes room for `tiles` of `lasers` each, a multiple of 8, kMostLasers at most. Several lasers
-  /// may share a row.
+  /// Takes memory for `tiles` tiles of `lasers` lasers each, a multiple of 8 and at most
+  /// kMostLasers. Several lasers may share a row.
   MeasuredReturns(ImageShape shape, std::size_t lasers, std::size_t tiles,
                   memory::FixedMemory& memory);
 
   void clear() noexcept TERRACUT_NONBLOCKING;
 
   /// Adds the part of a tile that belongs to this frame. If several returns fall into a cell,
-  /// `owner` says which has it (the earlier if equal). `reader` is the sensor's; its open tile is
-  /// closed. Returns how many returns found no room and are not kept. Real-time safe; a return that
-  /// finds its cell taken costs more than others, up to a look at all tiles.
+  /// `owner` says which of them owns the cell (the earlier if equal). `reader` is the sensor's; its
+  /// open tile is closed. Returns the number of returns for which there was no room. Real-time
+  /// safe; a return that finds its cell taken costs more than others, up to a look at all tiles.
   [[nodiscard]] std::uint32_t add(const NewTile& tile, CellOwner owner,
                                   TileReader& reader) noexcept TERRACUT_NONBLOCKING;
 
@@ -71,7 +71,7 @@ class MeasuredReturns {
   [[nodiscard]] const std::uint16_t* raw(std::size_t tile) const noexcept {
     return &raw_[tile * lasers_ * kTileFirings];
   }
-  /// True if one of these cells has several returns.
+  /// True if one of these cells of the row has several returns.
   [[nodiscard]] bool has_shared(int row, ColumnRange columns) const noexcept TERRACUT_NONBLOCKING;
   /// Returns the column of a return.
   [[nodiscard]] int column(std::size_t tile, std::size_t laser, std::size_t firing) const noexcept {
@@ -108,9 +108,9 @@ class MeasuredReturns {
   void number_returns(const NewTile& tile, Tile& added, std::span<const LaserRow> rows) noexcept;
   void take_cells(const NewTile& tile, std::size_t laser, std::uint32_t hits, int row,
                   CellOwner owner, TileReader& reader) noexcept;
-  /// Settles pairs: those of a laser's returns `left` whose cell belongs to the firing just before,
-  /// the other return of the beam. Decides the owner of such cells if that needs no points, and
-  /// returns the firings it decided.
+  /// Settles pairs: among the returns `left` of a laser, those whose cell belongs to the firing
+  /// just before, the other return of the same beam. Decides the owner of such a cell if no points
+  /// are needed for it, and returns the firings decided.
   [[nodiscard]] std::uint32_t take_pairs(std::size_t laser, int row, std::uint32_t left,
                                          CellOwner owner) noexcept;
   /// Places a return whose cell may be taken.
@@ -118,7 +118,7 @@ class MeasuredReturns {
                  TileReader& reader) noexcept;
   /// Prefetches the next tile's memory: three frames do not fit the caches next to a core.
   void fetch_next() const noexcept;
-  /// Returns the owner of a cell among the returns up to `newest`; there is one.
+  /// Returns which return owns a cell, among those up to `newest`; the cell has an owner.
   [[nodiscard]] Place owner_before(const Place& newest, int row, int column,
                                    TileReader& reader) const noexcept;
   [[nodiscard]] bool goes_before(const Place& newer, const Place& older, CellOwner owner,
@@ -137,11 +137,12 @@ class MeasuredReturns {
   std::size_t used_ = 0;
   std::uint32_t returns_ = 0;
   std::span<Tile> tiles_;
-  std::span<LaserRow> rows_;          ///< [tile][laser]
-  std::span<std::uint16_t> raw_;      ///< [tile][laser][firing]
-  std::span<std::uint16_t> columns_;  ///< [tile][laser][firing]; only of rows that are no run.
+  std::span<LaserRow> rows_;      ///< Indexed [tile][laser].
+  std::span<std::uint16_t> raw_;  ///< Indexed [tile][laser][firing].
+  /// Indexed [tile][laser][firing]; set only for rows with is_run false.
+  std::span<std::uint16_t> columns_;
   std::span<std::uint8_t> intensity_;
-  // By row, one bit a column.
+  // For each row, one bit per column.
   std::span<std::uint64_t> taken_, shared_;
 };
 

@@ -9,14 +9,15 @@
 
 namespace terracut::frame {
 
-/// The height in a cell without a return: every comparison with it is false.
+/// The height in a cell without a return: every comparison with NaN is false.
 inline constexpr float kNoHeight_m = std::numeric_limits<float>::quiet_NaN();
 
-/// Points in the cells of a range image, ImageShape::cells() of each plane: those of a RangeImage,
-/// or made by FramePoints. Vehicle frame, metres.
+/// Points in the cells of a range image, one value per cell and plane; the planes are those of a
+/// RangeImage, or computed by FramePoints. Vehicle frame, metres.
 struct PointPlanes {
   const float *x_m, *y_m, *z_m, *ground_range_m;
-  /// Prefetches cells of a row, in parts too short for the processor to foresee.
+  /// Prefetches cells of a row: for ranges so short that the processor does not prefetch them
+  /// itself.
   void fetch(std::size_t begin, std::size_t end) const noexcept {
     constexpr std::size_t kCellsPerLine = 16;
     for (std::size_t cell = begin; cell < end; cell += kCellsPerLine) {

@@ -28,14 +28,14 @@ struct Return {
   std::uint8_t intensity = 0;
 };
 
-/// A return whose cell is owned by another (dual return, two firings in a column).
+/// A return whose cell is owned by another return (dual return, two firings in a column).
 struct OverflowReturn {
   Return point;
-  std::uint32_t cell = 0;          ///< The shared cell, row * stride + column.
+  std::uint32_t cell = 0;          ///< Index of the shared cell, row * stride + column.
   std::uint32_t return_index = 0;  ///< See RangeImage::return_index().
 };
 
-/// Rigid motions in the ground plane, one a column: x' = c x - s y + t_x and so on.
+/// Rigid motions in the ground plane, one per column: x' = c x - s y + t_x, y' = s x + c y + t_y.
 struct PlanarMotions {
   std::span<const float> cosine, sine, x_m, y_m;
 };
@@ -49,18 +49,18 @@ struct PlanarMotions {
 /// Thread contract: one writer until the frame is handed over, then readers only.
 class RangeImage {
  public:
-  /// `overflow_capacity` is the number of returns beyond one a cell that a frame may have.
+  /// `overflow_capacity` is the number of returns beyond one per cell that a frame may have.
   RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::FixedMemory& memory);
   /// Makes an image that keeps returns as measured, not as points: its planes and overflow list are
   /// empty, and place() is not used.
   RangeImage(ImageShape shape, MeasuredReturns measured) noexcept;
 
-  /// Returns the measured returns; null if they are kept as points.
+  /// Returns the measured returns; null if the image keeps points.
   [[nodiscard]] MeasuredReturns* measured() noexcept { return measured_ ? &*measured_ : nullptr; }
   [[nodiscard]] const MeasuredReturns* measured() const noexcept {
     return measured_ ? &*measured_ : nullptr;
   }
-  /// Returns all points, if measured() is null.
+  /// Returns all points; only valid if measured() is null.
   [[nodiscard]] PointPlanes points() const noexcept {
     return {x_m_.data(), y_m_.data(), z_m_.data(), ground_range_m_.data()};
   }
@@ -68,10 +68,11 @@ class RangeImage {
   /// Removes all returns. Real-time safe.
   void clear() noexcept TERRACUT_NONBLOCKING;
 
-  /// Puts a return into its cell. If that is taken, `owner` says which of the two keeps it (the
-  /// earlier if equal); the other goes to the overflow list. Returns are numbered in the order of
-  /// these calls. False when the overflow list is full: the return is not kept and the caller must
-  /// count it. row in [0, rows), column in [0, columns); coordinates are not NaN. Real-time safe.
+  /// Puts a return into its cell. If the cell is taken, `owner` says which of the two returns keeps
+  /// it (the earlier if equal); the other goes to the overflow list. Returns are numbered in the
+  /// order of these calls. False when the overflow list is full: the return is not kept and the
+  /// caller must count it. row in [0, rows), column in [0, columns); coordinates are not NaN.
+  /// Real-time safe.
   bool place(int row, int column, const Return& point,
              CellOwner owner = CellOwner::kFirstArrived) noexcept {
     if (!place_numbered(row, column, point, owner, returns_)) return false;
@@ -79,8 +80,8 @@ class RangeImage {
     return true;
   }
 
-  // The next functions are for returns placed in another order than they arrived: first take their
-  // numbers, then place them in any order.
+  // The next functions place returns in another order than they arrived: first take numbers for the
+  // returns, then place these in any order.
 
   /// True if the overflow list has room for `count` more returns.
   [[nodiscard]] bool has_room_for(std::size_t count) const noexcept {
@@ -103,26 +104,26 @@ class RangeImage {
     return true;
   }
 
-  /// True if the row has no return in this column or after it.
+  /// True if the row has no return in `column` or after it.
   [[nodiscard]] bool is_empty_from(int row, int column) const noexcept {
     return empty_from_[static_cast<std::size_t>(row)] <= column;
   }
-  /// The planes, starting at some cell.
+  /// Pointers into the planes at one cell.
   struct Cells {
     float *x_m, *y_m, *z_m, *ground_range_m;
     std::uint8_t* intensity;
     std::uint32_t* return_index;
   };
-  /// Returns the cells to write `count` adjacent returns to, whose numbers were taken, if the row
-  /// is_empty_from() the first column. A NaN height means no return.
+  /// Returns the cells to write `count` adjacent returns to, whose numbers were taken. The row must
+  /// be is_empty_from() the first column. Write a NaN height for no return.
   [[nodiscard]] Cells take_cells(int row, int column, int count) noexcept {
     empty_from_[static_cast<std::size_t>(row)] = column + count;
     const std::size_t cell = shape_.cell(row, column);
     return {&x_m_[cell],       &y_m_[cell],         &z_m_[cell], &ground_range_m_[cell],
             &intensity_[cell], &return_index_[cell]};
   }
-  /// Prefetches the cells of a row that will be written after those of all other rows: about a
-  /// cache line and a half from `column` on. Three frames do not fit the caches next to a core.
+  /// Prefetches the cells of a row that will be written after those of all other rows: about one
+  /// and a half cache lines from `column` on. Three frames do not fit the caches next to a core.
   void fetch_to_write(int row, int column) const noexcept {
     constexpr std::size_t kLineBytes = 64;
     const std::size_t cell = shape_.cell(row, column);
@@ -133,12 +134,12 @@ class RangeImage {
     }
   }
 
-  /// Moves all returns by the motion of their cell's row and column; cells and heights stay.
-  /// `by_row` has one element a row. Real-time safe.
+  /// Moves each return by the motion of its row and column; cells and heights stay. `by_row` has
+  /// one element per row. Real-time safe.
   void move(std::span<const PlanarMotions> by_row) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const ImageShape& shape() const noexcept { return shape_; }
-  /// Changes with every clear().
+  /// Returns a number that changes with every clear().
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
   [[nodiscard]] bool has_return(std::size_t cell) const noexcept { return !std::isnan(z_m_[cell]); }
   /// Returns the number of returns placed since clear(), overflow list included.
@@ -155,7 +156,7 @@ class RangeImage {
   [[nodiscard]] std::span<const float> z_m() const noexcept { return z_m_; }
   [[nodiscard]] std::span<const float> ground_range_m() const noexcept { return ground_range_m_; }
   [[nodiscard]] std::span<const std::uint8_t> intensity() const noexcept { return intensity_; }
-  /// Returns the number of each cell's return in the frame, from 0 in order of arrival.
+  /// Returns for each cell the number of its return in the frame, from 0 in order of arrival.
   [[nodiscard]] std::span<const std::uint32_t> return_index() const noexcept {
     return return_index_;
   }
@@ -191,7 +192,7 @@ class RangeImage {
   std::span<std::uint8_t> intensity_;
   std::span<std::uint32_t> return_index_;
   std::span<OverflowReturn> overflow_;
-  std::span<std::int32_t> empty_from_;  ///< Indexed by row.
+  std::span<std::int32_t> empty_from_;  ///< First column from which each row is empty.
   std::array<Plane, 6> planes_{};
   std::optional<MeasuredReturns> measured_;
 };

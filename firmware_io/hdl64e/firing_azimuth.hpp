@@ -14,11 +14,12 @@
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 
-/// Beam azimuths at the firing of each laser, in whole numbers, so that the decoder, the encoder
-/// and the truth beside a capture agree bit for bit on the frame and order of every return.
+/// Computes the azimuth of each laser's beam when it fires, in whole numbers, so that the decoder,
+/// the encoder and the truth beside a capture agree bit for bit on the frame and order of every
+/// return.
 ///
-/// A packet's column carries one azimuth for 64 lasers, that of the head at the column's first
-/// firing. While the lasers fire one group after another the head rotates on by almost a column:
+/// A column of a packet carries one azimuth for 64 lasers: the head's at the column's first firing.
+/// While the lasers fire one group after another the head rotates on by almost a column:
 ///
 ///   head at the firing of laser i = azimuth of its column + advance(i)
 ///   beam of laser i               = head at its firing    - rotational correction(i)
@@ -29,15 +30,16 @@
 /// and noexcept; any thread.
 namespace terracut::hdl64e {
 
-/// Returns how far the head rotates from column to column, ticks, from the packet's first and last
-/// azimuth (wire values, [0, 36000)). Exact: both divisors divide kTicksPerCdeg.
+/// Returns how far the head rotates from column to column, in ticks, from the packet's first and
+/// last azimuth as sent, [0, 36000). Exact: both divisors divide kTicksPerCdeg.
 [[nodiscard]] constexpr std::int32_t column_step_ticks(int first_cdeg, int last_cdeg,
                                                        bool dual_return = false) noexcept {
   const int columns = dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle;
   return beams::step_cdeg(first_cdeg, last_cdeg) * (packet::kTicksPerCdeg / (columns - 1));
 }
 
-/// The share of the column period after which laser 0..31 of a block fires, in 1 / 2^20.
+/// A share says after which part of the column period laser 0..31 of a block fires, in 1 / 2^20 of
+/// that period.
 inline constexpr int kFiringShareBits = 20;
 [[nodiscard]] constexpr std::array<std::int64_t, kLasersPerBlock> firing_shares(
     const FiringTimes& times) noexcept {
@@ -48,14 +50,14 @@ inline constexpr int kFiringShareBits = 20;
   }
   return shares;
 }
-/// Single return always uses the table of the 48 us cycle: the shares of the 57.6 us cycle differ
-/// by at most 0.013 of a step (0.002 degrees at 10 Hz), and which cycle a unit runs is known only
-/// after some packets, while the first packet needs an answer.
+/// Shares for single return, always those of the 48 us cycle. Which cycle a unit runs is known only
+/// after some packets, while the first packet needs an answer; the shares of the 57.6 us cycle
+/// differ by at most 0.013 of a step (0.002 degrees at 10 Hz).
 inline constexpr auto kFiringSharesSingle = firing_shares(kFiringTimesSingle48);
 inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
 
-/// Returns how far the head has rotated from its column's azimuth when `laser` (0..63) fires,
-/// ticks. `step_ticks` is column_step_ticks(), >= 0.
+/// Returns how far the head has rotated, in ticks, from its column's azimuth when `laser` (0..63)
+/// fires. `step_ticks` comes from column_step_ticks() and is >= 0.
 [[nodiscard]] constexpr std::int32_t firing_advance_ticks(std::int32_t step_ticks, int laser,
                                                           bool dual_return = false) noexcept {
   const auto& shares = dual_return ? kFiringSharesDual : kFiringSharesSingle;
@@ -63,12 +65,12 @@ inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
   return static_cast<std::int32_t>((step_ticks * share) >> kFiringShareBits);
 }
 
-/// Returns a laser's rotational correction in ticks, as all whole-number azimuths use it.
+/// Returns a laser's rotational correction in ticks, for all azimuths in whole numbers.
 [[nodiscard]] inline std::int32_t rot_correction_ticks(const Hdl64eLaser& laser) noexcept {
   return static_cast<std::int32_t>(std::lround(laser.rot_correction_rad / packet::kRadPerTick));
 }
 
-/// The offsets of all 64 beams of one unit.
+/// The azimuth offsets of all 64 beams of one unit from their column.
 class BeamOffsets {
  public:
   explicit BeamOffsets(const Hdl64eCalibration& calibration) noexcept {
@@ -85,7 +87,8 @@ class BeamOffsets {
     return firing_advance_ticks(step_ticks, laser, dual_return) -
            rot_ticks_[static_cast<std::size_t>(laser)];
   }
-  /// The offsets of all beams lie in [hindmost_ticks(), foremost_ticks()] for that step.
+  /// hindmost_ticks() and foremost_ticks() return limits of the offsets of all beams, both
+  /// included.
   [[nodiscard]] std::int32_t hindmost_ticks() const noexcept { return -most_rot_ticks_; }
   [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
     return step_ticks - least_rot_ticks_;

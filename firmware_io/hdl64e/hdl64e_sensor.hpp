@@ -23,11 +23,11 @@
 
 namespace terracut::hdl64e {
 
-/// The Decoder's trait of the HDL-64E.
+/// The trait of the HDL-64E for the Decoder.
 ///
-/// Single and dual return packets are told apart by their azimuths: in dual return each comes
+/// Tells single from dual return packets by their azimuths: in dual return each azimuth comes
 /// twice, for the strongest and the last return. Both returns of a firing are placed. Packets of an
-/// S1 are told by their blocks (s1_packet.hpp).
+/// S1 are recognised by their blocks (s1_packet.hpp).
 class Hdl64eSensor {
  public:
   using Calibration = Hdl64eCalibration;
@@ -61,7 +61,8 @@ class Hdl64eSensor {
   void begin_packet(const packet::PacketAzimuths& azimuths) noexcept {
     is_s1_packet_ = azimuths.columns == kColumnsPerPacketS1;
   }
-  /// Returns 0 for the S1: the head's rotation within a block is unknown.
+  /// Returns the head's step from firing to firing; 0 for the S1, whose rotation within a block is
+  /// unknown.
   [[nodiscard]] std::int32_t step_ticks(const packet::PacketAzimuths& azimuths,
                                         std::size_t) const noexcept {
     return is_s1_packet_ ? 0 : azimuths.step_ticks;

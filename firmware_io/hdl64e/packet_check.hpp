@@ -12,15 +12,16 @@
 
 namespace terracut::hdl64e {
 
-/// Limits of the head's motion inside a packet. The steps cover 69 to 3400 rpm at the 48 us cycle
-/// (the sensor spins at 300 to 1200); a backwards jitter is no step back.
-inline constexpr int kMinSweep_cdeg = 10;  ///< First to last column; less is a standing head.
+/// Limits of the head's motion inside a packet. The allowed steps are those of 69 to 3400 rpm at
+/// the 48 us cycle (the sensor spins at 300 to 1200); a small backwards jitter is allowed. From
+/// first to last column; with less the head stands still.
+inline constexpr int kMinSweep_cdeg = 10;
 inline constexpr int kMaxColumnStep_cdeg = 100;
-inline constexpr int kMaxJitter_cdeg = 5;  ///< Backwards, from column to column.
+inline constexpr int kMaxJitter_cdeg = 5;  ///< Largest backwards step from column to column.
 
 /// Checks that a payload is an HDL-64E S2, S2.1 or S3 data packet of a rotating head and reads its
-/// azimuths and stamp into `azimuths`; otherwise returns the reason to reject it. The checks, in
-/// this order:
+/// azimuths and stamp into `azimuths`; otherwise returns the reason to reject it. The checks are
+/// made in this order:
 ///
 ///   kWrongModel        another Velodyne's or a RoboSense's data packet, told by its block ids or
 ///                      size and leader (VLP-16, HDL-32E, VLP-32C: upper blocks only; VLS-128: four
@@ -30,8 +31,8 @@ inline constexpr int kMaxJitter_cdeg = 5;  ///< Backwards, from column to column
 ///   kAzimuthOutOfRange, kAzimuthMismatch (of a pair), kAzimuthJump (steps beyond those above)
 ///   kStationary
 ///
-/// For the azimuth reasons and kStationary `azimuths` holds stamp and azimuths as well, as far as
-/// they exist. Real-time safe; any thread.
+/// If the reason is kStationary or one of the azimuth reasons, `azimuths` also holds the stamp and
+/// azimuths, as far as they exist. Real-time safe; any thread.
 [[nodiscard]] std::optional<frame::Reject> check_hdl64e_packet(
     std::span<const std::uint8_t> payload,
     packet::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;

@@ -14,15 +14,15 @@
 
 namespace terracut::hdl64e {
 
-/// Converts measured distances of one laser to points of the vehicle frame: the formulas of
-/// Hdl64eGeometry and mount::Mount in float, for the firings of a tile in one loop that compilers
-/// vectorise. Agrees with those double functions to within 1 mm + 1e-6 of the range.
+/// Converts measured distances of one laser to points of the vehicle frame by the formulas of
+/// Hdl64eGeometry and mount::Mount, in float: one loop, which compilers vectorise, for all firings
+/// of a tile. Agrees with these functions in double to within 1 mm + 1e-6 of the range.
 ///
-/// Only +, -, *, sqrt, min and abs are used per point, so that every machine gets the same bits;
-/// the constants behind them are made in double at start. Sines and cosines of the head's azimuth,
-/// of its advance and of the laser's rotational correction are combined by the addition theorems.
+/// Uses only +, -, *, sqrt, min and abs per point, so that every machine gets the same bits; the
+/// constants are computed in double at start. Sines and cosines of the head's azimuth, of its
+/// advance and of the laser's rotational correction are combined by the addition theorems.
 ///
-/// Real-time safe but for the constructor. One thread.
+/// Real-time safe except for the constructor. One thread.
 class PointKernel {
  public:
   static constexpr auto kLasers = static_cast<std::size_t>(kHdl64eLasers);
@@ -30,7 +30,8 @@ class PointKernel {
   PointKernel(const Hdl64eCalibration& calibration, GeometryModel model,
               const mount::Mount& mount) noexcept;
 
-  /// `heads` are of the laser's group. `measured_m` are wire distances, NaN for no return.
+  /// Computes the points of a laser. `heads` are those of the laser's group, `measured_m` its wire
+  /// distances in metres, NaN for no return.
   void compute(std::size_t laser, const packet::LaserHeads& heads,
                const frame::TileRow<float>& measured_m,
                const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
@@ -42,8 +43,8 @@ class PointKernel {
     float horiz_m, xy_start_m, z_start_m;
   };
 
-  /// All it reads and writes is passed as a parameter, for __restrict: without it the loop is not
-  /// vectorised in clones.
+  /// Everything that this function reads and writes is a parameter, so that it can be __restrict:
+  /// otherwise the loop is not vectorised in clones.
   void compute(const Laser& __restrict laser, const float* __restrict sin_rotor,
                const float* __restrict cos_rotor, const float* __restrict sin_advance,
                const float* __restrict cos_advance, const float* __restrict measured_m,

@@ -11,18 +11,19 @@
 
 namespace terracut::hdl64e {
 
-/// Reads the packets of one HDL-64E S1 and replaces the clock that it lacks, so that they are
-/// ordered and counted like another sensor's. A packet's number grows by the head's rotation since
-/// the last one over the rotation in one packet: exact up to a revolution. Whole missing
-/// revolutions are told by the host's stamps. The stamp is the number times the packets' period.
+/// Reads the packets of one HDL-64E S1 and makes up the device stamps that it does not send, so
+/// that its packets are ordered and counted like those of other sensors. The number of a packet
+/// grows by the head's rotation since the last packet over the rotation in one packet: exact up to
+/// whole revolutions, which the host's stamps tell. The stamp is the number times the packet
+/// period.
 ///
 /// Packets lost while the head stands still are not noticed.
 ///
 /// One stream, one thread. noexcept, O(1).
 class S1Reader {
  public:
-  /// Does check_hdl64e_s1_packet() for a packet that came at `host_ns`, and sets its stamp: that of
-  /// the next packet if the azimuths tell nothing.
+  /// Does check_hdl64e_s1_packet() for a packet that came at `host_ns`, and sets its stamp: if its
+  /// azimuths tell nothing, that of the next packet.
   [[nodiscard]] std::optional<frame::Reject> read(const wire::Packet& packet, std::int64_t host_ns,
                                                   packet::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;
@@ -45,7 +46,8 @@ class S1Reader {
   std::int64_t packet_ = 0;
   std::int32_t azimuth_cdeg_ = 0;
   std::int64_t host_ns_ = 0;
-  std::int64_t paces_ticks_ = 0, paces_ = 0;  ///< Over some hundred packets: marks are coarse.
+  /// Sums over some hundred packets, because marks are coarse.
+  std::int64_t paces_ticks_ = 0, paces_ = 0;
 };
 
 }  // namespace terracut::hdl64e

@@ -10,9 +10,9 @@
 
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
 
-/// The last two bytes of each HDL-64E packet: a type letter and a value (HDL-64E S3 manual Rev K,
-/// pp. 32-38; docs/reference/sensors.md). 16 packets make a cycle: nine values of the unit, then
-/// seven bytes of a table; 260 cycles make a round, after which the table begins again.
+/// The last two bytes of each HDL-64E packet hold a type letter and a value (HDL-64E S3 manual Rev
+/// K, pp. 32-38; docs/reference/sensors.md). 16 packets make a cycle: nine values about the unit,
+/// then seven bytes of a table; 260 cycles make a round, after which the table begins again.
 namespace terracut::hdl64e {
 
 struct StatusPair {
@@ -36,8 +36,8 @@ static_assert(kStatusLetters.size() == kFirstTablePlace);
 /// Type of the warning byte between two lasers' entries on the S3; the S2 sends '1' there.
 inline constexpr std::uint8_t kWarningType = 'W';
 
-/// Returns the place 0..15 in the cycle of a type letter; nothing for types that do not tell (the
-/// S3 sends 0xF8..0xFF for some bytes of the table's last groups).
+/// Returns the place, 0..15 in the cycle, of a type letter; nothing for a type that has no fixed
+/// place (the S3 sends 0xF8..0xFF for some bytes of the table's last groups).
 [[nodiscard]] constexpr std::optional<int> status_place(std::uint8_t type) noexcept {
   if (type >= '1' && type <= '7') {
     return kFirstTablePlace + (type - '1');
@@ -53,7 +53,7 @@ inline constexpr std::uint8_t kWarningType = 'W';
   return std::nullopt;
 }
 
-/// The generation of a status stream; the S3 is known by its 'W'.
+/// The generation of the unit that sends a status stream; only the S3 sends 'W'.
 enum class StatusFlavour : std::uint8_t { kS2, kS3 };
 
 }  // namespace terracut::hdl64e

@@ -7,21 +7,23 @@
 
 namespace terracut::hdl64e {
 
-/// Counts the packets of a status stream through losses, repeats and reordering.
+/// Numbers the packets of a status stream, whatever is lost, repeated or reordered.
 ///
 /// The device stamp tells how many packet periods have passed since the newest packet, the type
-/// letter tells the packet's place among the 16 of the cycle; together they number every packet
-/// exactly across gaps of several hundred packets. The period is measured from neighbouring
-/// packets, so every return mode works. Nothing allocates or throws.
+/// letter the packet's place among the 16 of its cycle; together they give every packet its number,
+/// exactly across gaps of several hundred packets. The period is measured from adjacent packets, so
+/// every return mode works. Nothing allocates or throws.
 class StatusPosition {
  public:
   struct Located {
-    std::int64_t packet = 0;  ///< Modulo 16 the place in the cycle; divided by 16 the cycle.
-    bool restarted = false;   ///< The count began again: earlier numbers are no longer valid.
+    /// Number of the packet: modulo 16 its place in the cycle, divided by 16 the cycle.
+    std::int64_t packet = 0;
+    /// True if the count began again: earlier numbers are no longer valid.
+    bool restarted = false;
   };
 
   /// Returns the packet's number; nothing for a repeated packet or one that cannot be placed yet.
-  /// `place` is status_place()'s, nothing if the type does not tell.
+  /// `place` comes from status_place(): nothing if the type has no fixed place.
   [[nodiscard]] std::optional<Located> locate(std::optional<int> place,
                                               std::uint32_t stamp_us) noexcept;
 

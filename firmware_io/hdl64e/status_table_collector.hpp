@@ -12,33 +12,35 @@
 namespace terracut::hdl64e {
 
 /// Assembles the table of the status stream from its bytes, which may come in any order and with
-/// holes. The caller knows at which cycle of the stream a byte was sent; where the table begins
-/// among the 260 cycles is found here, from its first bytes "UNIT#".
+/// holes. The caller knows in which cycle of the stream a byte was sent; in which of the 260 cycles
+/// the table begins is found here, from its first bytes "UNIT#".
 ///
 /// A table is accepted if it has no holes, its laser numbers are in their places, and either its
-/// CRC is right (S3) or every laser byte was the same twice in a row (S2, which has no CRC). All
-/// memory is inside the object; nothing allocates or throws.
+/// CRC is right (S3) or every laser byte came with the same value twice in a row (S2, which has no
+/// CRC). The object contains all its memory; nothing allocates or throws.
 class StatusTableCollector {
  public:
   using Table = std::array<std::uint8_t, kStreamTableBytes>;
 
-  /// Takes one byte: `cycle` counts cycles since any start, `place` is 0..6.
+  /// Takes one byte: `cycle` is the number of its cycle, counted from any start, `place` its place
+  /// 0..6 in the cycle.
   void add(std::int64_t cycle, int place, std::uint8_t value) noexcept;
 
-  /// Drops the bytes, keeps the last accepted table.
+  /// Drops the bytes collected, but keeps the table accepted last.
   void clear() noexcept;
 
-  /// Returns the number of holes left; the table's size until its beginning was seen.
+  /// Returns the number of bytes missing; the table's size until its beginning was seen.
   [[nodiscard]] std::size_t holes() const noexcept;
 
   /// True if `cycle` is the first of a round; false while the beginning is unknown.
   [[nodiscard]] bool starts_round(std::int64_t cycle) const noexcept;
 
-  /// Tests the bytes present and accepts the table if it is right; `has_crc` for an S3. Does
-  /// nothing while holes remain. Costs a few microseconds, and only if bytes have changed.
+  /// Tests the bytes present and accepts the table if it is right; `has_crc` is true for an S3.
+  /// Does nothing while holes remain. Takes a few microseconds, and only if bytes have changed.
   void try_accept(bool has_crc) noexcept;
 
-  /// Return whether a table was accepted, the table, and how many different ones were.
+  /// These return whether a table was accepted, the table, and how many different ones were
+  /// accepted.
   [[nodiscard]] bool accepted() const noexcept { return generation_ != 0; }
   [[nodiscard]] const Table& table() const noexcept { return accepted_; }
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
@@ -51,9 +53,9 @@ class StatusTableCollector {
   /// Returns the index of byte `i` of the table in the arrays below.
   [[nodiscard]] std::size_t at(std::size_t i) const noexcept;
 
-  // By cycle modulo 260, seven bytes each; `anchor_` is the cycle that holds "UNIT#".
+  // Indexed by cycle modulo 260, seven bytes each; `anchor_` is the cycle that holds "UNIT#".
   Table bytes_{};
-  Table seen_{};  ///< Times in a row that the byte had this value: 0 is a hole, 2 is 2 or more.
+  Table seen_{};  ///< How often in a row the byte had this value: 0 is a hole, 2 means 2 or more.
   std::size_t missing_ = kStreamTableBytes;
   int anchor_ = kNoAnchor;
   bool changed_ = false;  ///< True if a byte changed since the last test.

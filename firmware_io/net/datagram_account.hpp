@@ -9,7 +9,7 @@
 
 namespace terracut::net {
 
-/// Accounts for the datagrams of a live run. At any time each is in exactly one place:
+/// Accounts for the datagrams of a live run. At any time each datagram is counted exactly once:
 ///
 ///   source.received = source.foreign + source.other_interface + source.truncated
 ///                     + source.no_datagram    the source left them out
@@ -22,8 +22,8 @@ namespace terracut::net {
 ///                                             losses.overflow_full_returns
 ///
 /// status::outcomes_of() lists these terms, except in_doubt, which is no counter. Datagrams that
-/// never reached this process are in none of them: source.kernel_drops and
-/// losses.network_gap_packets.
+/// never reached this process are in none of the terms: source.kernel_drops and
+/// losses.network_gap_packets count these.
 struct DatagramAccount {
   ReceiveCounters source;
   std::uint64_t let_go = 0;

@@ -6,13 +6,13 @@
 
 namespace terracut::net {
 
-/// Turns a 32-bit count that the kernel keeps and wraps (SO_RXQ_OVFL, SO_MEMINFO, pcap_stats) into
-/// the increase since the last look. The count may be read in two ways of which one lags: a reading
-/// behind the newest adds nothing, instead of four thousand million.
+/// Converts a 32-bit count that the kernel keeps and wraps (SO_RXQ_OVFL, SO_MEMINFO, pcap_stats)
+/// into the increase since the last reading. If the count is read in two ways, one may lag: a
+/// reading below the newest adds nothing, instead of four thousand million.
 class DropCounter {
  public:
-  /// Returns the increase since the newest reading; 0 for an older one. Exact while fewer than 2^31
-  /// drops lie between two readings.
+  /// Returns the increase since the newest reading; 0 for an older one. Exact as long as fewer than
+  /// 2^31 drops lie between two readings.
   [[nodiscard]] std::uint32_t advance_to(std::uint32_t reading) noexcept {
     const std::uint32_t step = reading - newest_;
     if (step >= std::uint32_t{1} << 31) return 0;
@@ -20,7 +20,7 @@ class DropCounter {
     return step;
   }
 
-  /// Tells that the kernel's count starts again from 0: a new socket.
+  /// Notes that the kernel's count starts again from 0, because the socket is new.
   void restart() noexcept { newest_ = 0; }
 
  private:

@@ -14,18 +14,18 @@
 
 namespace terracut::net {
 
-/// Address and port of one end of a UDP stream, host byte order.
+/// Address and port of one end of a UDP stream, in host byte order.
 struct Ipv4Endpoint {
-  std::uint32_t address = 0;  ///< 0: any.
-  std::uint16_t port = 0;     ///< 0: chosen by the system.
+  std::uint32_t address = 0;  ///< IPv4 address; 0: any.
+  std::uint16_t port = 0;     ///< UDP port; 0: chosen by the system.
 
   friend bool operator==(const Ipv4Endpoint&, const Ipv4Endpoint&) = default;
 };
 
-/// The sender of a UDP stream.
+/// Address and port of the sender of a UDP stream.
 struct Sender {
-  std::uint32_t address = 0;            ///< IPv4, host byte order.
-  std::optional<std::uint16_t> port{};  ///< None: any port.
+  std::uint32_t address = 0;            ///< IPv4 address, host byte order.
+  std::optional<std::uint16_t> port{};  ///< UDP port; empty: any.
 
   [[nodiscard]] constexpr bool has_sent(std::uint32_t from_address,
                                         std::uint16_t from_port) const noexcept {
@@ -34,14 +34,15 @@ struct Sender {
   friend bool operator==(const Sender&, const Sender&) = default;
 };
 
-/// Parses "192.168.3.43". kInvalidArgument for anything else, including host names.
+/// Parses "192.168.3.43". Fails with kInvalidArgument for anything else, including host names.
 [[nodiscard]] Expected<std::uint32_t> parse_ipv4_address(std::string_view text);
 
-/// Parses "192.168.3.43:2368", or ":2368" and "2368" for any address. kInvalidArgument, with what
-/// was expected, for anything else.
+/// Parses "192.168.3.43:2368", or ":2368" and "2368" for any address. Fails with kInvalidArgument
+/// for anything else; the message says what was expected.
 [[nodiscard]] Expected<Ipv4Endpoint> parse_ipv4_endpoint(std::string_view text);
 
-/// Parses "192.168.3.43:2368", or "192.168.3.43" for any port. kInvalidArgument for anything else.
+/// Parses "192.168.3.43:2368", or "192.168.3.43" for any port. Fails with kInvalidArgument for
+/// anything else.
 [[nodiscard]] Expected<Sender> parse_ipv4_sender(std::string_view text);
 
 [[nodiscard]] std::string ipv4_text(std::uint32_t address);
@@ -49,12 +50,12 @@ struct Sender {
 /// Returns the text that parse_ipv4_sender() reads.
 [[nodiscard]] std::string to_string(const Sender& sender);
 
-/// True for 224.0.0.0 .. 239.255.255.255.
+/// True for a multicast address, 224.0.0.0 to 239.255.255.255.
 [[nodiscard]] constexpr bool is_multicast(std::uint32_t address) noexcept {
   return address >> 28 == 0xE;
 }
 
-/// Converts an endpoint for the system's calls.
+/// Converts an endpoint to the form that system calls take.
 [[nodiscard]] sockaddr_in socket_address(const Ipv4Endpoint& endpoint) noexcept
     TERRACUT_NONBLOCKING;
 [[nodiscard]] Ipv4Endpoint endpoint_of(const sockaddr_in& address) noexcept TERRACUT_NONBLOCKING;

@@ -26,22 +26,22 @@ namespace terracut::net {
 struct LivePcapConfig {
   std::string interface{};
   std::optional<std::uint16_t> port{};  ///< UDP destination port.
-  std::optional<Sender> sender{};       ///< The only sender; others count as foreign.
+  std::optional<Sender> sender{};       ///< The only sender accepted; others count as foreign.
 
-  std::size_t batch = kBatchDatagrams;  ///< The most datagrams a receive() returns, > 0.
-  std::size_t slot_bytes = 1536;        ///< The longest payload taken, > 0.
+  std::size_t batch = kBatchDatagrams;  ///< The most datagrams that receive() returns, > 0.
+  std::size_t slot_bytes = 1536;        ///< The longest payload accepted, > 0.
 };
 
-/// Receives UDP datagrams on an interface with libpcap where a socket does not get them: the sensor
-/// sends to another machine's address, a firewall is in the way, or another program holds the port.
-/// A DatagramSource (receive_counters.hpp); needs CAP_NET_RAW.
+/// Receives UDP datagrams on an interface with libpcap, for cases in which a socket does not get
+/// them: the sensor sends to another machine's address, a firewall is in the way, or another
+/// program holds the port. A DatagramSource (receive_counters.hpp); needs CAP_NET_RAW.
 ///
-/// All memory is taken in open(). If the interface goes away, receive() returns empty and tries
-/// twice a second to open it again; only then it allocates.
+/// open() takes all memory. If the interface goes away, receive() returns empty and tries twice a
+/// second to open the interface again; only this allocates.
 class LivePcapSource {
  public:
-  /// kNotFound: no such interface. kUnreadable: not permitted, or the interface is down.
-  /// kUnsupported: a link layer without IP.
+  /// Opens the interface. Fails with kNotFound if there is none of this name, kUnreadable if not
+  /// permitted or the interface is down, kUnsupported for a link layer without IP.
   [[nodiscard]] static Expected<LivePcapSource> open(LivePcapConfig config,
                                                      memory::FixedMemory& memory);
 
@@ -49,11 +49,11 @@ class LivePcapSource {
       TERRACUT_NONBLOCKING;
   void wake() const noexcept { wake_.wake(); }
 
-  /// Accepts only this sender from now on; others count as foreign. To be called from the receiving
+  /// Accepts only `sender` from now on; others count as foreign. To be called on the receiving
   /// thread.
   void accept_only(const Sender& sender) noexcept { config_.sender = sender; }
 
-  /// Returns the counters. kernel_drops is as of the last refresh_drops(), which receive() calls
+  /// Returns the counters. kernel_drops is that of the last refresh_drops(), which receive() calls
   /// after every full batch and when nothing came for a while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
   void refresh_drops() noexcept TERRACUT_NONBLOCKING;
@@ -78,9 +78,9 @@ class LivePcapSource {
 
   LivePcapConfig config_;
   threads::WakeEvent wake_;
-  files::OwnedDescriptor probe_;  ///< An idle socket for asking about interfaces.
+  files::OwnedDescriptor probe_;  ///< An idle socket, used to ask the kernel about interfaces.
   Handle handle_;
-  int descriptor_ = -1;  ///< The handle's descriptor, to wait for.
+  int descriptor_ = -1;  ///< Descriptor of the libpcap handle, to wait for.
   int link_type_ = 0;
   int interface_index_ = 0;
   std::int64_t stamp_unit_ns_ = 1;

@@ -19,19 +19,19 @@ namespace terracut::net {
 /// Where to listen for packets.
 struct ListenConfig {
   Ipv4Endpoint at{.port = 2368};
-  bool by_libpcap = false;                       ///< Listens with libpcap instead of a socket.
-  std::string interface;                         ///< Empty: any; libpcap needs one.
-  std::optional<std::uint32_t> multicast_group;  ///< The group to join.
+  bool by_libpcap = false;  ///< True: listens with libpcap instead of a socket.
+  std::string interface;    ///< Name of the interface; empty: any. libpcap needs one.
+  std::optional<std::uint32_t> multicast_group;  ///< The multicast group to join; empty: none.
   bool share_port = false;
-  std::optional<Sender> sender;  ///< The only sender; others count as foreign.
+  std::optional<Sender> sender;  ///< The only sender accepted; others count as foreign.
 };
 
-/// A source of live datagrams: a socket or libpcap. A DatagramSource
+/// Receives live datagrams, by a socket or by libpcap. A DatagramSource
 /// (firmware_io/net/receive_counters.hpp).
 class LiveSource {
  public:
-  /// Errors: kInvalidArgument for libpcap without an interface; otherwise errors of
-  /// UdpSource::open() and LivePcapSource::open().
+  /// Opens the source. Fails with kInvalidArgument for libpcap without an interface; otherwise as
+  /// UdpSource::open() or LivePcapSource::open() does.
   [[nodiscard]] static Expected<LiveSource> open(const ListenConfig& config,
                                                  memory::FixedMemory& memory);
 
@@ -48,24 +48,24 @@ class LiveSource {
   void refresh_drops() noexcept TERRACUT_NONBLOCKING {
     if (udp_) return udp_->refresh_drops();
     threads::trusted_call(
-        [&]() noexcept { pcap_->refresh_drops(); });  // only asks the kernel for a count
+        [&]() noexcept { pcap_->refresh_drops(); });  // this only asks the kernel for a count
   }
   [[nodiscard]] LinkState link() const noexcept TERRACUT_NONBLOCKING {
     return udp_ ? udp_->link() : pcap_->link();
   }
   /// Returns roughly how many packets the system keeps until they are fetched.
   [[nodiscard]] std::size_t room_packets() const noexcept {
-    constexpr std::size_t kOfLibpcap = 4096;  // its ring has 8 MiB
+    constexpr std::size_t kOfLibpcap = 4096;  // the ring of libpcap has 8 MiB
     return udp_ ? udp_->room_packets() : kOfLibpcap;
   }
-  /// Accepts only this sender from now on; others count as foreign.
+  /// Accepts only `sender` from now on; others count as foreign.
   void accept_only(const Sender& sender) noexcept {
     udp_ ? udp_->accept_only(sender) : pcap_->accept_only(sender);
   }
 
   /// Names the source for people: "0.0.0.0:2368", "port 2368 on eth0 by libpcap".
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  /// Lists what was granted only in part.
+  /// Lists requests to the system that were granted only in part.
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
  private:
@@ -76,7 +76,7 @@ class LiveSource {
   [[nodiscard]] static Expected<LiveSource> open_pcap(LivePcapConfig config,
                                                       memory::FixedMemory& memory);
 
-  std::optional<UdpSource> udp_;  ///< Exactly one of the two is set.
+  std::optional<UdpSource> udp_;  ///< Set for a socket; otherwise the next member is set.
   std::optional<LivePcapSource> pcap_;
   std::string name_;
   std::vector<std::string> warnings_;

@@ -11,19 +11,20 @@
 
 namespace terracut::net {
 
-/// The kernel's state of an interface. An adapter that is pulled and put back keeps its name but
-/// gets another index.
+/// The state of an interface as the kernel reports it. An adapter that is pulled and put back keeps
+/// its name but gets another index.
 struct InterfaceStatus {
   LinkState state = LinkState::kGone;
-  int index = 0;  ///< 0 when gone.
+  int index = 0;  ///< Index of the interface; 0 if it is gone.
 };
 
-/// Asks the kernel. `socket` is any socket. Allocates nothing, does not block.
+/// Asks the kernel for the state of `name`. `socket` is any socket. Allocates nothing, does not
+/// block.
 [[nodiscard]] InterfaceStatus interface_status(int socket, const std::string& name) noexcept
     TERRACUT_NONBLOCKING;
 
-/// Returns kNotFound with the interfaces there are: "no such interface 'eth1'; there are: lo,
-/// eth0".
+/// Returns a kNotFound error that lists the interfaces there are: "no such interface 'eth1'; there
+/// are: lo, eth0".
 [[nodiscard]] Error no_such_interface(const std::string& name);
 
 /// The longest name of an interface.

@@ -13,38 +13,40 @@
 
 namespace terracut::net {
 
-/// How much of the newest traffic to keep.
+/// Size of a ring that keeps the newest traffic.
 struct PacketRingSize {
   std::size_t datagrams = 0;
-  std::size_t payload_bytes = 0;  ///< For all datagrams together; each is rounded up to 8 bytes.
+  /// Bytes for all payloads together; each payload is rounded up to 8 bytes.
+  std::size_t payload_bytes = 0;
 };
 
-/// Returns the room for `seconds` at `packets_per_second` packets of `packet_bytes`, plus an eighth
-/// for the sensor's other packets and for clocks that run apart. std::invalid_argument unless all
-/// are greater than 0 and the whole stays below 64 GiB.
+/// Returns the size for `seconds` at `packets_per_second` packets of `packet_bytes`, plus an eighth
+/// for the sensor's other packets and for clocks that run apart. Throws std::invalid_argument
+/// unless all are greater than 0 and the whole stays below 64 GiB.
 [[nodiscard]] PacketRingSize packet_ring_size(double seconds, double packets_per_second,
                                               std::size_t packet_bytes);
 
-/// A copy of a PacketRing's content at one moment, oldest datagram first, in its own memory. It has
-/// no gaps: if a datagram was overwritten before it was copied, those before it are left out as
-/// well.
+/// A copy of a PacketRing's content at one moment, oldest datagram first, in its own memory. The
+/// copy has no gaps: if a datagram was overwritten before it was copied, those before it are left
+/// out, too.
 class PacketWindow {
  public:
-  /// Takes room for any window of a ring of this size, under "flight recorder window".
+  /// Takes memory for any window of a ring of this size; `terracut plan` lists it as "flight
+  /// recorder window".
   PacketWindow(const PacketRingSize& size, memory::FixedMemory& memory);
 
   [[nodiscard]] std::size_t datagrams() const noexcept { return datagrams_; }
-  /// Returns the n-th datagram from the oldest; its payload points into the window.
+  /// Returns datagram number n, counted from the oldest; its payload points into the window.
   [[nodiscard]] packet::Datagram datagram(std::size_t n) const noexcept;
   [[nodiscard]] std::uint64_t payload_bytes() const noexcept { return payload_bytes_; }
-  /// Returns how many datagrams of the ring are missing here, because they, or a later one, were
-  /// overwritten before they were copied.
+  /// Returns how many datagrams of the ring are missing in this window, because they, or later
+  /// ones, were overwritten before they were copied.
   [[nodiscard]] std::uint64_t overwritten() const noexcept { return overwritten_; }
 
  private:
   friend class PacketRing;
   struct Header {
-    packet::Datagram datagram;  ///< Without its payload.
+    packet::Datagram datagram;  ///< The datagram without its payload.
     std::size_t first_word = 0;
     std::size_t bytes = 0;
   };
@@ -75,15 +77,16 @@ class PacketWindow {
 /// stores are plain moves.
 class PacketRing {
  public:
-  /// Takes all memory, under "flight recorder ring". std::invalid_argument for a size of 0.
+  /// Takes all memory; `terracut plan` lists it as "flight recorder ring". Throws
+  /// std::invalid_argument for a size of 0.
   PacketRing(const PacketRingSize& size, memory::FixedMemory& memory);
 
-  /// To be called from the writer thread only. Wait-free, bounded by the payload's length;
+  /// Adds a datagram; for the writer thread only. Wait-free, bounded by the payload's length;
   /// allocates nothing. Leaves out a payload longer than the whole ring.
   void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
 
-  /// Copies the ring while the writer goes on; one reader thread. Allocates nothing. `window` must
-  /// be of this size.
+  /// Copies the ring into `window`, whose size must be the ring's, while the writer goes on; for
+  /// one reader thread. Allocates nothing.
   void copy_to(PacketWindow& window) const noexcept;
 
   /// Returns how many datagrams were added since construction, overwritten ones included. Any
@@ -103,14 +106,14 @@ class PacketRing {
   std::span<Header> headers_;
   std::span<std::uint64_t> words_;
 
-  // Used by the writer alone.
-  std::uint64_t next_ = 0;                             ///< Number of the next datagram.
-  std::uint64_t next_word_ = 0;                        ///< Where its payload begins.
+  // Used by the writer only.
+  std::uint64_t next_ = 0;       ///< Number of the next datagram.
+  std::uint64_t next_word_ = 0;  ///< Where the payload of the next datagram begins.
   std::size_t next_header_at_ = 0, next_word_at_ = 0;  ///< next_ and next_word_ modulo the ring.
 
-  std::atomic<std::uint64_t> announced_{0};        ///< Datagrams begun.
-  std::atomic<std::uint64_t> announced_words_{0};  ///< Words given to them.
-  std::atomic<std::uint64_t> published_{0};        ///< Datagrams complete.
+  std::atomic<std::uint64_t> announced_{0};        ///< Number of datagrams begun.
+  std::atomic<std::uint64_t> announced_words_{0};  ///< Number of words given to datagrams begun.
+  std::atomic<std::uint64_t> published_{0};        ///< Number of datagrams complete.
 };
 
 }  // namespace terracut::net

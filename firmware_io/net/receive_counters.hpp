@@ -15,20 +15,22 @@ namespace terracut::net {
 /// Counts what a live source received. received == delivered + foreign + other_interface +
 /// truncated + no_datagram.
 struct ReceiveCounters {
-  std::uint64_t received = 0;         ///< Datagrams (frames, for libpcap) from the kernel.
-  std::uint64_t delivered = 0;        ///< Returned by receive().
-  std::uint64_t foreign = 0;          ///< From another sender than the configured one.
-  std::uint64_t other_interface = 0;  ///< From another interface than the configured one.
-  std::uint64_t truncated = 0;        ///< Longer than a slot, so of no known sensor.
-  std::uint64_t no_datagram = 0;      ///< Captured frames without a whole IPv4 UDP datagram.
+  std::uint64_t received = 0;   ///< Datagrams (for libpcap, frames) received from the kernel.
+  std::uint64_t delivered = 0;  ///< Datagrams returned by receive().
+  std::uint64_t foreign = 0;    ///< Datagrams from a sender other than the configured one.
+  /// Datagrams from an interface other than the configured one.
+  std::uint64_t other_interface = 0;
+  std::uint64_t truncated = 0;    ///< Datagrams longer than a slot, so of no known sensor.
+  std::uint64_t no_datagram = 0;  ///< Captured frames without a whole IPv4 UDP datagram.
 
-  std::uint64_t kernel_drops = 0;    ///< Dropped by the kernel: buffer full or wrong UDP checksum.
-  std::uint64_t unstamped = 0;       ///< Without a kernel stamp; the time of reading was taken.
-  std::uint64_t receive_errors = 0;  ///< Without a kernel stamp; stamped when read.
+  /// Datagrams dropped by the kernel: buffer full or wrong UDP checksum.
+  std::uint64_t kernel_drops = 0;
+  std::uint64_t unstamped = 0;  ///< Datagrams without a kernel stamp; they were stamped when read.
+  std::uint64_t receive_errors = 0;  ///< Reads that failed.
   std::uint64_t link_losses = 0;     ///< Times the configured interface was found down or gone.
   std::uint64_t reopened = 0;        ///< Times the interface was replaced by one of the same name.
 
-  /// Subtracts the counters of an earlier moment.
+  /// Subtracts counters taken at an earlier moment.
   ReceiveCounters& operator-=(const ReceiveCounters& before) noexcept TERRACUT_NONBLOCKING {
     received -= before.received;
     delivered -= before.delivered;
@@ -45,11 +47,11 @@ struct ReceiveCounters {
   }
 };
 
-/// The state of the configured interface; kUnknown without one.
+/// The state of the configured interface; kUnknown if none is configured.
 enum class LinkState : std::uint8_t { kUnknown, kUp, kDown, kGone };
 
-/// The most datagrams that a source takes at once by default: an HDL-64E sends 70 in 20 ms. If
-/// fewer came, counting those left out, none was left waiting.
+/// The most datagrams that a source fetches at once by default: an HDL-64E sends 70 in 20 ms. If
+/// fewer were fetched, counting those left out, no others were waiting.
 inline constexpr std::size_t kBatchDatagrams = 64;
 
 /// The interface of UdpSource and LivePcapSource, for code that takes either:

@@ -30,33 +30,35 @@
 namespace terracut::net {
 
 struct UdpSourceConfig {
-  /// The address and port that the sensor sends to. Leave the address 0 unless only one of the
-  /// machine's own is wanted: a socket bound to an address gets no broadcasts, and an HDL-64E
-  /// broadcasts until told otherwise. Port 0 lets the system choose, see UdpSource::local().
+  /// The address and port that the sensor sends to. Leave the address 0 unless only one of this
+  /// machine's addresses is to be used: a socket bound to an address gets no broadcasts, and an
+  /// HDL-64E broadcasts until configured otherwise. Port 0 lets the system choose (see
+  /// UdpSource::local()).
   Ipv4Endpoint bind{};
-  std::optional<std::uint32_t> multicast_group{};  ///< Joined on `interface`, else by the routes.
-  std::string interface{};                         ///< The only interface; empty: any.
-  std::optional<Sender> sender{};                  ///< The only sender; others count as foreign.
+  /// Group to join, on `interface` if set, else by the routes.
+  std::optional<std::uint32_t> multicast_group{};
+  std::string interface{};         ///< The only interface to receive on; empty: any.
+  std::optional<Sender> sender{};  ///< The only sender accepted; others count as foreign.
   /// Lets other sockets with the same option bind the port as well. Each then gets a copy of
   /// broadcasts and multicasts; a datagram to one address goes to only one of them.
   bool share_port = false;
 
   std::size_t receive_buffer_bytes = 8U << 20;  ///< About 7000 packets: 1.2 s of a Ruby128.
-  std::size_t batch = kBatchDatagrams;          ///< The most datagrams a receive() returns, > 0.
-  std::size_t slot_bytes = 1536;  ///< The longest payload taken, > 0; one Ethernet frame.
+  std::size_t batch = kBatchDatagrams;          ///< The most datagrams that receive() returns, > 0.
+  std::size_t slot_bytes = 1536;  ///< The longest payload accepted, > 0; one Ethernet frame.
 };
 
 /// Receives UDP datagrams over IPv4, many for one system call, with the kernel's time stamps and
 /// its count of drops. A DatagramSource (receive_counters.hpp).
 ///
-/// All memory is taken in open(); receive() never allocates, throws or waits longer than told. If
-/// an interface goes down, or goes away and comes back under its name, receive() returns empty,
-/// looks for it twice a second, opens the socket again when it can, and counts.
+/// open() takes all memory; receive() never allocates, throws or waits longer than told. If an
+/// interface goes down, or goes away and comes back under its name, receive() returns empty, looks
+/// for the interface twice a second, opens the socket again when possible, and counts.
 class UdpSource {
  public:
-  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface, or an address that
-  /// is not this machine's. kUnreadable: the port is taken or not allowed, or another refusal of
-  /// the system; the message says how to mend it.
+  /// Opens the socket. Fails with kInvalidArgument for a setting out of its range; kNotFound if
+  /// there is no such interface, or the address is not this machine's; kUnreadable if the port is
+  /// taken or not allowed, or the system refuses otherwise. The message says how to mend it.
   [[nodiscard]] static Expected<UdpSource> open(UdpSourceConfig config,
                                                 memory::FixedMemory& memory);
 
@@ -64,22 +66,24 @@ class UdpSource {
       TERRACUT_NONBLOCKING;
   void wake() const noexcept { wake_.wake(); }
 
-  /// Accepts only this sender from now on; others count as foreign. To be called from the receiving
+  /// Accepts only `sender` from now on; others count as foreign. To be called on the receiving
   /// thread.
   void accept_only(const Sender& sender) noexcept { config_.sender = sender; }
 
-  /// Returns the counters. kernel_drops is as of the newest datagram or the last refresh_drops(),
-  /// which asks the kernel; receive() calls it after every full batch and when nothing comes for a
-  /// while.
+  /// Returns the counters. kernel_drops is that of the newest datagram or of the last
+  /// refresh_drops(), which asks the kernel; receive() calls this after every full batch and when
+  /// nothing comes for a while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
   void refresh_drops() noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] LinkState link() const noexcept { return link_; }
   /// Returns roughly how many packets the kernel keeps until they are fetched.
   [[nodiscard]] std::size_t room_packets() const noexcept { return socket_.buffer.packets(); }
 
-  /// Returns where the socket is bound, with the port the system chose.
+  /// Returns the address and port that the socket is bound to; the port is the one chosen by the
+  /// system.
   [[nodiscard]] const Ipv4Endpoint& local() const noexcept { return config_.bind; }
-  /// Lists what was granted only in part, one sentence each, for the log at start.
+  /// Lists requests to the system that were granted only in part, one sentence each, for the log at
+  /// start.
   [[nodiscard]] std::span<const std::string> warnings() const noexcept { return warnings_; }
 
  private:
@@ -87,10 +91,10 @@ class UdpSource {
     files::OwnedDescriptor descriptor;
     ReceiveBuffer buffer;
     int interface_index = 0;
-    bool bound_to_interface = false;  ///< If false, the interface of each datagram is checked.
+    bool bound_to_interface = false;  ///< If false, the interface is checked for each datagram.
   };
 
-  /// The system call in open_socket() that failed, and its errno.
+  /// Which system call in open_socket() failed, and its errno.
   enum class Step : std::uint8_t { kSocket, kInterface, kBind, kJoin };
   struct Failure {
     Step step;
@@ -108,7 +112,7 @@ class UdpSource {
   UdpSource(UdpSourceConfig config, threads::WakeEvent wake, files::OwnedDescriptor probe,
             memory::FixedMemory& memory);
 
-  /// Opens a socket without using strings or memory, so that receive() may call it again.
+  /// Opens a socket without allocating memory, so that receive() may do this again.
   [[nodiscard]] static tl::expected<Socket, Failure> open_socket(
       const UdpSourceConfig& config, const InterfaceStatus& interface) noexcept;
   [[nodiscard]] static Error explain(const UdpSourceConfig& config, const Failure& failure);
@@ -122,7 +126,7 @@ class UdpSource {
 
   UdpSourceConfig config_;
   threads::WakeEvent wake_;
-  files::OwnedDescriptor probe_;  ///< An idle socket for asking about interfaces.
+  files::OwnedDescriptor probe_;  ///< An idle socket, used to ask the kernel about interfaces.
   Socket socket_;
   std::vector<std::string> warnings_;
 

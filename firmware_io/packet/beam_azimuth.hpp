@@ -7,9 +7,9 @@
 #include "calib/beams/angle.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 
-/// Beam azimuths in whole numbers, so that the decoder, the encoders and the truth beside a capture
-/// agree bit for bit on the frame and column of every return. The angle between a beam and the
-/// azimuth of its column depends on the sensor: hdl64e/firing_azimuth.hpp,
+/// Computes azimuths of beams in whole numbers, so that the decoder, the encoders and the truth
+/// beside a capture agree bit for bit on the frame and column of every return. The angle between a
+/// beam and the azimuth of its column depends on the sensor: hdl64e/firing_azimuth.hpp,
 /// ruby128/firing_azimuth.hpp. Angles are in ticks (packet_azimuths.hpp). Allocation-free,
 /// noexcept; any thread.
 namespace terracut::packet {
@@ -21,7 +21,7 @@ namespace terracut::packet {
   return (beams::wrap_cdeg(column_cdeg) * kTicksPerCdeg + advance_ticks) * kRadPerTick;
 }
 
-/// A beam's azimuth: its frame, and the angle within it.
+/// The azimuth of a beam: its frame, and the angle within the frame.
 struct BeamAzimuth {
   std::int64_t frame = 0;
   std::int32_t in_revolution_ticks = 0;  ///< [0, kRevolution_ticks)

@@ -6,7 +6,7 @@
 
 namespace terracut::packet {
 
-/// The spread of beams around the head: every beam's azimuth minus the head's is in [hindmost,
+/// How far beams point off the head: every beam's azimuth minus the head's is in [hindmost,
 /// foremost].
 struct BeamSpread {
   std::int64_t hindmost_ticks = 0, foremost_ticks = 0;

@@ -24,14 +24,14 @@ using frame::PointsOut;
 using frame::TilePoints;
 using frame::TileRow;
 
-/// The returns of one firing, by laser.
+/// The returns of one firing, indexed by laser.
 template <std::size_t kLasers>
 struct FiringReturns {
-  std::span<std::uint16_t, kLasers> raw;  ///< Distance on the wire; 0: no return.
+  std::span<std::uint16_t, kLasers> raw;  ///< Distance as sent, in counts; 0: no return.
   std::span<std::uint8_t, kLasers> intensity;
 };
 
-/// The returns of some firings, stored as they arrive and, after turn(), by laser.
+/// The returns of some firings: stored as they arrive, and after turn() sorted by laser.
 template <std::size_t kLasers>
 struct FiringTile {
   alignas(64) std::array<std::array<std::uint16_t, kLasers>, kTileFirings> arrived_raw;
@@ -42,15 +42,15 @@ struct FiringTile {
   [[nodiscard]] FiringReturns<kLasers> firing(std::size_t number) noexcept {
     return {arrived_raw[number], arrived_intensity[number]};
   }
-  /// Transposes the arrived returns into those by laser.
+  /// Sorts the returns that have arrived by laser, by a transposition.
   void turn() noexcept {
     frame::transpose(arrived_raw[0].data(), kTileFirings, kLasers, raw[0].data());
     frame::transpose(arrived_intensity[0].data(), kTileFirings, kLasers, intensity[0].data());
   }
 };
 
-/// Converts wire distances of one laser to metres. No return gives NaN, and so does all computed
-/// from it.
+/// Converts wire distances of one laser to metres. No return becomes NaN, so that everything
+/// computed from it is NaN, too.
 inline void measure(const std::uint16_t* __restrict raw, float metres_per_count,
                     float* __restrict measured_m) noexcept {
   constexpr std::int32_t kNan = 0x7FC0'0000;
@@ -81,25 +81,26 @@ struct ColumnAngle {
   return {a * (1.0F - aa * (1.0F / 6.0F)), 1.0F - aa * 0.5F};
 }
 
-/// The head's direction at each firing of a tile, and its advance until each group of lasers fires.
+/// The head's direction at each firing of a tile, and how far it advances until each group of
+/// lasers fires.
 template <std::size_t kGroups>
 struct GroupHeads {
   alignas(64) TileRow<float> sin_rotor, cos_rotor;
   alignas(64) std::array<TileRow<float>, kGroups> sin_advance, cos_advance;
 };
 
-/// Fills one row with each of `values`; `rows` holds the rows one after the other.
+/// Fills one row with each value of `values`; `rows` holds the rows one after the other.
 void fill_rows(std::span<const float> values, float* rows) noexcept TERRACUT_NONBLOCKING;
 void fill_rows(std::span<const std::int32_t> values,
                std::int32_t* rows) noexcept TERRACUT_NONBLOCKING;
-/// Fills the masked firings of one row with each of `values`; `rows` holds the rows one after the
-/// other.
+/// Fills the masked firings of one row with each value of `values`; `rows` holds the rows one after
+/// the other.
 void spread_rows(std::span<const float> values, const frame::TileRow<std::int32_t>& mask,
                  float* rows) noexcept TERRACUT_NONBLOCKING;
 void spread_rows(std::span<const std::int32_t> values, const frame::TileRow<std::int32_t>& mask,
                  std::int32_t* rows) noexcept TERRACUT_NONBLOCKING;
 
-/// The head's direction and advance at one laser's firings.
+/// The head's direction and advance at each firing of one laser.
 struct LaserHeads {
   const float *sin_rotor, *cos_rotor, *sin_advance, *cos_advance;
 };
@@ -112,15 +113,15 @@ template <std::size_t kGroups>
 
 /// Does beam_azimuth() and column_of() (beam_azimuth.hpp) in integers that fit vectors: adds the
 /// whole columns of head, advance and beam offset, then their rests. `advance_column` and
-/// `advance_rest` belong to the laser's group.
+/// `advance_rest` are those of the laser's group.
 void find_columns(const std::int32_t* __restrict rotor_column,
                   const std::int32_t* __restrict rotor_rest,
                   const std::int32_t* __restrict advance_column,
                   const std::int32_t* __restrict advance_rest, ColumnAngle offset,
                   BeamColumns& __restrict found) noexcept TERRACUT_NONBLOCKING;
 
-/// Fills in the intensities and numbers of a run of cells that were empty; their points are filled
-/// elsewhere. `numbers` has each firing's next return number.
+/// Writes intensities and return numbers into a run of empty cells; the points are written
+/// elsewhere. `numbers` has the next return number of each firing.
 void fill_cells(const TileRow<std::uint16_t>& raw, const TileRow<std::uint8_t>& intensity,
                 const frame::RangeImage::Cells& cells,
                 TileRow<std::uint32_t>& numbers) noexcept TERRACUT_NONBLOCKING;

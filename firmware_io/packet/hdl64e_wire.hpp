@@ -11,19 +11,19 @@
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/packet/wire_integer.hpp"
 
-/// The data packet of the HDL-64E (S2, S2.1, S3) as it lies in the UDP payload; little endian
-/// (HDL-64E S3 user manual, appendix "data packet format"; docs/reference/sensors.md).
-/// Nothing here allocates or throws; everything is callable from the packet path.
+/// The data packet of the HDL-64E (S2, S2.1, S3) as sent in the UDP payload; little endian (HDL-64E
+/// S3 user manual, appendix "data packet format"; docs/reference/sensors.md). Nothing here
+/// allocates or throws; everything may be called on the packet path.
 namespace terracut::hdl64e {
 
 // --- Numbers of the format ---
 
-inline constexpr std::uint16_t kHdl64eDataPort = 2368;   ///< UDP destination; factory setting.
-inline constexpr std::uint16_t kHdl64eSourcePort = 443;  ///< UDP source of factory units.
+inline constexpr std::uint16_t kHdl64eDataPort = 2368;   ///< UDP destination port; factory setting.
+inline constexpr std::uint16_t kHdl64eSourcePort = 443;  ///< UDP source port of factory units.
 
-inline constexpr std::uint16_t kUpperBlockId = 0xEEFF;  ///< Lasers 0..31 (bytes FF EE).
-inline constexpr std::uint16_t kLowerBlockId = 0xDDFF;  ///< Lasers 32..63 (bytes FF DD).
-/// The ids of blocks of lasers 64..95 and 96..127, which only the VLS-128 sends.
+inline constexpr std::uint16_t kUpperBlockId = 0xEEFF;  ///< Block of lasers 0..31 (bytes FF EE).
+inline constexpr std::uint16_t kLowerBlockId = 0xDDFF;  ///< Block of lasers 32..63 (bytes FF DD).
+/// Blocks of lasers 64..95 and 96..127, which only the VLS-128 sends.
 inline constexpr std::uint16_t kVls128ThirdId = 0xCCFF, kVls128FourthId = 0xBBFF;
 
 inline constexpr std::size_t kHdl64ePacketBytes = 1206;
@@ -39,7 +39,7 @@ namespace wire {
 
 struct Return {
   packet::Le16 distance;   ///< Counts of 2 mm; 0 = no return.
-  std::uint8_t intensity;  ///< Uncorrected.
+  std::uint8_t intensity;  ///< Intensity as measured, not corrected.
 };
 
 struct Block {
@@ -51,7 +51,7 @@ struct Block {
 struct Packet {
   std::array<Block, kBlocksPerPacket> blocks;
   packet::Le32 stamp_us;     ///< Device clock at the end of the packet (hdl64e/firing_times.hpp).
-  std::uint8_t status_type;  ///< The status stream: one (type, value) pair a packet.
+  std::uint8_t status_type;  ///< Type of the status byte; each packet has one (type, value) pair.
   std::uint8_t status_value;
 };
 
@@ -66,8 +66,8 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 
 // --- Reading ---
 
-/// Returns the packet in a payload, read in place; null unless it is exactly 1206 bytes long. Block
-/// ids and azimuths are not checked. Valid as long as the payload is.
+/// Returns the packet that `payload` holds, read in place; null unless it is exactly 1206 bytes
+/// long. Block ids and azimuths are not checked. Valid as long as the payload is.
 [[nodiscard]] inline const wire::Packet* packet_in(std::span<const std::uint8_t> payload) noexcept {
   // The packet consists of bytes, so any address will do.
   return payload.size() == sizeof(wire::Packet)
@@ -76,14 +76,14 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 }
 
 /// True for the HDL-64E S2/S3 in either return mode and for no other Velodyne model: block 1 is a
-/// lower and block 2 an upper one. The smaller models send upper blocks only, the VLS-128 has other
-/// ids in block 2, and the S1 sends about three upper blocks for each lower one.
+/// lower and block 2 an upper one. Smaller models send only upper blocks, the VLS-128 has other ids
+/// in block 2, and the S1 sends about three upper blocks for each lower one.
 [[nodiscard]] constexpr bool is_hdl64e(const wire::Packet& packet) noexcept {
   return packet.blocks[1].id.value() == kLowerBlockId &&
          packet.blocks[2].id.value() == kUpperBlockId;
 }
 
-/// True if blocks are of both banks and no others, the upper ones at least twice as many.
+/// True if there are upper and lower blocks and no others, and at least twice as many upper ones.
 [[nodiscard]] constexpr bool is_hdl64e_s1(const wire::Packet& packet) noexcept {
   int upper = 0, lower = 0;
   for (const wire::Block& block : packet.blocks) {
@@ -105,7 +105,8 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
   return packet;
 }
 
-/// Returns the payload to send. It shows later changes and is valid as long as `packet` lives.
+/// Returns the payload to send. It shows later changes of `packet` and is valid as long as that
+/// exists.
 [[nodiscard]] inline std::span<const std::uint8_t, kHdl64ePacketBytes> payload_of(
     const wire::Packet& packet) noexcept {
   return std::span<const std::uint8_t, kHdl64ePacketBytes>(
@@ -115,8 +116,8 @@ std::span<const std::uint8_t, kHdl64ePacketBytes> payload_of(wire::Packet&&) = d
 
 // --- The device clock ---
 
-/// Returns the device time from `earlier_us` to `later_us` the short way round the hour: [-30 min,
-/// 30 min).
+/// Returns the device time from `earlier_us` to `later_us`, the shorter way round the hour: [-30
+/// min, 30 min).
 [[nodiscard]] constexpr std::int64_t device_step_us(std::uint32_t earlier_us,
                                                     std::uint32_t later_us) noexcept {
   return packet::clock_step_us(earlier_us, later_us, kDeviceHour_us);

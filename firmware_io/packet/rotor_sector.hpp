@@ -26,13 +26,13 @@ struct RotorInterval {
   return {interval.from_ticks + ticks, interval.to_ticks + ticks};
 }
 
-/// An interval that recurs every revolution, or none.
+/// An interval of azimuth that recurs in every revolution, or none.
 struct RotorSector {
-  RotorInterval once;                 ///< The interval in one revolution; shorter than it.
-  std::int64_t revolution_ticks = 1;  ///< > 0
+  RotorInterval once;  ///< The interval in one revolution, shorter than a revolution.
+  std::int64_t revolution_ticks = 1;  ///< Ticks in a revolution, > 0.
 
   [[nodiscard]] constexpr bool is_none() const noexcept { return once.ticks() == 0; }
-  /// Returns the first occurrence that ends after `rotor_ticks`.
+  /// Returns the first occurrence of the interval that ends after `rotor_ticks`.
   [[nodiscard]] constexpr RotorInterval next(std::int64_t rotor_ticks) const noexcept {
     return shifted(once, (frames_before(rotor_ticks - once.to_ticks) + 1) * revolution_ticks);
   }
@@ -47,7 +47,8 @@ struct RotorSector {
   [[nodiscard]] constexpr std::int64_t frames_before(std::int64_t ticks) const noexcept {
     return ticks / revolution_ticks - (ticks % revolution_ticks < 0 ? 1 : 0);
   }
-  /// Returns the sector's total width from `once` to `rotor_ticks`; negative before `once`.
+  /// Returns the total width of the sector's occurrences from `once` to `rotor_ticks`; negative
+  /// before `once`.
   [[nodiscard]] constexpr std::int64_t inside_until(std::int64_t rotor_ticks) const noexcept {
     const std::int64_t frames = frames_before(rotor_ticks - once.from_ticks);
     const std::int64_t in_frame = rotor_ticks - once.from_ticks - frames * revolution_ticks;

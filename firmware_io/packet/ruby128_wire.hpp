@@ -10,15 +10,15 @@
 
 #include "firmware_io/packet/wire_integer.hpp"
 
-/// The data packet (MSOP) of the RS-Ruby128 as it lies in the UDP payload; big endian (RS-Ruby user
-/// manual v1.0; docs/reference/sensors.md). Nothing here allocates or throws; everything is
-/// callable from the packet path.
+/// The data packet (MSOP) of the RS-Ruby128 as sent in the UDP payload; big endian (RS-Ruby user
+/// manual v1.0; docs/reference/sensors.md). Nothing here allocates or throws; everything may be
+/// called on the packet path.
 namespace terracut::ruby128 {
 
 // --- Numbers of the format ---
 
-inline constexpr std::uint16_t kRubyDataPort = 6699;    ///< UDP destination; factory setting.
-inline constexpr std::uint16_t kRubyDevicePort = 7788;  ///< UDP destination of DIFOP; factory.
+inline constexpr std::uint16_t kRubyDataPort = 6699;    ///< UDP destination port; factory setting.
+inline constexpr std::uint16_t kRubyDevicePort = 7788;  ///< UDP destination port of DIFOP.
 
 inline constexpr std::size_t kRubyPacketBytes = 1248;  ///< Size of both MSOP and DIFOP packets.
 inline constexpr std::array<std::uint8_t, 4> kRubyMagic{0x55, 0xAA, 0x05, 0x5A};
@@ -26,7 +26,7 @@ inline constexpr std::uint8_t kRubyBlockId = 0xFE;
 inline constexpr int kRubyBlocksPerPacket = 3;
 inline constexpr int kRubyChannelsPerBlock = 128;
 
-/// Bits of the wave mode: the returns that the packet carries.
+/// Bits of the wave mode, which says which returns the packet carries.
 inline constexpr std::uint8_t kRubyFirstReturnBit = 1, kRubySecondReturnBit = 2;
 
 // --- The bytes ---
@@ -39,9 +39,10 @@ struct Return {
 };
 
 struct Block {
-  std::uint8_t id;            ///< kRubyBlockId
-  std::uint8_t return_id;     ///< 1 or 2 in dual return, by the manual; not relied on.
-  packet::Be16 azimuth_cdeg;  ///< Of the block's first firing; 0..35999, clockwise seen from above.
+  std::uint8_t id;         ///< kRubyBlockId
+  std::uint8_t return_id;  ///< 1 or 2 in dual return, according to the manual; not relied on.
+  /// Azimuth of the block's first firing, 0..35999, clockwise seen from above.
+  packet::Be16 azimuth_cdeg;
   std::array<Return, kRubyChannelsPerBlock> returns;
 };
 
@@ -51,7 +52,7 @@ struct Packet {
   std::uint8_t reserved1;
   std::uint8_t wave_mode;
   packet::Be16 temperature;            ///< See ruby_temperature_deg_c().
-  std::array<std::uint8_t, 10> stamp;  ///< One of three encodings (timestamp.hpp).
+  std::array<std::uint8_t, 10> stamp;  ///< In one of three encodings (timestamp.hpp).
   std::array<std::uint8_t, 10> reserved2;
   std::uint8_t lidar_type, lidar_model;
   std::array<std::uint8_t, 48> reserved3;
@@ -89,8 +90,8 @@ static_assert(ruby_temperature_field(-18.75) == 0x92C0);
 
 // --- Reading ---
 
-/// Returns the packet in a payload, read in place; null unless it is exactly 1248 bytes long.
-/// Magic, block ids and azimuths are not checked. Valid as long as the payload is.
+/// Returns the packet that `payload` holds, read in place; null unless it is exactly 1248 bytes
+/// long. Magic, block ids and azimuths are not checked. Valid as long as the payload is.
 [[nodiscard]] inline const ruby128_wire::Packet* packet_in(
     std::span<const std::uint8_t> payload) noexcept {
   // The packet consists of bytes, so any address will do.
@@ -111,7 +112,8 @@ static_assert(ruby_temperature_field(-18.75) == 0x92C0);
   return packet;
 }
 
-/// Returns the payload to send. It shows later changes and is valid as long as `packet` lives.
+/// Returns the payload to send. It shows later changes of `packet` and is valid as long as that
+/// exists.
 [[nodiscard]] inline std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
     const ruby128_wire::Packet& packet) noexcept {
   return std::span<const std::uint8_t, kRubyPacketBytes>(

@@ -15,11 +15,11 @@
 
 namespace terracut::packet {
 
-/// Masks firings of a tile: all bits set for a chosen firing, none for the others.
+/// Selects firings of a tile: all bits are set for a selected firing, none for the others.
 using FiringMask = frame::TileRow<std::int32_t>;
 
-/// Caches values that depend on the head's step between firings, for each firing of a tile. Wire
-/// azimuths are rounded, so that a few steps recur: one `Entry` is made for each of them.
+/// Caches values that depend on the head's step between firings, for each firing of a tile.
+/// Azimuths are rounded when sent, so only a few steps occur: one `Entry` is made for each of them.
 template <class Entry>
 class StepAdvances {
  public:
@@ -31,8 +31,8 @@ class StepAdvances {
 
   /// Updates the tile's values. Calls `make(Entry&, step_ticks, is_dual)` for each step not cached,
   /// `fill(const Entry&)` with the first firing's step for all firings, then `spread(const Entry&,
-  /// const FiringMask&)` for each other step. Calls nothing if all firings have the steps of the
-  /// last tile.
+  /// const FiringMask&)` for each other step. Calls nothing if all firings have the same steps as
+  /// in the last tile.
   template <class Make, class Fill, class Spread>
   void spread(const frame::TileHeads& heads, Make make, Fill fill, Spread spread) noexcept {
     Keys keys;
@@ -50,12 +50,12 @@ class StepAdvances {
   }
 
  private:
-  /// Twice the step, plus one for a firing that is one of two returns.
+  /// The key of each firing: twice its step, plus one if the firing is one of two returns.
   using Keys = frame::TileRow<std::int32_t>;
   static constexpr std::int32_t kNone = -1;
   static constexpr std::size_t kKnown = 8;
 
-  /// The firings with a key, and one bit for each firing with another key.
+  /// The firings that share one key, and a bit for each firing with another key.
   struct Others {
     FiringMask same;
     std::uint32_t bits = 0;
@@ -84,8 +84,8 @@ class StepAdvances {
 
   std::span<Entry> entries_;
   std::array<std::int32_t, kKnown> keys_;
-  std::size_t next_ = 0;  ///< The entry to replace next.
-  Keys in_tile_;          ///< Keys of the last tile.
+  std::size_t next_ = 0;  ///< Index of the entry to be replaced next.
+  Keys in_tile_;          ///< The keys of the last tile.
 };
 
 }  // namespace terracut::packet

@@ -12,17 +12,17 @@
 
 namespace terracut::packet {
 
-/// Converts measured distances of one laser to points of the vehicle frame: the formulas of
-/// beams::StraightGeometry and mount::Mount in float, for the firings of a tile in one loop that
-/// compilers vectorise. Agrees with those double functions to within 1 mm + 1e-6 of the range; the
-/// same bits on every machine, as the HDL-64E's PointKernel.
+/// Converts measured distances of one laser to points of the vehicle frame by the formulas of
+/// beams::StraightGeometry and mount::Mount, in float: one loop, which compilers vectorise, for all
+/// firings of a tile. Agrees with these functions in double to within 1 mm + 1e-6 of the range,
+/// with the same bits on every machine, as the HDL-64E's PointKernel.
 ///
-/// Real-time safe except the constructor. One thread.
+/// Real-time safe except for the constructor. One thread.
 class StraightPointKernel {
  public:
   static constexpr std::size_t kMostLasers = 128;
 
-  /// `lasers` are those of beams::StraightGeometry, at most kMostLasers.
+  /// Takes `lasers` as beams::StraightGeometry does, at most kMostLasers.
   template <class Lasers>
   StraightPointKernel(const Lasers& lasers, const mount::Mount& mount, double lens_ahead_m = 0)
       : lens_ahead_m_(static_cast<float>(lens_ahead_m)) {
@@ -41,7 +41,8 @@ class StraightPointKernel {
     }
   }
 
-  /// `heads` are of the laser's group. `measured_m` are wire distances, NaN for no return.
+  /// Computes the points of a laser. `heads` are those of the laser's group, `measured_m` its wire
+  /// distances in metres, NaN for no return.
   void compute(std::size_t laser, const LaserHeads& heads, const frame::TileRow<float>& measured_m,
                const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
 
@@ -50,8 +51,8 @@ class StraightPointKernel {
     float sin_offset, cos_offset, sin_elevation, cos_elevation, vert_offset_m = 0;
   };
 
-  /// All it reads and writes is passed as a parameter, for __restrict: without it the loop is not
-  /// vectorised in clones.
+  /// Everything that this function reads and writes is a parameter, so that it can be __restrict:
+  /// otherwise the loop is not vectorised in clones.
   void compute(const Laser& __restrict laser, const float* __restrict sin_rotor,
                const float* __restrict cos_rotor, const float* __restrict sin_advance,
                const float* __restrict cos_advance, const float* __restrict measured_m,

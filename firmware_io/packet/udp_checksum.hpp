@@ -9,7 +9,7 @@
 
 namespace terracut::packet {
 
-/// Returns the internet checksum (RFC 1071) of bytes that hold 0 in place of the checksum.
+/// Returns the internet checksum (RFC 1071) of `bytes`, in which the checksum field must be 0.
 [[nodiscard]] std::uint16_t internet_checksum(std::span<const std::uint8_t> bytes) noexcept;
 
 /// Returns the UDP checksum over IPv4 (RFC 768) of pseudo header, UDP header and payload; never 0,

@@ -16,10 +16,10 @@ namespace terracut::packet {
 /// Why a captured frame gave no datagram.
 enum class FrameReject : std::uint8_t {
   kShortCapture,         ///< Fewer bytes were captured than the frame's headers promise.
-  kNotIpv4,              ///< ARP, LLDP, 802.3 and other protocols.
-  kIpv6,                 ///< No sensor read here speaks it.
+  kNotIpv4,              ///< The frame holds ARP, LLDP, 802.3 or another protocol.
+  kIpv6,                 ///< The frame holds IPv6, which no supported sensor sends.
   kBadIpHeader,          ///< Version, header length or total length are impossible.
-  kNotUdp,               ///< TCP, ICMP, IGMP ...
+  kNotUdp,               ///< The packet holds TCP, ICMP, IGMP or the like.
   kFragment,             ///< Part of a fragmented datagram. Sensor packets fit one frame.
   kTruncatedUdp,         ///< The UDP length is below 8 or beyond the IP packet.
   kUnsupportedLinkType,  ///< See is_supported_link_type().
@@ -29,7 +29,8 @@ inline constexpr std::size_t kFrameRejects = static_cast<std::size_t>(FrameRejec
 
 /// Returns a stable lower_snake_case name, as in the JSON report.
 [[nodiscard]] std::string_view to_string(FrameReject reason) noexcept;
-/// Describes several such frames for people, "are IPv6, ...", with advice if there is any.
+/// Describes several frames with this reason for people: "are IPv6, ...", with advice if there is
+/// any.
 [[nodiscard]] std::string_view description_of(FrameReject reason) noexcept;
 
 /// True for libpcap's DLT_ numbers of the link layers understood: NULL (0), Ethernet (1), RAW (12,

@@ -9,8 +9,8 @@
 
 namespace terracut::packet {
 
-/// An integer as it lies in a packet, stored as bytes. Its alignment is 1, so structs of it have no
-/// padding and may be copied to and from any address.
+/// An integer as sent in a packet, stored as bytes. Its alignment is 1, so structs of such integers
+/// have no padding and may be copied to and from any address.
 template <class Unsigned, std::endian kOrder>
 struct WireInteger {
   std::array<std::uint8_t, sizeof(Unsigned)> bytes;

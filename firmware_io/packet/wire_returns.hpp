@@ -10,12 +10,12 @@
 
 namespace terracut::packet {
 
-/// Size of a return on the wire: two bytes of distance, one of intensity.
+/// Bytes of a return as sent: two of distance, one of intensity.
 inline constexpr std::size_t kWireReturnBytes = 3;
 enum class ByteOrder : std::uint8_t { kLittle, kBig };
 
-/// Splits returns into distances and intensities, eight at once. `bytes` holds kWireReturnBytes for
-/// each element of `raw`, whose size is a multiple of 8; as many intensities are written.
+/// Splits returns into distances and intensities, eight at a time. `bytes` has kWireReturnBytes for
+/// each element of `raw`, whose size is a multiple of 8; the same number of intensities is written.
 void split_returns(const std::uint8_t* bytes, ByteOrder order, std::span<std::uint16_t> raw,
                    std::uint8_t* intensity) noexcept TERRACUT_NONBLOCKING;
 

@@ -15,16 +15,16 @@
 #include "firmware_io/packet/wire_integer.hpp"
 #include "rt/threads/nonblocking.hpp"
 
-/// The device packet (DIFOP) of the RS-Ruby128 as it lies in the UDP payload, about one a second;
-/// big endian (RS-Ruby user manual; a public decoder of the maker; docs/reference/sensors.md).
-/// Nothing here allocates or throws.
+/// The device packet (DIFOP) of the RS-Ruby128 as sent in the UDP payload, about once a second; big
+/// endian (RS-Ruby user manual; a public decoder of the maker; docs/reference/sensors.md). Nothing
+/// here allocates or throws.
 namespace terracut::ruby128 {
 
 inline constexpr std::array<std::uint8_t, 8> kDifopMagic{0xA5, 0xFF, 0x00, 0x5A,
                                                          0x11, 0x11, 0x55, 0x55};
 inline constexpr std::array<std::uint8_t, 2> kDifopTail{0x0F, 0xF0};
 
-/// Signs of an angle. Units without a stored calibration send kUnset.
+/// Values of an angle's sign byte. Units without a stored calibration send kUnset.
 inline constexpr std::uint8_t kDifopPlus = 0, kDifopMinus = 1, kDifopUnset = 0xFF;
 
 namespace ruby128_wire {
@@ -34,8 +34,8 @@ struct Angle {
   packet::Be16 magnitude_cdeg;
 };
 
-/// The fields. Those that sources describe differently are reserved here; of those that terracut
-/// does not read, units and meanings are partly unknown.
+/// The fields of the packet. Fields that sources describe differently are marked reserved here; for
+/// other fields that terracut does not read, units and meanings are partly unknown.
 struct Difop {
   std::array<std::uint8_t, 8> magic;
   packet::Be16 rpm_set;
@@ -90,18 +90,20 @@ static_assert(std::is_trivially_copyable_v<Difop> && std::is_standard_layout_v<D
 
 }  // namespace ruby128_wire
 
-/// True if the payload has the length and the first eight bytes of a DIFOP. Those of the Ruby Lite
-/// and the Ruby Plus have them too. The tail is not checked: nobody relies on it.
+/// True if the payload has the length and the first eight bytes of a DIFOP packet. Those of the
+/// Ruby Lite and the Ruby Plus have them, too. The last bytes are not checked: nobody relies on
+/// them.
 [[nodiscard]] bool is_difop(std::span<const std::uint8_t> payload) noexcept TERRACUT_NONBLOCKING;
 
-/// Returns a copy of the packet by its fields; nothing unless is_difop().
+/// Returns a copy of the packet as fields; nothing unless is_difop().
 [[nodiscard]] std::optional<ruby128_wire::Difop> read_difop(
     std::span<const std::uint8_t> payload) noexcept;
 
 /// Returns a packet to fill in: magic, tail, angles unset, the rest zero.
 [[nodiscard]] ruby128_wire::Difop blank_difop() noexcept;
 
-/// Returns the payload to send. It shows later changes and is valid as long as `difop` lives.
+/// Returns the payload to send. It shows later changes of `difop` and is valid as long as that
+/// exists.
 [[nodiscard]] std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
     const ruby128_wire::Difop& difop) noexcept;
 std::span<const std::uint8_t, kRubyPacketBytes> payload_of(ruby128_wire::Difop&&) = delete;

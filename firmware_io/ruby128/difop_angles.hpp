@@ -8,14 +8,14 @@
 
 namespace terracut::ruby128 {
 
-/// Returns the unit's calibration from its DIFOP, exactly the hundredths of a degree in it, or why
-/// there is none: kNoCalibration for angles that were never written into the unit (a sign is 0xFF,
-/// or all elevations are zero), kMalformed or kUnsupported (a Ruby Plus) for implausible ones. The
+/// Returns the unit's calibration from its DIFOP packet, exactly as sent in hundredths of a degree.
+/// Fails with kNoCalibration if the angles were never written into the unit (a sign is 0xFF, or all
+/// elevations are zero), kMalformed or kUnsupported (a Ruby Plus) if they are implausible; the
 /// message says what to do. Allocates.
 [[nodiscard]] Expected<Ruby128Calibration> calibration_of(const ruby128_wire::Difop& difop);
 
-/// Writes the angles into the packet, rounded by angle_cdeg(). Beyond 655.35 degrees, and for NaN,
-/// that limit is written.
+/// Writes the angles into the packet, rounded by angle_cdeg(). Angles beyond 655.35 degrees, and
+/// NaN, are written as that limit.
 void set_calibration(ruby128_wire::Difop& difop, const Ruby128Calibration& calibration) noexcept;
 
 }  // namespace terracut::ruby128

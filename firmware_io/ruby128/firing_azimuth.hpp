@@ -14,12 +14,12 @@
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
 
-/// Beam azimuths of the RS-Ruby128 when its channels fire, in whole numbers (see
+/// Computes the azimuths of the RS-Ruby128's beams when its channels fire, in whole numbers (see
 /// firmware_io/decode/beam_azimuth.hpp).
 ///
-/// A block carries one azimuth for 128 channels, that of the head at the block's first firing.
-/// Channels fire in groups of four, both halves of 64 in parallel; meanwhile the head rotates on by
-/// almost a column:
+/// A block carries one azimuth for 128 channels: the head's at the block's first firing. Channels
+/// fire in groups of four, both halves of 64 in parallel; meanwhile the head rotates on by almost a
+/// column:
 ///
 ///   head at the firing of channel c = azimuth of its block + advance(c)
 ///   beam of channel c               = head at its firing   + azimuth offset(c)
@@ -30,10 +30,13 @@ namespace terracut::ruby128 {
 
 // --- Times (docs/reference/sensors.md; a public decoder of the maker) ---
 
-inline constexpr std::int32_t kRubyBlock_ns = 55'550;  ///< Between firings of all channels.
-inline constexpr std::int32_t kRubyGroup_ns = 3'236;   ///< From one group of channels to the next.
+/// Time between two firings of all channels.
+inline constexpr std::int32_t kRubyBlock_ns = 55'550;
+/// Time from one group of channels to the next.
+inline constexpr std::int32_t kRubyGroup_ns = 3'236;
 inline constexpr int kRubyGroups = 16;
-inline constexpr int kRubyChannelsPerGroup = 4;  ///< For each half of the channels.
+/// Channels in a group, for each half of the channels.
+inline constexpr int kRubyChannelsPerGroup = 4;
 
 /// Returns the group in which a channel, [0, 128), fires.
 [[nodiscard]] constexpr int ruby_group(int channel) noexcept {
@@ -47,8 +50,8 @@ static_assert(ruby_channel_ns(63) == 48'540 && ruby_channel_ns(64) == 0);
 
 // --- Blocks of a packet ---
 
-/// How the three blocks of a packet belong to firings. In dual return the two returns of a firing
-/// are adjacent blocks, so that pairs straddle packets: A A B, then B C C.
+/// To which firings the three blocks of a packet belong. In dual return the two returns of a firing
+/// are adjacent blocks, so every second pair is split between packets: A A B, then B C C.
 enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
 
 /// Finds the order of blocks from the azimuths of a rotating head. Three equal azimuths give
@@ -59,8 +62,8 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
   return azimuth_cdeg[1] == azimuth_cdeg[2] ? RubyBlocks::kPairLast : RubyBlocks::kSingle;
 }
 
-/// Returns the firings from a packet's first block to the next packet's. A firing whose second
-/// return is in the next packet belongs to that one.
+/// Returns the number of firings from a packet's first block to the next packet's. A firing whose
+/// second return is in the next packet counts with that packet.
 [[nodiscard]] constexpr int ruby_firings(RubyBlocks blocks) noexcept {
   switch (blocks) {
     case RubyBlocks::kPairFirst:
@@ -82,12 +85,12 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
          (packet::kTicksPerCdeg / firings_apart);
 }
 
-/// Holds the firing whose second return is in the next packet. Both returns of one pulse must point
-/// the same way, so the second takes the step of the first.
+/// Remembers the firing whose second return is in the next packet. Both returns of one pulse must
+/// point the same way, so the second return gets the step of the first.
 class HeldFiring {
  public:
   /// Returns the step for the first block of a packet whose own step is `step_ticks`. `stamp_us` is
-  /// the packet's device stamp. `has_sector` says that a blind sector lies in the packet
+  /// the packet's device stamp; `has_sector` says that a blind sector lies in the packet
   /// (PacketAzimuths), which delays the next stamp. To be called once for every packet, in order of
   /// arrival.
   [[nodiscard]] constexpr std::int32_t join(
@@ -109,7 +112,8 @@ class HeldFiring {
   constexpr void reset() noexcept { held_ = false; }
 
  private:
-  /// Two firings, plus the rounding of stamps to microseconds and jitter.
+  /// Longest time between the stamps of packets that share a firing: two firings, plus rounding of
+  /// stamps to microseconds and jitter.
   static constexpr std::int64_t kLongest_us = 2 * kRubyBlock_ns / 1000 + 10;
 
   bool held_ = false, had_sector_ = false;
@@ -119,10 +123,10 @@ class HeldFiring {
 
 // --- Beams ---
 
-/// The share of the firing period after which a channel fires, in 1 / 2^20.
+/// A share says after which part of the firing period a channel fires, in 1 / 2^20 of that period.
 inline constexpr int kRubyShareBits = 20;
 
-/// Returns how far the head has rotated from its block's azimuth when `channel` fires, ticks.
+/// Returns how far the head has rotated, in ticks, from its block's azimuth when `channel` fires.
 [[nodiscard]] constexpr std::int32_t ruby_advance_ticks(std::int32_t step_ticks,
                                                         int channel) noexcept {
   const std::int64_t share =
@@ -130,7 +134,7 @@ inline constexpr int kRubyShareBits = 20;
   return static_cast<std::int32_t>((step_ticks * share) >> kRubyShareBits);
 }
 
-/// Returns a channel's azimuth offset in ticks, as all whole-number azimuths use it.
+/// Returns a channel's azimuth offset in ticks, for all azimuths in whole numbers.
 [[nodiscard]] inline std::int32_t azimuth_offset_ticks(const Ruby128Channel& channel) noexcept {
   return static_cast<std::int32_t>(std::lround(channel.azimuth_offset_rad / packet::kRadPerTick));
 }
@@ -150,7 +154,8 @@ class Ruby128BeamOffsets {
   [[nodiscard]] std::int32_t offset_ticks(std::int32_t step_ticks, int channel) const noexcept {
     return ruby_advance_ticks(step_ticks, channel) + ticks_[static_cast<std::size_t>(channel)];
   }
-  /// The offsets of all beams lie in [hindmost_ticks(), foremost_ticks()] for that step.
+  /// hindmost_ticks() and foremost_ticks() return limits of the offsets of all beams, both
+  /// included.
   [[nodiscard]] std::int32_t hindmost_ticks() const noexcept { return least_ticks_; }
   [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
     return step_ticks + most_ticks_;

@@ -12,15 +12,16 @@
 
 namespace terracut::ruby128 {
 
-/// Limits of the head's motion inside a packet; it spins at 5 to 20 Hz, 10 to 40 hundredths of a
-/// degree a firing. A blind sector (field of view) shows as a larger jump.
-inline constexpr int kRubyMinSweep_cdeg = 4;  ///< First to last firing; less means a standing head.
+/// Limits of the head's motion inside a packet. The head spins at 5 to 20 Hz and rotates 0.10 to
+/// 0.40 degrees from firing to firing. A blind sector (field of view) shows as a larger jump. From
+/// first to last firing; with less the head stands still.
+inline constexpr int kRubyMinSweep_cdeg = 4;
 inline constexpr int kRubyMaxStep_cdeg = 100;
-inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to firing.
+inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Largest backwards step from firing to firing.
 
 /// Checks that a payload is an RS-Ruby128 data packet of a rotating head and reads its azimuths
-/// into `azimuths`, all but the device stamp; otherwise returns the reason to reject it. The
-/// checks, in this order:
+/// into `azimuths`, except for the device stamp; otherwise returns the reason to reject it. The
+/// checks are made in this order:
 ///
 ///   kWrongModel         another sensor's data packet: any Velodyne's, a Ruby Lite's (four
 ///                       blocks of 80 channels), a Ruby Plus's (the same layout; told by its type
@@ -31,23 +32,24 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to fi
 ///   kAzimuthOutOfRange, kAzimuthJump (steps beyond those above)
 ///   kStationary
 ///
-/// For the azimuth reasons and kStationary `azimuths` holds the azimuths as well. Real-time safe;
-/// any thread.
+/// If the reason is kStationary or one of the azimuth reasons, `azimuths` also holds the azimuths.
+/// Real-time safe; any thread.
 [[nodiscard]] std::optional<frame::Reject> check_ruby128_packet(
     std::span<const std::uint8_t> payload,
     packet::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
 
-/// Completes `azimuths` of a packet that was rejected for kAzimuthJump but jumps ahead only once:
-/// the sensor's blind sector may lie in it. Returns true then. `step_ticks` is the step from firing
-/// to firing of the packet before, since this one may have none; with 0, unknown, the result is
-/// false. The caller must know whether the sector is there. Real-time safe; any thread.
+/// Completes `azimuths` of a packet that was rejected for kAzimuthJump, if the azimuth jumps ahead
+/// only once: the sensor's blind sector may lie there. Returns true then; the caller must know
+/// whether the sector is there. `step_ticks` is the step from firing to firing in the packet
+/// before, since this one may have none; 0 means unknown and gives false. Real-time safe; any
+/// thread.
 [[nodiscard]] bool read_across_sector(packet::PacketAzimuths& azimuths,
                                       std::int32_t step_ticks) noexcept TERRACUT_NONBLOCKING;
 
 /// Returns a device stamp that advances evenly from packet to packet, microseconds >= 0. The
-/// packet's own is of its first block, and in dual return packets begin alternately with a new
-/// firing and with the second return of an old one. `azimuths` and `rotating` are the result of
-/// check_ruby128_packet(). `stamp_ns` >= 0, any 64-bit value.
+/// packet's own stamp `stamp_ns` (>= 0, any 64-bit value) is that of its first block; in dual
+/// return packets begin alternately with a new firing and with the second return of an old one.
+/// `azimuths` and `rotating` are the result of check_ruby128_packet().
 [[nodiscard]] std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns,
                                               const packet::PacketAzimuths& azimuths,
                                               bool rotating) noexcept TERRACUT_NONBLOCKING;

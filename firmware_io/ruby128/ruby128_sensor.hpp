@@ -22,22 +22,23 @@
 
 namespace terracut::ruby128 {
 
-/// The Decoder's trait of the RS-Ruby128.
+/// The trait of the RS-Ruby128 for the Decoder.
 ///
-/// Single and dual return packets are told apart by their azimuths: in dual return each comes
-/// twice. A pair that straddles two packets is joined (HeldFiring), unless one of them is lost.
+/// Tells single from dual return packets by their azimuths: in dual return each azimuth comes
+/// twice. If the two returns of a firing are split between packets they are joined (HeldFiring),
+/// unless one of the packets is lost.
 class Ruby128Sensor {
  public:
   using Calibration = Ruby128Calibration;
   struct Config {
-    /// The encoding of stamps; nothing: found out from the packets.
+    /// Encoding of the device stamps; empty: found out from the packets.
     std::optional<RubyTimestamp> timestamp;
   };
   static constexpr int kRows = kRuby128Lasers, kChannels = kRows;
   static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
   static constexpr std::size_t kGroups = kRubyGroups;
   using Returns = packet::FiringReturns<static_cast<std::size_t>(kRows)>;
-  /// Beyond all device stamps, which count from 1970.
+  /// Larger than all device stamps, which count from 1970, so that they never wrap.
   static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
   static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a frame at 10 Hz.
   /// Enough for dual return, where two firings may share a column: more than two for some cells.
@@ -89,8 +90,9 @@ class Ruby128Sensor {
   Ruby128BeamOffsets offsets_;
   packet::StraightPointKernel kernel_;
   HeldFiring held_;
-  std::int32_t step_ticks_ = 0;        ///< The last packet's that had one; 0: none yet.
-  std::int32_t first_step_ticks_ = 0;  ///< For the packet's first block, perhaps a held firing's.
+  std::int32_t step_ticks_ = 0;  ///< Step of the last packet that had one; 0: none yet.
+  /// Step for the packet's first block, perhaps that of a held firing.
+  std::int32_t first_step_ticks_ = 0;
   std::array<std::int32_t, kRuby128Lasers> rows_;
 };
 

@@ -12,7 +12,7 @@
 
 namespace terracut::ruby128 {
 
-/// The encoding of the ten stamp bytes of a RoboSense packet; three are in use
+/// How the ten stamp bytes of a RoboSense packet are encoded; three encodings are in use
 /// (docs/reference/sensors.md).
 enum class RubyTimestamp : std::uint8_t {
   kCalendar,         ///< Year since 2000, month, day, hour, minute, second, ms and us.
@@ -23,7 +23,7 @@ enum class RubyTimestamp : std::uint8_t {
 /// Returns "calendar", "UTC seconds and microseconds" or "UTC seconds and nanoseconds".
 [[nodiscard]] std::string_view to_string(RubyTimestamp encoding) noexcept;
 
-/// Returns nanoseconds since 1970 by the device's clock. Calendar fields out of range carry over:
+/// Returns nanoseconds since 1970 on the device's clock. Calendar fields out of range carry over:
 /// month 13 is the next year's January. Seconds wrap at 2^33 (the year 2242).
 [[nodiscard]] std::int64_t read_ruby_timestamp(
     std::span<const std::uint8_t, 10> bytes, RubyTimestamp encoding) noexcept TERRACUT_NONBLOCKING;
@@ -35,11 +35,11 @@ enum class RubyTimestamp : std::uint8_t {
 /// Finds out from the packets of one stream which encoding its sensor uses. complete() tells
 /// whether the answer is proven or only the likelier one.
 ///
-/// A year or a month in the first two bytes means a calendar: UTC seconds leave both 0 until 2106,
-/// and a calendar has no month 0. A sub-second value above 999,999 means nanoseconds. A step
-/// between two packets too short for a packet period in nanoseconds means microseconds. Until one
-/// of these is seen the likelier unit is taken: microseconds, or nanoseconds after a long step.
-/// Real-time safe; one thread.
+/// A year or a month in the first two bytes means a calendar: UTC seconds leave both bytes 0 until
+/// 2106, and a calendar has no month 0. A sub-second value above 999,999 means nanoseconds. A step
+/// between two packets that would be too short for a packet period in nanoseconds means
+/// microseconds. Until one of these is seen the likelier unit is assumed: microseconds, or
+/// nanoseconds after a long step. Real-time safe; one thread.
 class RubyTimestampDetector {
  public:
   /// Returns the encoding by which to read this packet's stamp.

@@ -13,7 +13,8 @@
 
 namespace terracut::scan {
 
-/// More than any HDL-64E frame can hold (64 lasers x 4167 firings at 5 Hz, two returns).
+/// Most points of a scan: more than any HDL-64E frame can have (64 lasers x 4167 firings at 5 Hz,
+/// two returns).
 inline constexpr std::size_t kMaxScanPoints = std::size_t{1} << 20;
 
 /// One point of a KITTI `.bin` file.
@@ -45,7 +46,7 @@ using ScanPoint = CloudPoint;
   return static_cast<std::uint8_t>(double{share * 255.0F} + 0.5);
 }
 
-/// Finds the factor that turns a file's intensities into remissions. Programs write 0..1, the
+/// Finds the factor that converts a file's intensities to remissions 0..1. Programs write 0..1, the
 /// sensor's 0..255, or 16 bits; the file's brightest point tells which.
 class RemissionScale {
  public:
@@ -62,24 +63,28 @@ class RemissionScale {
   float brightest_ = 0;
 };
 
-/// Reads the points of a KITTI `.bin`, with remissions 0..1; it may be empty. kNotFound,
-/// kUnreadable, kMalformed (cut off, too large, of five floats a point), naming the file.
+/// Reads the points of a KITTI `.bin`, with remissions 0..1; the file may be empty. Fails with
+/// kNotFound, kUnreadable or kMalformed (cut off, too large, of five floats a point); the message
+/// names the file.
 [[nodiscard]] Status read_kitti_points(const std::filesystem::path& bin_file,
                                        std::vector<ScanPoint>& points);
 
 /// One recorded frame. Its buffers are reused from scan to scan.
 struct KittiScan {
-  std::vector<ScanPoint> points;      ///< In the file's order: ring after ring from the top.
-  std::vector<std::uint32_t> labels;  ///< SemanticKITTI labels of the points; empty without file.
-  std::size_t no_place = 0;           ///< Points with is_place() false; they stay in the list.
+  std::vector<ScanPoint> points;  ///< In the file's order: ring after ring from the top.
+  /// SemanticKITTI labels of the points; empty without a label file.
+  std::vector<std::uint32_t> labels;
+  /// Points without a valid position (is_place()); they stay in the list.
+  std::size_t no_place = 0;
 };
 
-/// Reads a KITTI `.bin` (little-endian float32 x y z remission a point, no header) into `scan` and
-/// empties its labels. Errors: kNotFound, kUnreadable, kMalformed (empty, truncated, too large, no
-/// point that is a place), naming the file.
+/// Reads a KITTI `.bin` (little-endian float32 x y z remission per point, no header) into `scan`
+/// and empties its labels. Fails with kNotFound, kUnreadable or kMalformed (empty, truncated, too
+/// large, no point with a valid position); the message names the file.
 [[nodiscard]] Status read_kitti_scan(const std::filesystem::path& bin_file, KittiScan& scan);
 
-/// Reads the labels of `label_file` as well, one for every point; a differing count is kMalformed.
+/// Also reads the labels in `label_file`, one for every point. Fails with kMalformed if the counts
+/// differ.
 [[nodiscard]] Status read_kitti_scan(const std::filesystem::path& bin_file,
                                      const std::filesystem::path& label_file, KittiScan& scan);
 

@@ -17,13 +17,13 @@ namespace terracut::scan {
   return static_cast<std::uint16_t>(label & 0xFFFFU);
 }
 
-/// Reads a SemanticKITTI `.label` file: one little-endian uint32 a point, no header. Reuses the
+/// Reads a SemanticKITTI `.label` file: one little-endian uint32 per point, no header. Reuses the
 /// memory of `labels`. `points` is the number of labels that the scan needs; 0 accepts any number.
-/// Errors: kNotFound, kUnreadable, kMalformed (truncated, empty, count differs from `points`).
+/// Fails with kNotFound, kUnreadable or kMalformed (truncated, empty, count differs from `points`).
 [[nodiscard]] Status read_label_file(const std::filesystem::path& path, std::size_t points,
                                      std::vector<std::uint32_t>& labels);
 
-/// Writes a `.label` file, whole or not at all. Error: kWriteFailed.
+/// Writes a `.label` file, whole or not at all. Fails with kWriteFailed.
 [[nodiscard]] Status write_label_ids(const std::filesystem::path& path,
                                      std::span<const std::uint32_t> labels);
 

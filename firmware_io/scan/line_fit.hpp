@@ -7,7 +7,7 @@
 
 namespace terracut::scan {
 
-/// y = offset + slope * x
+/// The line y = offset + slope * x.
 struct FittedLine {
   double slope = 0;
   double offset = 0;

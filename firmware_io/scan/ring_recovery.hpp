@@ -16,10 +16,11 @@ namespace terracut::scan {
 /// The ring of every point of a scan, found from the order of the file. Buffers are reused from
 /// scan to scan.
 struct RingRecovery {
-  std::vector<std::int16_t> ring_of_point;  ///< 0 (top) .. rings - 1; kNoRing for points without.
-  int rings = 0;                            ///< Rings found in the file's order.
-  std::size_t no_ring = 0;  ///< Points with kNoRing, including those without a place.
-  bool aligned = false;     ///< Renumbered by align_rings().
+  /// Ring from 0 (top) to rings - 1; kNoRing for a point without a ring.
+  std::vector<std::int16_t> ring_of_point;
+  int rings = 0;            ///< Number of rings found in the file's order.
+  std::size_t no_ring = 0;  ///< Points with kNoRing, including those without a valid position.
+  bool aligned = false;     ///< True if align_rings() has renumbered the rings.
 };
 
 /// Splits a scan into rings (the paper's backtracking). KITTI files hold ring after ring from the
@@ -41,7 +42,7 @@ struct RingRecovery {
                                  RingRecovery& recovery);
 
 /// Does split_into_rings(), then align_rings() if the count is not 64. Without a table (nullptr)
-/// such a scan is an error (kUnsupported).
+/// fails with kUnsupported for such a scan.
 [[nodiscard]] Status recover_rings(std::span<const ScanPoint> points, const RingTable* table,
                                    RingRecovery& recovery);
 

@@ -17,7 +17,7 @@ namespace terracut::scan {
 /// lowest.
 inline constexpr int kScanRings = hdl64e::kHdl64eLasers;
 
-/// Stands for the ring of a point that is not finite or fits no ring.
+/// The ring of a point that is not finite or fits no ring.
 inline constexpr std::int16_t kNoRing = -1;
 
 /// One ring as a line in the vertical plane: z = vert_offset + tan(elevation) * horizontal
@@ -44,8 +44,7 @@ using RingTable = std::vector<RingLine>;
 /// Returns the rings of a calibration, sorted by elevation; distance corrections are not used.
 [[nodiscard]] RingTable ring_table(const hdl64e::Hdl64eCalibration& calibration);
 
-/// Returns the laser of every ring of a calibration: hdl64e::rows_by_elevation inverted, from the
-/// top.
+/// Returns the laser of every ring, from the top: the inverse of hdl64e::rows_by_elevation().
 [[nodiscard]] std::array<int, kScanRings> lasers_by_ring(
     const hdl64e::Hdl64eCalibration& calibration);
 

@@ -27,8 +27,10 @@ struct FittedRings {
   RingTable table;
   HeightResidual residual;  ///< Over all rings.
   std::vector<HeightResidual> by_ring;
-  bool from_nominal_table = false;  ///< True if no scan had all rings (ScanReader::fit_rings()).
-  /// The number of rings with a line of their own whose points look no lower than the ring's above.
+  /// True if no scan had all rings, so that a nominal table told them apart.
+  bool from_nominal_table = false;
+  /// Number of rings with a line of their own whose points are no lower than those of the ring
+  /// above.
   std::size_t coinciding = 0;
   std::size_t with_line = 0;  ///< Rings with a fitted line; the others are interpolated.
 };

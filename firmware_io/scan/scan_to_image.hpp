@@ -25,19 +25,22 @@ namespace terracut::scan {
 /// cloud's order. Points without a ring and points beyond the overflow list's end are counted and
 /// not placed.
 ///
-/// Allocates nothing for clouds no larger than the largest before, or than reserve()d.
+/// Allocates only for a cloud larger than all before and than reserve()d.
 class ScanToImage {
  public:
   struct Summary {
     std::size_t placed = 0;
-    std::size_t no_place = 0;  ///< Without a place (is_place()); labelled frame::Label::kNone.
-    std::size_t no_ring = 0;   ///< With a place but no ring; labelled kObstacle, the safe side.
-    std::size_t overflow_full = 0;  ///< Cell and overflow list were full; labelled kObstacle.
+    /// Points without a valid position (is_place()); labelled frame::Label::kNone.
+    std::size_t no_place = 0;
+    /// Points with a valid position but no ring; labelled kObstacle, the safe side.
+    std::size_t no_ring = 0;
+    /// Points whose cell and overflow list were full; labelled kObstacle.
+    std::size_t overflow_full = 0;
   };
 
   explicit ScanToImage(const mount::Mount& mount);
 
-  /// Takes room for clouds of so many points.
+  /// Takes memory for clouds of `points` points.
   void reserve(std::size_t points);
 
   /// Clears `image`, which must have a row for every ring, and fills it with a cloud.
@@ -51,8 +54,8 @@ class ScanToImage {
     return point_of_return_;
   }
 
-  /// Gives all points of the last cloud, in its order, the labels of their returns; points without
-  /// a return get those of Summary. `of_returns` has one label for every placed point.
+  /// Gives each point of the last cloud, in its order, the label of its return; points without a
+  /// return get the labels stated at Summary. `of_returns` has one label for every placed point.
   void labels_of_points(std::span<const frame::Label> of_returns,
                         std::vector<frame::Label>& of_points) const;
 

@@ -32,13 +32,13 @@ struct UdpStream {
   std::int64_t first_stamp_ns = 0;                     ///< Capture stamps: earliest and latest.
   std::int64_t last_stamp_ns = 0;
 
-  SensorModel sensor = SensorModel::kUnknown;  ///< The model of most of its packets.
+  SensorModel sensor = SensorModel::kUnknown;  ///< The model that most packets come from.
   std::string sensor_hints;             ///< From its first such packet: describe_sensor_hints() or
                                         ///< streams::guess_of_unknown().
-  std::optional<Hdl64eFacts> hdl64e;    ///< Set if any packet is an HDL-64E's.
-  std::optional<Ruby128Facts> ruby128;  ///< Set if any is an RS-Ruby128's data packet.
-  std::optional<StreamFacts> head;      ///< Set if most are of another decoded model.
-  std::optional<Ruby128DeviceReader> device;  ///< Set if any is a DIFOP.
+  std::optional<Hdl64eFacts> hdl64e;    ///< Set if any packet is from an HDL-64E.
+  std::optional<Ruby128Facts> ruby128;  ///< Set if any packet is an RS-Ruby128's data packet.
+  std::optional<StreamFacts> head;      ///< Set if most packets are from another decoded model.
+  std::optional<Ruby128DeviceReader> device;  ///< Set if any packet is a DIFOP packet.
 
   /// Returns packets a second by the capture stamps; 0 for fewer than two packets.
   [[nodiscard]] double rate_hz() const noexcept;
@@ -50,16 +50,17 @@ struct CaptureSurvey {
   int link_type = 0;           ///< libpcap's DLT_ number.
   std::string link_type_name;  ///< "EN10MB"
   capture::PcapCounters counters;
-  std::vector<UdpStream> streams;                ///< Most packets first.
+  std::vector<UdpStream> streams;                ///< The streams, the one with most packets first.
   std::uint64_t packets_of_further_streams = 0;  ///< Packets of streams beyond kMostStreams.
-  std::optional<Error> broke_off;  ///< Why reading ended before the file's end, if it did.
+  /// Why reading ended before the file's end; empty if it did not.
+  std::optional<Error> broke_off;
 
   static constexpr std::size_t kMostStreams = 1024;
 };
 
 /// Reads the capture from its present position, until `stop_wanted` if given. A capture that breaks
-/// off is no error, see CaptureSurvey::broke_off. For inspection: allocates, takes about a second a
-/// gigabyte.
+/// off is no failure (see CaptureSurvey::broke_off). For inspection: allocates, takes about a
+/// second per gigabyte.
 [[nodiscard]] CaptureSurvey survey_capture(capture::PcapSource& source,
                                            const std::function<bool()>& stop_wanted = {});
 

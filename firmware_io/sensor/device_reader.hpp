@@ -13,8 +13,8 @@ namespace terracut::sensor {
 
 struct Ruby128DeviceCounters {
   std::uint64_t packets = 0;  ///< DIFOP packets read.
-  /// Packets whose serial number, or angles, differ from those of the packet before. A unit always
-  /// sends the same: any change means that two sensors share a port, or that one was replaced.
+  /// Packets whose serial number or angles differ from those of the packet before. A unit always
+  /// sends the same: a change means that two sensors share a port, or that one was replaced.
   std::uint64_t serial_changes = 0;
   std::uint64_t angle_changes = 0;
 };
@@ -26,7 +26,7 @@ struct Ruby128DeviceCounters {
 /// One thread at a time. For start and reports: add() may allocate.
 class Ruby128DeviceReader {
  public:
-  /// False if the payload is no DIFOP.
+  /// Adds a payload; false if it is no DIFOP packet.
   bool add(std::span<const std::uint8_t> payload);
 
   [[nodiscard]] const Ruby128DeviceCounters& counters() const noexcept { return counters_; }
@@ -37,8 +37,8 @@ class Ruby128DeviceReader {
   }
 
   [[nodiscard]] bool has_calibration() const noexcept { return calibration_.has_value(); }
-  /// Returns the first plausible angles. Without any: kNoCalibration if no packet has come, else
-  /// calibration_of()'s error for the newest.
+  /// Returns the first plausible angles. Fails with kNoCalibration if no packet has come; if none
+  /// was plausible, as calibration_of() did for the newest packet.
   [[nodiscard]] const Expected<ruby128::Ruby128Calibration>& calibration() const noexcept {
     return calibration_;
   }

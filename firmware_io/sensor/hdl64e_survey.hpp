@@ -16,14 +16,15 @@ namespace terracut::sensor {
 /// Facts about one HDL-64E from its packets.
 struct Hdl64eFacts : StreamFacts {
   hdl64e::StatusSnapshot status;
-  std::size_t status_holes = 0;  ///< Bytes of the table that never came.
-  std::optional<hdl64e::StatusTableCollector::Table> table;  ///< For hdl64e::parse_stream_table().
+  std::size_t status_holes = 0;  ///< Bytes of the calibration table that never came.
+  /// The table, for hdl64e::parse_stream_table().
+  std::optional<hdl64e::StatusTableCollector::Table> table;
 };
 
 /// Gathers Hdl64eFacts packet by packet. For inspection, not for the receive thread: allocates.
 class Hdl64eSurvey {
  public:
-  /// Takes a payload of an HDL-64E (recognise_sensor()).
+  /// Adds a payload that recognise_sensor() takes for an HDL-64E's.
   void add(std::span<const std::uint8_t> payload);
   [[nodiscard]] Hdl64eFacts facts() const;
 

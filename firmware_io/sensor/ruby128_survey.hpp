@@ -17,7 +17,7 @@ struct Ruby128Facts : StreamFacts {
   ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
   bool timestamp_proven = false;
   double ahead_of_capture_s = 0;  ///< Device clock minus capture stamp, of the last packet.
-  double temperature_deg_c = 0;   ///< In the last packet.
+  double temperature_deg_c = 0;   ///< Temperature in the last packet.
 };
 
 /// Gathers Ruby128Facts packet by packet. For inspection, not for the receive thread: allocates.
@@ -31,7 +31,7 @@ class Ruby128Survey {
  private:
   StreamSurvey stream_{ruby128::Ruby128Sensor::kClockWrap_us};
   ruby128::RubyTimestampDetector timestamp_;
-  std::int32_t step_ticks_ = 0;  ///< Of the last packet with a rotating head; 0: none yet.
+  std::int32_t step_ticks_ = 0;  ///< Step of the last packet with a rotating head; 0: none yet.
   Ruby128Facts last_;
 };
 

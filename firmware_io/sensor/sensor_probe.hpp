@@ -28,20 +28,20 @@ class SensorProbe {
     return votes_;
   }
   [[nodiscard]] std::uint64_t packets_of(SensorModel model) const;
-  /// True if enough data packets of a rotating head of that model came for the answers below.
+  /// True if enough data packets of a rotating head of `model` came for the answers below.
   [[nodiscard]] bool knows(SensorModel model) const;
 
   /// Returns the frames per second of a decoded model, by its own stamps and azimuths; 0 while
   /// unknown.
   [[nodiscard]] double spin_hz(SensorModel model) const;
   [[nodiscard]] bool dual_return(SensorModel model) const;
-  /// Returns the columns of its range image: firings a frame at the nominal 5, 10, 15 or 20 Hz if
-  /// it rotates at about that, else at its own rate between 5 and 20 Hz. Otherwise, and while
-  /// unknown, returns the model's default.
+  /// Returns the columns of the model's range image: firings per frame at the nominal 5, 10, 15 or
+  /// 20 Hz if the head rotates at about that, else at its own rate between 5 and 20 Hz. Otherwise,
+  /// and while the rate is unknown, returns the model's default.
   [[nodiscard]] int columns(SensorModel model) const;
 
-  /// Returns the number of data packets in which that model's head rotates backwards, which none
-  /// does.
+  /// Returns the number of data packets in which the model's head rotates backwards, which no real
+  /// head does.
   [[nodiscard]] std::uint64_t backward_packets(SensorModel model) const;
 
   /// Returns the models seen that cannot be decoded, as a phrase: "12 packets of a Velodyne VLP-16

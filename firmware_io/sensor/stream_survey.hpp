@@ -22,13 +22,14 @@ enum class ReturnMode : std::uint8_t { kUnknown, kSingle, kDual };
 struct StreamFacts {
   std::uint64_t packets = 0;
   ReturnMode return_mode = ReturnMode::kUnknown;
-  double packet_period_us = 0;  ///< Mean; 0 while unknown.
+  double packet_period_us = 0;  ///< Mean device time between packets; 0 while unknown.
   double spin_rpm = 0;          ///< 0 for a head that stands still.
-  double step_deg = 0;          ///< Azimuth from one firing to the next, mean.
+  double step_deg = 0;          ///< Mean azimuth from one firing to the next.
   double frames = 0;            ///< Revolutions from the first packet to the last, gaps included.
-  std::uint64_t packets_lost = 0;      ///< Missing by the device stamps, outside a blind sector.
-  frame::BlindAzimuths blind;          ///< As BlindSector knows it at the end.
-  std::uint64_t packets_repeated = 0;  ///< With the same stamp as the packet before.
+  /// Packets missing by the device stamps, outside a blind sector.
+  std::uint64_t packets_lost = 0;
+  frame::BlindAzimuths blind;          ///< Where the sensor is blind, as known at the end.
+  std::uint64_t packets_repeated = 0;  ///< Packets with the same stamp as the packet before.
   std::uint64_t packets_reordered = 0;
   std::uint64_t clock_jumps = 0;  ///< Stamp steps beyond 10 s either way: a loop, a restart.
   std::uint64_t azimuths_out_of_range = 0;  ///< Packets with an azimuth of 360 degrees or more.
@@ -37,7 +38,7 @@ struct StreamFacts {
 /// Gathers StreamFacts packet by packet. For inspection, not for the receive thread: allocates.
 class StreamSurvey {
  public:
-  /// `clock_wrap_us`: the device clock counts [0, clock_wrap_us).
+  /// `clock_wrap_us` says where the device clock wraps: it counts [0, clock_wrap_us).
   explicit StreamSurvey(std::int64_t clock_wrap_us) : clock_wrap_us_(clock_wrap_us) {}
 
   /// Adds a packet. `rotating` says that its head rotates and all of `azimuths` is valid; else only
@@ -56,7 +57,7 @@ class StreamSurvey {
   /// The newest packet of a rotating head, by unwrapped azimuth.
   struct Seen {
     std::int64_t stamp_us = 0, rotor_cdeg = 0;
-    bool has_sector = false;  ///< A blind sector lies in it (PacketAzimuths).
+    bool has_sector = false;  ///< True if a blind sector lies in the packet (PacketAzimuths).
   };
 
   /// Adds the device time and azimuth between two adjacent packets of the capture.
@@ -71,15 +72,16 @@ class StreamSurvey {
   StreamFacts facts_;
   std::optional<packet::PacketAzimuths> newest_;
   std::map<std::int64_t, std::uint64_t> steps_us_;  ///< Stamp steps, with how often each occurred.
-  std::int64_t short_time_us_ = 0;  ///< Over steps short enough to tell the azimuth's advance.
+  std::int64_t short_time_us_ = 0;  ///< Sum over steps short enough to tell the azimuth's advance.
   std::int64_t short_advance_cdeg_ = 0;
-  std::int64_t long_time_us_ = 0;  ///< Over all other steps.
+  std::int64_t long_time_us_ = 0;  ///< Sum over all other steps.
   decode::BlindSector blind_{packet::kRevolution_ticks};
   std::optional<Seen> seen_;
   std::int64_t frontier_ticks_ = 0;  ///< The head was seen up to here.
-  std::int64_t not_rotating_ = 0;    ///< Packets since then without rotation.
-  std::int64_t lost_in_gaps_ = 0;    ///< Packets lost in gaps wide enough for a blind sector.
-  std::int64_t steps_ticks_ = 0;     ///< Sum of the packets' own steps.
+  /// Packets without rotation since the head was last seen rotating.
+  std::int64_t not_rotating_ = 0;
+  std::int64_t lost_in_gaps_ = 0;  ///< Packets lost in gaps wide enough for a blind sector.
+  std::int64_t steps_ticks_ = 0;   ///< Sum of the packets' own steps.
   std::uint64_t dual_packets_ = 0;
   std::uint64_t rotating_packets_ = 0;
 };

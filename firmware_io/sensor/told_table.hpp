@@ -17,8 +17,8 @@
 
 namespace terracut::sensor {
 
-/// Returns a warning if the packets contained another table than the one in use: both fingerprints
-/// and what to do. Empty if they contained none, or the same.
+/// Returns a warning if the packets contained a table other than the one in use: both fingerprints
+/// and what to do. Empty if they contained no table, or the same one.
 [[nodiscard]] std::string other_table_warning(const hdl64e::StatusStreamReader& told,
                                               const calib::SensorCalibration& in_use);
 
@@ -37,12 +37,12 @@ class ToldTable {
     (void)heard_.try_push({packet->stamp_us.value(), packet->status_type, packet->status_value});
   }
 
-  /// Returns the warning once; empty before and after, and if nothing differs. Any one thread
+  /// Returns the warning once; empty before and after, and if the tables agree. Any one thread
   /// without a deadline.
   [[nodiscard]] std::string take_warning(const calib::SensorCalibration& in_use);
 
  private:
-  static constexpr std::size_t kHeard = 2048;  ///< Packets of 0.3 s of dual return.
+  static constexpr std::size_t kHeard = 2048;  ///< Packets buffered: 0.3 s of dual return.
 
   struct StatusByte {
     std::uint32_t stamp_us;

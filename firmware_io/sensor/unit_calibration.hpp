@@ -15,9 +15,11 @@ namespace terracut::sensor {
 
 /// Sources of a unit's calibration besides its own packets.
 struct CalibrationChoice {
-  std::optional<calib::SensorCalibration> unit{};  ///< Already known; must be of the model.
-  std::filesystem::path file{};  ///< HDL-64E: xml or yaml; RS-Ruby128: csv. Empty: none.
-  bool allows_nominal = false;   ///< Allows the nominal table of an RS-Ruby128 as the last resort.
+  /// A calibration known already; must be of the model.
+  std::optional<calib::SensorCalibration> unit{};
+  /// File of an HDL-64E (xml or yaml) or an RS-Ruby128 (csv); empty: none.
+  std::filesystem::path file{};
+  bool allows_nominal = false;  ///< Allows the nominal table of an RS-Ruby128 as the last resort.
 
   [[nodiscard]] bool is_given() const noexcept { return unit.has_value() || !file.empty(); }
 };

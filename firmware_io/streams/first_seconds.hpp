@@ -17,11 +17,11 @@
 
 namespace terracut::streams {
 
-/// A sensor that sends, with what is needed to decode it.
+/// A sensor that is sending, with what is needed to decode it.
 struct SensorOnAir {
   net::Sender sender;
   sensor::SensorModel model{};
-  int columns = 0;  ///< Firings a frame, for the range image.
+  int columns = 0;  ///< Firings per frame, for the range image.
   double spin_hz = 0;
   bool dual_return = false;
   calib::SensorCalibration calibration;
@@ -35,12 +35,13 @@ class FirstSeconds {
  public:
   struct Config {
     std::optional<sensor::SensorModel>
-        model;                   ///< The only model wanted; none: any that can be decoded.
-    std::optional<int> columns;  ///< None: from the sensor's spin rate.
+        model;  ///< The only model wanted; none: any that can be decoded.
+    /// Columns of the range image; empty: from the sensor's spin rate.
+    std::optional<int> columns;
     sensor::CalibrationChoice calibration;
-    std::string place;              ///< For messages: where packets come in, "0.0.0.0:2368".
-    std::uint16_t device_port = 0;  ///< The port where DIFOP was listened for as well; 0: none.
-    /// The sensor used before; it is chosen among several.
+    std::string place;              ///< Where packets come in, for messages: "0.0.0.0:2368".
+    std::uint16_t device_port = 0;  ///< The port at which DIFOP packets were expected; 0: none.
+    /// The sensor used before; if several send, this one is chosen.
     std::optional<net::Sender> known{};
   };
   explicit FirstSeconds(Config config) : config_(std::move(config)), senders_(config_.model) {}
@@ -63,10 +64,11 @@ class FirstSeconds {
   /// Names the sensors not chosen, for people: "HDL-64E at 192.168.1.7". Empty if there are none.
   [[nodiscard]] std::string other_sensors() const;
 
-  /// Returns the sensor, whether it rotates or not. kUnsupported: nobody sends anything that can be
-  /// decoded; the message says what came instead, within `patience_s` if given. kInvalidArgument:
-  /// several sensors send, and none of them was used before. kNoCalibration: none was given or
-  /// sent. Also the errors of the calibration file.
+  /// Returns the sensor, whether it rotates or not. Fails with kUnsupported if nobody sends
+  /// anything that can be decoded (the message says what came instead, within `patience_s` if
+  /// given), kInvalidArgument if several sensors send and none of them was used before,
+  /// kNoCalibration if no calibration was given or sent, and with the errors of the calibration
+  /// file.
   [[nodiscard]] Expected<SensorOnAir> conclude(std::optional<double> patience_s = {}) const;
 
  private:

@@ -14,14 +14,14 @@ namespace terracut::streams {
 
 /// How long to wait for a sensor, and whom to tell.
 struct Waiting {
-  std::optional<double> patience_s;  ///< None: unlimited.
+  std::optional<double> patience_s;  ///< Longest time to wait; empty: unlimited.
   std::function<bool()> stop_wanted;
   /// Called many times a second with what is waited for; may be empty.
   std::function<void(const std::string& what)> on_waiting;
 };
 
-/// Listens at `data`, and at `device` unless that is null, until `first` has heard enough. Errors
-/// of FirstSeconds::conclude(). Start-up: allocates.
+/// Listens at `data`, and at `device` unless that is null, until `first` has heard enough. Fails as
+/// FirstSeconds::conclude() does. Start-up: allocates.
 [[nodiscard]] Expected<SensorOnAir> hear_sensor(FirstSeconds& first, net::LiveSource& data,
                                                 net::LiveSource* device, const Waiting& waiting);
 

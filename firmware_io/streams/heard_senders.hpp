@@ -25,7 +25,7 @@ namespace terracut::streams {
 /// Time is that of the datagrams' stamps. Allocates; one thread.
 class HeardSenders {
  public:
-  /// `wanted` is the only model that counts; none: any that can be decoded.
+  /// `wanted` is the only model that counts; empty: any that can be decoded.
   explicit HeardSenders(std::optional<sensor::SensorModel> wanted) : wanted_(wanted) {}
 
   void add(const packet::Datagram& datagram);
@@ -59,13 +59,13 @@ class HeardSenders {
   [[nodiscard]] const sensor::Ruby128DeviceReader& ruby128_device(std::uint32_t address) const {
     return senders_.at(address).ruby128_device;
   }
-  /// For people, what came instead of a rotating sensor: "12 datagrams of no sensor known here, 100
-  /// bytes to port 2368, from 192.168.1.7; HDL-64E, whose head does not rotate, from
-  /// 192.168.1.201". Empty: nothing did.
+  /// Returns, for people, what came instead of a rotating sensor: "12 datagrams of no sensor known
+  /// here, 100 bytes to port 2368, from 192.168.1.7; HDL-64E, whose head does not rotate, from
+  /// 192.168.1.201". Empty if nothing came.
   [[nodiscard]] std::string others() const;
 
  private:
-  /// More senders are probably a port scan.
+  /// Most senders kept: more are probably a port scan.
   static constexpr std::size_t kMostSenders = 64;
   static constexpr std::uint64_t kSteady_packets = 50;
   static constexpr std::size_t kMostNamed = 4;  ///< Most that others() names; it counts the rest.
@@ -102,9 +102,10 @@ class HeardSenders {
 /// Who sends in the first second or so of a capture.
 struct HeardCapture {
   HeardSenders senders;
-  std::optional<Error> broke_off;  ///< Why reading ended before the capture did, if so.
+  /// Why reading ended before the capture did; empty if it did not.
+  std::optional<Error> broke_off;
 };
-/// Leaves `source` anywhere.
+/// Reads the beginning of a capture. Leaves `source` at any position.
 [[nodiscard]] HeardCapture hear_beginning(capture::PcapSource& source,
                                           std::optional<sensor::SensorModel> wanted);
 

@@ -37,9 +37,10 @@ class SenderStreams {
   [[nodiscard]] std::vector<SensorStream> sensors() const;
 
  private:
-  /// More destinations are probably a port scan.
+  /// Most destinations kept: more are probably a port scan.
   static constexpr std::size_t kMostDestinations = 64;
-  static constexpr std::size_t kMostPayloads = 64;  ///< A copy comes within so many packets.
+  /// A copy of a packet comes within this many packets.
+  static constexpr std::size_t kMostPayloads = 64;
 
   /// Counts the packets that followed one from elsewhere, and those that contradict it.
   struct Turns {
@@ -62,8 +63,8 @@ class SenderStreams {
   struct Place {
     std::uint64_t packets = 0;
     Sources ports, macs;
-    Turns steps;                            ///< Over all its packets, whoever sent them.
-    std::optional<std::int64_t> newest_us;  ///< On the sensor's clock.
+    Turns steps;  ///< Changes over all packets of the destination, whoever sent them.
+    std::optional<std::int64_t> newest_us;  ///< Stamp of the newest packet on the sensor's clock.
   };
   using Group = std::vector<Destination>;
 
@@ -81,7 +82,7 @@ class SenderStreams {
   std::optional<std::int64_t> newest_us_;
   bool has_clock_ = false;     ///< False for simulators whose stamps are all the same.
   Turns turns_;                ///< Changes between destinations.
-  std::uint64_t packets_ = 0;  ///< Number without copies.
+  std::uint64_t packets_ = 0;  ///< Number of packets, not counting copies.
   std::unordered_map<std::uint64_t, Destination> first_at_;  ///< Keyed by the payload's hash.
   std::deque<std::uint64_t> payloads_;  ///< The hashes in `first_at_`, oldest first.
   std::map<std::pair<Destination, Destination>, std::uint64_t> copies_;

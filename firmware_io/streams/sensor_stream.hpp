@@ -33,15 +33,16 @@ struct SensorStream {
   /// One destination, or several that get the same packets or a part each; the one with most
   /// packets first.
   std::vector<Destination> destinations{};
-  /// Set if these alone tell it from another sensor; see Datagram.
+  /// The source port and link-layer address, set only if needed to tell this sensor from another;
+  /// see Datagram.
   std::optional<std::uint16_t> source_port{};
   std::optional<std::uint64_t> source_mac{};
   std::uint64_t packets = 0;
-  /// True if its packets contradict each other: several sensors that nothing tells apart.
+  /// True if the sensor's packets contradict each other: several sensors that nothing tells apart.
   bool contradicts_itself = false;
 
-  /// True if a datagram from its address may be its own. False for a data packet that went
-  /// elsewhere, or came from elsewhere, than this sensor's.
+  /// True if a datagram from the sensor's address may be its own. False for a data packet that went
+  /// to, or came from, another place than this sensor's.
   [[nodiscard]] bool may_hold(const packet::Datagram& datagram) const noexcept {
     const bool is_its_way =
         std::ranges::find(destinations, destination_of(datagram)) != destinations.end() &&

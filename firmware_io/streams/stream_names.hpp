@@ -19,11 +19,12 @@ struct StreamName {
   std::string name;     ///< "Velodyne VLP-16 at 192.168.1.201 to port 2369"
   std::string options;  ///< "--port 2369"
 };
-/// Of each sensor, by as few of its marks as tell them all apart.
+/// Returns the names of the sensors, made of as few marks as tell them all apart.
 [[nodiscard]] std::vector<StreamName> names_of(std::span<const SensorStream> sensors,
                                                HeardIn heard_in);
 
-/// Of several sensors: "A, B; choose one with --port 2368 or --port 2369".
+/// Returns how to choose one of several sensors: "A, B; choose one with --port 2368 or --port
+/// 2369".
 [[nodiscard]] std::string choice_text(std::span<const SensorStream> sensors, HeardIn heard_in);
 
 }  // namespace terracut::streams

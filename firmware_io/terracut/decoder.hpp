@@ -17,7 +17,7 @@ namespace terracut {
 /// The payload of one UDP datagram.
 struct Packet {
   std::span<const std::uint8_t> payload;
-  std::int64_t stamp_ns = 0;  ///< When it was received, nanoseconds since 1970 (UTC).
+  std::int64_t stamp_ns = 0;  ///< Time of reception, nanoseconds since 1970 (UTC).
 };
 
 /// Turns packets into frames of points, without labels. Fixed memory: push() and next() allocate
@@ -28,10 +28,12 @@ struct Packet {
 class Decoder {
  public:
   struct Config {
-    int reorder_packets = 2;  ///< Packets up to so many late still find their frame; adds latency.
+    /// A packet up to this many packets late still finds its frame; adds latency.
+    int reorder_packets = 2;
   };
 
-  /// Errors: kInvalidArgument: a setting or mount out of range; kCapacityExceeded: no memory.
+  /// Makes a decoder. Fails with kInvalidArgument if a setting or the mount is out of range,
+  /// kCapacityExceeded if there is not enough memory.
   [[nodiscard]] static Expected<Decoder> make(const Calibration& calibration, const Mount& mount,
                                               const Config& config);
   [[nodiscard]] static Expected<Decoder> make(const Calibration& calibration,
@@ -45,13 +47,13 @@ class Decoder {
   /// Takes a packet; its payload must stay until next() has returned null. Anything but the
   /// sensor's data packets is counted and left out.
   void push(const Packet& packet) noexcept;
-  /// Ends the stream: open frames are handed out.
+  /// Ends the stream: next() then returns the frames still open.
   void end_stream() noexcept;
   /// Returns the next complete frame, or null. Call it until it returns null; a frame is valid
   /// until the next call.
   [[nodiscard]] const Frame* next() noexcept;
 
-  /// Return the packets decoded and left out so far.
+  /// These return how many packets were decoded and left out so far.
   [[nodiscard]] std::uint64_t packets_decoded() const noexcept;
   [[nodiscard]] std::uint64_t packets_rejected() const noexcept;
 
@@ -64,19 +66,21 @@ class Decoder {
 /// Reads the datagrams that one sensor sent from a capture file (pcap, pcapng), in file order.
 class Capture {
  public:
-  /// Finds the sensor and, if its packets contain it, its calibration. kNotFound, kUnreadable,
-  /// kMalformed, kUnsupported (no sensor that can be decoded), kInvalidArgument (several sensors).
+  /// Finds the sensor and, if its packets contain it, its calibration. Fails with kNotFound,
+  /// kUnreadable, kMalformed, kUnsupported (no sensor that can be decoded) or kInvalidArgument
+  /// (several sensors).
   [[nodiscard]] static Expected<Capture> open(const std::filesystem::path& file);
   Capture(Capture&&) noexcept;
   Capture& operator=(Capture&&) noexcept;
   ~Capture();
 
   [[nodiscard]] Sensor sensor() const noexcept;
-  /// Errors: kNoCalibration if the packets do not hold all of it.
+  /// Returns the calibration from the packets. Fails with kNoCalibration if they do not hold all of
+  /// it.
   [[nodiscard]] const Expected<Calibration>& calibration() const noexcept;
 
-  /// Returns the next packet, whose payload is valid until the next call; nothing at the end. An
-  /// error means that the file breaks off.
+  /// Returns the next packet, whose payload is valid until the next call; nothing at the end. Fails
+  /// if the file breaks off.
   [[nodiscard]] Expected<std::optional<Packet>> next();
 
  private:

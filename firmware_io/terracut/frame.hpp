@@ -10,9 +10,9 @@ namespace terracut {
 
 /// The label of a return.
 enum class Label : std::uint8_t {
-  kNone = 0,         ///< Not a return (clouds only), or the frame was not labelled.
+  kNone = 0,         ///< The point is no return (clouds only), or the frame was not labelled.
   kGround = 1,       ///< Physical ground; only road surface, if that was asked for.
-  kObstacle = 2,     ///< Everything else.
+  kObstacle = 2,     ///< Any return that is not ground.
   kOtherGround = 3,  ///< Physical ground that is not road surface.
 };
 
@@ -25,28 +25,30 @@ enum class Label : std::uint8_t {
 /// the sensor.
 struct Point {
   float x_m = 0, y_m = 0, z_m = 0;
-  std::uint16_t ring = 0;      ///< Row of the laser; 0 is the lowest.
-  std::uint8_t intensity = 0;  ///< Raw, as the sensor sends it.
+  std::uint16_t ring = 0;      ///< Row of the laser in the range image; 0 is the lowest.
+  std::uint8_t intensity = 0;  ///< Intensity as the sensor sends it.
 };
 
 /// A point of a cloud in the sensor frame: x ahead, y left, z up.
 struct CloudPoint {
   float x_m = 0, y_m = 0, z_m = 0;
-  float remission = 0;  ///< 0..1
+  float remission = 0;  ///< Reflectivity, 0 to 1.
 };
 
-/// One revolution of the sensor. points and labels have one entry a return, in order of arrival.
-/// Whoever hands the frame out says how long they are valid.
+/// One revolution of the sensor. points and labels have one entry per return, in order of arrival.
+/// The function that hands the frame out says how long they are valid.
 struct Frame {
-  std::uint32_t number = 0;          ///< From 0, in order.
-  std::int64_t first_packet_ns = 0;  ///< Receive stamp, nanoseconds since 1970 (UTC).
+  std::uint32_t number = 0;  ///< Number of the frame, from 0, in order.
+  /// Stamp of the frame's first packet, nanoseconds since 1970 (UTC).
+  std::int64_t first_packet_ns = 0;
   std::int64_t last_packet_ns = 0;
   bool complete = false;  ///< True if every firing was seen, except where the sensor is blind.
   bool deskewed = false;  ///< True if the vehicle's motion was removed.
-  std::uint64_t packets_lost = 0;  ///< Lost on the network since the last frame.
+  std::uint64_t packets_lost = 0;  ///< Packets lost on the network since the last frame.
   std::span<const Point> points;
-  std::span<const Label> labels;       ///< Empty if the frame was not labelled.
-  std::span<const float> time_s = {};  ///< Since the first packet; empty except from a LiveRun.
+  std::span<const Label> labels;  ///< Empty if the frame was not labelled.
+  /// Time of each return since the first packet; empty except from a LiveRun.
+  std::span<const float> time_s = {};
 };
 
 }  // namespace terracut

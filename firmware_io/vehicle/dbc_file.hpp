@@ -21,8 +21,8 @@ enum class DbcNumber : std::uint8_t { kUnsigned, kSigned, kFloat, kDouble };
 /// In which frames of a multiplexed message a signal is valid.
 enum class DbcMultiplex : std::uint8_t {
   kAlways,
-  kSelector,  ///< In all; its value selects the others.
-  kSelected,  ///< In those whose selector has a certain value.
+  kSelector,  ///< The signal is valid in all frames; its value selects the other signals.
+  kSelected,  ///< The signal is valid in frames whose selector has a certain value.
 };
 
 /// A signal as stated in its SG_ line; checked only as far as the line itself needs.
@@ -37,25 +37,25 @@ struct DbcSignal {
   double offset = 0;
   DbcMultiplex multiplex = DbcMultiplex::kAlways;
   std::string unit;
-  int line = 0;  ///< In the file, from 1.
+  int line = 0;  ///< Line of the file, from 1.
 };
 
 /// A message as stated in its BO_ line.
 struct DbcMessage {
   std::string name;
-  std::uint32_t written_id = 0;  ///< As written; bit 31 marks a 29-bit id.
-  int length = 0;                ///< In bytes.
+  std::uint32_t written_id = 0;  ///< The id as written; bit 31 marks a 29-bit id.
+  int length = 0;                ///< Data length in bytes.
   int line = 0;
   std::vector<DbcSignal> signals;
 
-  /// Returns nothing if the number fits neither format.
+  /// Returns the id; nothing if the number fits neither format.
   [[nodiscard]] std::optional<can::CanId> id() const noexcept;
 };
 
 /// The parts of a DBC file that are used: messages (BO_), their signals (SG_) and which of those
 /// are floating-point numbers (SIG_VALTYPE_). The rest is skipped.
 struct DbcFile {
-  std::string name;  ///< For messages.
+  std::string name;  ///< Name of the file, for messages.
   std::vector<DbcMessage> messages;
 };
 
@@ -65,15 +65,16 @@ struct DbcReference {
   const DbcSignal* signal = nullptr;
 };
 
-/// Parses any bytes. kMalformed, with the line, for a broken BO_, SG_ or SIG_VALTYPE_ line, and for
-/// a text without any message. `name` stands for the path in messages.
+/// Parses any bytes. Fails with kMalformed, and the line, for a broken BO_, SG_ or SIG_VALTYPE_
+/// line, and for a text without any message. `name` stands for the path in messages.
 [[nodiscard]] Expected<DbcFile> parse_dbc(std::string_view text, std::string name);
 
-/// Reads a file of at most 4 MiB. kNotFound, kUnreadable, kUnsupported (larger), or as parse_dbc().
+/// Reads a file of at most 4 MiB. Fails with kNotFound, kUnreadable, kUnsupported (larger), or as
+/// parse_dbc() does.
 [[nodiscard]] Expected<DbcFile> read_dbc(const std::filesystem::path& path);
 
-/// Returns the signal called "MESSAGE.SIGNAL", or "SIGNAL" if only one message has one of that
-/// name. Points into `file`. kInvalidArgument: there is none, or there are several.
+/// Returns the signal called "MESSAGE.SIGNAL", or "SIGNAL" if only one message has a signal of that
+/// name. Points into `file`. Fails with kInvalidArgument if there is none, or several.
 [[nodiscard]] Expected<DbcReference> find_signal(const DbcFile& file, std::string_view name);
 
 }  // namespace terracut::vehicle

@@ -19,9 +19,10 @@ namespace terracut::vehicle {
 /// Counts the samples given to an EgoMotion.
 struct EgoMotionCounters {
   std::uint64_t accepted = 0;
-  std::uint64_t implausible = 0;   ///< Not finite, or faster than any car.
-  std::uint64_t out_of_order = 0;  ///< Up to kMotionDisorder_ns before the last one.
-  std::uint64_t not_taken = 0;     ///< Refused: the queue was full because the reader was away.
+  std::uint64_t implausible = 0;   ///< Samples that are not finite, or faster than any car.
+  std::uint64_t out_of_order = 0;  ///< Samples up to kMotionDisorder_ns before the last one.
+  /// Samples refused because the queue was full: the reader was away.
+  std::uint64_t not_taken = 0;
 };
 
 /// Computes where the sensor was from the vehicle's speed and yaw rate: one thread adds samples,
@@ -86,7 +87,7 @@ class EgoMotion {
  private:
   class Path;
 
-  /// Returns a kept sample; 0 is the oldest.
+  /// Returns kept sample `number`; 0 is the oldest.
   [[nodiscard]] const MotionSample& kept(std::size_t number) const noexcept;
   /// Returns the last sample at or before this instant; the first if there is none.
   [[nodiscard]] std::size_t last_before(std::int64_t instant_ns) const noexcept;
@@ -98,11 +99,11 @@ class EgoMotion {
   PlanarPose axle_sensor_;
   queues::SpscQueue<MotionSample> waiting_;
 
-  // Used by the writer alone.
+  // Used by the writer only.
   std::optional<std::int64_t> last_added_ns_;
   std::atomic<std::uint64_t> accepted_{0}, implausible_{0}, out_of_order_{0}, not_taken_{0};
 
-  // Used by the reader alone: a ring buffer.
+  // Used by the reader only: a ring buffer.
   std::span<MotionSample> ring_;
   std::size_t oldest_ = 0, count_ = 0;
 };

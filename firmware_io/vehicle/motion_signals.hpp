@@ -24,9 +24,9 @@ namespace terracut::vehicle {
 ///     figure = mean(signals) * unit * scale, negated when `sign` is not 0; valid when `valid` is
 struct MotionFigure {
   std::vector<std::string> signals;  ///< "MESSAGE.SIGNAL" or "SIGNAL"; several are averaged.
-  std::string unit;                  ///< In place of the file's; empty: the file's.
+  std::string unit;                  ///< Unit used instead of the file's; empty: the file's.
   double scale = 1;                  ///< An extra factor; -1 inverts the sign. Finite, not 0.
-  std::string sign;        ///< Signal; the figure is negative if it is not 0. Empty: none.
+  std::string sign;        ///< Name of a signal; if not 0, the figure is negative. Empty: none.
   std::string valid;       ///< Signal that tells whether the figure is valid; empty: always.
   double valid_value = 1;  ///< The value of that signal if valid.
 };
@@ -45,14 +45,16 @@ struct MotionSignalsConfig {
 struct MotionCounters {
   std::uint64_t frames = 0;        ///< Frames with at least one of the signals.
   std::uint64_t too_short = 0;     ///< Signals beyond the end of their frame.
-  std::uint64_t out_of_order = 0;  ///< Stamped before an earlier frame; left out.
-  /// Stamped more than kMotionDisorder_ns earlier: the clock was set back, and all was reset.
+  std::uint64_t out_of_order = 0;  ///< Frames stamped before an earlier frame; left out.
+  /// Frames stamped more than kMotionDisorder_ns earlier: the clock was set back, and all was
+  /// reset.
   std::uint64_t clock_set_back = 0;
-  std::uint64_t samples = 0;           ///< Made.
-  std::uint64_t yaw_rate_invalid = 0;  ///< The validity signal denied it, or it was NaN.
-  std::uint64_t speed_invalid = 0;     ///< Likewise for the speed.
-  std::uint64_t stale = 0;             ///< A signal was older than max_age_s, or never came.
-  std::uint64_t timeouts = 0;          ///< Times the motion was lost for longer than timeout_s.
+  std::uint64_t samples = 0;           ///< Samples made.
+  std::uint64_t yaw_rate_invalid = 0;  ///< Yaw rates denied by the validity signal, or NaN.
+  std::uint64_t speed_invalid = 0;     ///< Speeds denied by the validity signal, or NaN.
+  /// Yaw rates left out because a signal was older than max_age_s, or never came.
+  std::uint64_t stale = 0;
+  std::uint64_t timeouts = 0;  ///< Times the motion was lost for longer than timeout_s.
 };
 
 /// A signal and its last value.
@@ -74,8 +76,8 @@ class MotionSignals {
   /// The most signals that one figure may average.
   static constexpr std::size_t kMostSignals = 8;
 
-  /// kInvalidArgument: a signal that is missing or ambiguous, a unit that is unknown and not given,
-  /// a setting out of its range. Otherwise the errors of SignalPlan::make().
+  /// Makes the reader. Fails with kInvalidArgument if a signal is missing or ambiguous, a unit is
+  /// unknown and not given, or a setting is out of its range; otherwise as SignalPlan::make() does.
   [[nodiscard]] static Expected<MotionSignals> make(const DbcFile& file,
                                                     const MotionSignalsConfig& config);
 

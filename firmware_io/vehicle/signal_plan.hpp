@@ -18,10 +18,10 @@ namespace terracut::vehicle {
 /// DBC file; a plain value.
 class SignalPlan {
  public:
-  /// Makes the plan of a signal, named as for find_signal(). kInvalidArgument: there is none, or
-  /// several. kUnsupported: it is only in some frames of its message (multiplexed). kMalformed,
-  /// with the line: it does not fit into its message, has no bits or more than 64, or its message's
-  /// id fits no format.
+  /// Makes the plan of a signal, named as for find_signal(). Fails with kInvalidArgument if there
+  /// is none, or several; kUnsupported if the signal is only in some frames of its message
+  /// (multiplexed); kMalformed, with the line, if it does not fit into its message, has no bits or
+  /// more than 64, or the message's id fits no format.
   [[nodiscard]] static Expected<SignalPlan> make(const DbcFile& file, std::string_view name);
 
   [[nodiscard]] const can::CanId& id() const noexcept { return id_; }

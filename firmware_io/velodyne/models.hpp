@@ -118,17 +118,17 @@ struct Vls128 {
   }
 };
 
-/// Some of the models above.
+/// A list of models.
 template <class First, class... Rest>
 struct ModelList {
   static constexpr std::array<PacketLayout, 1 + sizeof...(Rest)> kLayouts{First::kLayout,
                                                                           Rest::kLayout...};
-  /// `Template` of them.
+  /// `Template` with the models of the list as arguments.
   template <template <class...> class Template>
   using In = Template<First, Rest...>;
 
-  /// Returns what `use` returns, which it calls with the std::type_identity of that model; of the
-  /// last one where none is that model.
+  /// Calls `use` with the std::type_identity of the given model and returns its result; if the
+  /// model is not in the list, that of the last one is used.
   template <class Use>
   static decltype(auto) with(sensor::SensorModel model, const Use& use) {
     if constexpr (sizeof...(Rest) == 0) {
@@ -140,16 +140,16 @@ struct ModelList {
   }
 };
 
-/// All of them, for what folds over models ...
+/// All models above, for code that folds over models ...
 using Models = ModelList<Vlp16, Hdl32e, Vlp32c, Vls128>;
-/// ... and for what takes the preprocessor: DO(Template<model>) for each.
+/// ... and for code that needs the preprocessor: DO(Template<model>) for each model.
 #define TERRACUT_FOR_VELODYNE_MODELS(DO, Template) \
   DO(Template<terracut::velodyne::Vlp16>)          \
   DO(Template<terracut::velodyne::Hdl32e>)         \
   DO(Template<terracut::velodyne::Vlp32c>)         \
   DO(Template<terracut::velodyne::Vls128>)
 
-/// Null for a model that is none of them.
+/// Returns the packet layout of `model`; null if the model is none of the above.
 [[nodiscard]] constexpr const PacketLayout* layout_of(sensor::SensorModel model) noexcept {
   const auto* const found = std::ranges::find(Models::kLayouts, model, &PacketLayout::model);
   return found == Models::kLayouts.end() ? nullptr : found;

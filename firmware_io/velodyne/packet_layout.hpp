@@ -30,8 +30,8 @@ struct PacketLayout {
   std::array<std::uint16_t, 4> block_ids{};  ///< Ids of a column's blocks, as many as it has.
   int blocks_per_column = 1;
   int columns_dual = kBlocks;  ///< In dual return, counting both returns of a pair.
-  std::int32_t column_ns = 0;  ///< From one column's first firing to the next column's.
-  std::int32_t firing_ns = 0;  ///< From one firing of all lasers to the next.
+  std::int32_t column_ns = 0;  ///< Time from one column's first firing to the next column's.
+  std::int32_t firing_ns = 0;  ///< Time from one firing of all lasers to the next.
 
   [[nodiscard]] constexpr int columns(bool dual_return) const noexcept {
     return dual_return ? columns_dual : kBlocks / blocks_per_column;

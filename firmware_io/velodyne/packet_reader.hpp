@@ -45,7 +45,7 @@ class PacketReader {
  private:
   [[nodiscard]] std::optional<frame::Reject> read_blocks(
       const hdl64e::wire::Packet& packet, packet::PacketAzimuths& azimuths) const noexcept;
-  /// Returns nothing for an unknown return mode.
+  /// True for dual return; nothing for an unknown return mode.
   [[nodiscard]] std::optional<bool> dual_return_of(
       const hdl64e::wire::Packet& packet) const noexcept;
   [[nodiscard]] std::optional<frame::Reject> judge_steps(packet::PacketAzimuths& azimuths) noexcept;
@@ -55,7 +55,7 @@ class PacketReader {
 
   PacketLayout layout_;
   bool is_named_;
-  std::int32_t step_ticks_ = 0;  ///< Of the last packet that had one; 0: none yet.
+  std::int32_t step_ticks_ = 0;  ///< Step of the last packet that had one; 0: none yet.
   bool is_step_guessed_ = false;
   struct {
     std::int64_t stamp_us = 0;

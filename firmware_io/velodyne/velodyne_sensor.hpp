@@ -27,7 +27,7 @@ struct VelodyneConfig {
   bool is_named = false;  ///< See PacketReader.
 };
 
-/// The Decoder's trait of a Velodyne sensor. `Model` has its constants:
+/// The trait of a Velodyne sensor for the Decoder. `Model` has its constants:
 /// - `kModel`, `kLayout`, `kMetresPerCount`, `kDefaultColumns`;
 /// - `kLasers`, and `kChannels`, the readings of a column: a multiple of kLasers if these fire more
 ///   than once for one head azimuth;

@@ -26,7 +26,7 @@ bool has_can(int link_type) {
          link_type == DLT_LINUX_SLL2;
 }
 
-/// Returns the frame's bytes after a cooked header; nothing for another protocol.
+/// Returns the bytes of the CAN frame after a cooked header; nothing for another protocol.
 std::optional<std::span<const std::uint8_t>> behind_header(std::span<const std::uint8_t> bytes,
                                                            std::size_t header_bytes,
                                                            std::size_t protocol_at) {
@@ -78,9 +78,9 @@ Expected<std::optional<CanFrame>> CanPcapSource::next() {
     if (!record) return tl::unexpected(record.error());
     if (!*record) return std::nullopt;
     ++counters_.records;
-    // The id's byte order: the kernel uses the machine's. libpcap writes it big endian for a CAN
-    // interface. In cooked captures libpcap keeps it, and swaps it if the file is of a machine of
-    // the other order.
+    // Byte order of the id: the kernel uses the machine's; libpcap writes it big endian for a CAN
+    // interface. In cooked captures libpcap keeps the machine's order, and swaps it if the file is
+    // from a machine of the other order.
     auto bytes = std::optional((*record)->bytes);
     CanIdOrder order = CanIdOrder::kNative;
     if (file_.link_type() == DLT_CAN_SOCKETCAN) {

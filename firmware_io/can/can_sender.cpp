@@ -79,7 +79,7 @@ bool CanSender::send(const CanFrame& frame) noexcept {
   }
 }
 
-/// Opens the socket again if its interface came back: the old socket stays tied to the old one.
+/// Opens a new socket if the interface came back: the old socket stays tied to the old interface.
 void CanSender::look_after_interface() noexcept {
   const std::int64_t now_ns = measure::monotonic_ns();
   if (interface_.empty() || now_ns < next_look_ns_) return;

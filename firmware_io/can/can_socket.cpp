@@ -13,7 +13,6 @@
 #include <cerrno>
 #include <cstring>
 
-
 namespace terracut::can {
 namespace {
 
@@ -24,7 +23,7 @@ bool set_option(int socket, int level, int option, const Value& value) noexcept 
   return ::setsockopt(socket, level, option, &value, sizeof value) == 0;
 }
 
-/// Matches exactly this message: its number and format, but not a request for it.
+/// Returns a filter that passes exactly this message (number and format), but not a request for it.
 ::can_filter filter_of(const CanId& id) noexcept {
   constexpr ::canid_t kKind = CAN_EFF_FLAG | CAN_RTR_FLAG;
   if (id.extended) return {id.number | CAN_EFF_FLAG, CAN_EFF_MASK | kKind};

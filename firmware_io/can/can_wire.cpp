@@ -16,7 +16,7 @@ constexpr std::size_t kLengthAt = 4;
 constexpr std::size_t kFlagsAt = 5;
 // CANFD_FDF is missing in the headers of older kernels.
 constexpr std::uint8_t kFdFlag = 0x04;
-constexpr std::uint8_t kXlFlag = 0x80;  // in the fifth byte, where other frames have the length
+constexpr std::uint8_t kXlFlag = 0x80;  // in the fifth byte, which holds the length in other frames
 
 std::uint32_t id_word(std::span<const std::uint8_t> bytes, CanIdOrder order) noexcept {
   if (order == CanIdOrder::kBigEndian) {

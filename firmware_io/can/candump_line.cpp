@@ -35,7 +35,7 @@ std::optional<Whole> whole_number(std::string_view digits, int base) noexcept {
   return value;
 }
 
-/// Removes the first word and returns it.
+/// Removes the first word of `text` and returns it.
 std::string_view next_word(std::string_view& text) noexcept {
   const std::size_t begin = std::min(text.find_first_not_of(kSpace), text.size());
   const std::size_t end = std::min(text.find_first_of(kSpace, begin), text.size());
@@ -74,7 +74,8 @@ bool read_data(std::string_view text, std::size_t most_bytes, CanFrame& frame) n
   return true;
 }
 
-/// Reads the part after the id, "#...": classic data or a remote frame. Returns the rest of it.
+/// Reads the part after the id, "#...": classic data or a remote frame. Returns the rest of the
+/// line.
 std::optional<std::string_view> read_classic(std::string_view body, CanFrame& frame) noexcept {
   // A suffix "_9" to "_F" states how a length of 8 was written on the wire; it stays 8 bytes.
   if (const std::size_t mark = body.find('_'); mark != std::string_view::npos) {

@@ -8,7 +8,7 @@
 namespace terracut::capture {
 namespace {
 
-/// Four years: any two stamps of a capture may be added to it without overflow.
+/// Four years. Any two stamps of a capture may be added to this without overflow.
 constexpr std::int64_t kLongest_ns = std::int64_t{1} << 57;
 
 }  // namespace

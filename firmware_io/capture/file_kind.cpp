@@ -86,8 +86,8 @@ std::optional<ForeignKind> foreign_kind(std::span<const std::uint8_t> first_byte
 }
 
 bool begins_as_capture(std::span<const std::uint8_t> first_bytes) {
-  // The magic numbers of draft-ietf-opsawg-pcap and -pcapng; the third is of an older kind with
-  // longer records.
+  // The magic numbers of draft-ietf-opsawg-pcap and -pcapng. The third belongs to an older kind of
+  // pcap with longer records.
   constexpr std::array kPcapStarts{"\xa1\xb2\xc3\xd4"sv, "\xd4\xc3\xb2\xa1"sv,
                                    "\xa1\xb2\xcd\x34"sv, "\x34\xcd\xb2\xa1"sv,
                                    "\xa1\xb2\x3c\x4d"sv, "\x4d\x3c\xb2\xa1"sv};

@@ -52,7 +52,7 @@ Expected<File> open_file(const std::filesystem::path& path) {
   return file;
 }
 
-/// Returns the error for a file that libpcap refused, saying what the file is.
+/// Returns the error for a file that libpcap refused; the message says what kind of file this is.
 Error no_capture(const std::string& name, std::FILE* file, std::string_view libpcap_says) {
   std::array<std::uint8_t, 16> first{};
   std::rewind(file);
@@ -73,9 +73,9 @@ Error no_capture(const std::string& name, std::FILE* file, std::string_view libp
                                                : "")};
 }
 
-/// Converts a stamp. With nanosecond precision tv_usec holds nanoseconds. libpcap reads the
-/// unsigned seconds of a pcap as signed (from 2038 on); that is undone. Absurd pcapng stamps are
-/// clamped instead of overflowing.
+/// Converts a stamp to nanoseconds. With nanosecond precision tv_usec holds nanoseconds. libpcap
+/// reads the unsigned seconds of a pcap as signed (from 2038 on); this is undone. Absurd pcapng
+/// stamps are clamped instead of overflowing.
 std::int64_t stamp_of(const timeval& stamp) noexcept {
   constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
   constexpr std::int64_t kLastSecond = 9'000'000'000;  // year 2255

@@ -196,8 +196,8 @@ Status PcapWriter::write(const packet::Datagram& datagram) {
 Status PcapWriter::finish() {
   if (!part_.lock) return tl::unexpected(closed());
   if (Status flushed = flush(); !flushed) return flushed;
-  // Some file systems report a full disk only at a close, so a copy is closed; the lock is held
-  // until the end.
+  // Some file systems report a full disk only at close(). So a copy of the descriptor is closed;
+  // the original holds the lock until the end.
   if (::close(::dup(part_.lock.get())) != 0) return failed("closing", errno);
   if (::rename(part_.path.c_str(), path_.c_str()) != 0) {
     return failed("renaming the temporary file to it", errno);

@@ -14,7 +14,7 @@ namespace terracut::cloud {
 namespace {
 
 constexpr int kCloudsLookedAt = 3;
-/// Nearer points are two returns of one firing.
+/// Points nearer to each other than this are two returns of one firing.
 constexpr double kSameFiring_rad = 1e-4;
 constexpr double kFewest = 360, kMost = 4500;
 

@@ -28,15 +28,15 @@ namespace fs = std::filesystem;
 
 using Values = std::optional<std::span<const double>>;
 
-/// True for a number that a laser may have.
+/// True for a number in the range of laser numbers.
 bool is_laser_number(double number) noexcept {
   return number >= 0 && number < kMostLasers && number == std::floor(number);
 }
 
 constexpr const char* kExpectedLaser = "expected a whole number from 0 to {}";
 
-/// Examines a field of laser numbers. Ignores points without a place: drivers write any number
-/// where a beam had no return.
+/// Examines a field of laser numbers. Ignores points without a valid position: drivers write any
+/// number where a beam had no return.
 struct LaserField {
   explicit LaserField(std::span<const scan::ScanPoint> points, std::span<const double> numbers) {
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -48,13 +48,13 @@ struct LaserField {
       is_filled |= numbers[i] != 0;
     }
   }
-  std::optional<std::size_t> wrong;  ///< The first point whose number no laser has.
-  bool is_filled = false;            ///< Some are not 0.
+  std::optional<std::size_t> wrong;  ///< The first point whose number is no laser number.
+  bool is_filled = false;            ///< True if some numbers are not 0.
 };
 
 /// Takes the laser numbers from the first field that has them. A field of zeros, which drivers
-/// write that know no numbers, is taken only if no other field has numbers. A field with other
-/// values is not a laser's: cloud.laser_note says so.
+/// write that do not know the numbers, is taken only if no other field has numbers. A field with
+/// other values holds no laser numbers; cloud.laser_note then says so.
 void take_lasers(const FieldTable& table, Cloud& cloud) {
   Values chosen;
   std::string_view chosen_name;

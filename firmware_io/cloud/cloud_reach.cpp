@@ -27,7 +27,7 @@ double distance_m(const ScanPoint& p) noexcept {
   return std::hypot(double{p.x_m}, double{p.y_m}, double{p.z_m});
 }
 
-/// Returns a quantile of a figure over the points; `share` 0.5 is the median.
+/// Returns a quantile of `figure` over the points; `share` 0.5 gives the median.
 template <class Figure>
 double quantile(std::span<const ScanPoint> points, double share, Figure&& figure) {
   std::vector<double> values;
@@ -45,7 +45,7 @@ std::string_view likely_cause(std::span<const ScanPoint> points) {
   if (quantile(points, 0.9, distance_m) > kNoCoordinates * quantile(points, 0.1, distance_m)) {
     return "are these bytes of another layout, or big-endian?";
   }
-  // A sensor's own points lie around it.
+  // The points of a sensor lie around it.
   const double middle_x = quantile(points, 0.5, [](const ScanPoint& p) { return double{p.x_m}; });
   const double middle_y = quantile(points, 0.5, [](const ScanPoint& p) { return double{p.y_m}; });
   const double spread = quantile(points, 0.5, [&](const ScanPoint& p) {
@@ -61,7 +61,7 @@ std::string_view likely_cause(std::span<const ScanPoint> points) {
 
 Status check_reach(std::span<const ScanPoint> points) {
   constexpr double kReach_m = scan::RingTableFit::kReach_m;
-  constexpr std::size_t kFewestToTell = 20;  // stray points may be most of fewer
+  constexpr std::size_t kFewestToTell = 20;  // with fewer points, most of them may be stray ones
   std::size_t beyond = 0, all = 0;
   for (const ScanPoint& p : points) {
     if (!is_measured(p)) continue;

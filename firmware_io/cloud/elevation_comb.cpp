@@ -13,15 +13,15 @@
 namespace terracut::cloud {
 namespace {
 
-/// Nearer points are left out: there a beam's start beside the origin matters, and no vehicle's
-/// lowest beam meets the road nearer.
+/// Points nearer than this are left out: at such distances it matters that beams start beside the
+/// origin, and no vehicle's lowest beam meets the road nearer.
 constexpr float kNearest_m = 1.0F;
-/// A bin lies in a gap if the fullest bin around it has more than so many times its points.
+/// A bin lies in a gap if the fullest bin around it has more than this many times its points.
 constexpr std::uint32_t kGapShare = 50;
 /// Least share of the points in teeth that are narrower than the gaps beside them.
 constexpr double kLeastInTeeth = 0.95;
 
-/// With fewer on average, it is a curve or a drawing, not a revolution.
+/// With fewer points in a row on average, the cloud is a curve or a drawing, not a revolution.
 constexpr std::size_t kFewestPointsARow = 10;
 
 }  // namespace

@@ -37,8 +37,7 @@ RingOfLaser LaserElevations::order() {
   std::ranges::sort(lasers, [&](std::size_t a, std::size_t b) {
     return elevation_rad[a] != elevation_rad[b] ? elevation_rad[a] > elevation_rad[b] : a < b;
   });
-  // If the numbers ascend or descend with the elevation, lasers without a point get their place as
-  // well.
+  // If the numbers ascend or descend with the elevation, lasers without points get their ring, too.
   const bool goes_down = std::ranges::is_sorted(lasers),
              goes_up = std::ranges::is_sorted(lasers, std::greater{});
   if (goes_down || goes_up) {

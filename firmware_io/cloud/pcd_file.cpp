@@ -55,7 +55,7 @@ std::optional<std::string> lzf_unpacked(std::string_view packed, std::size_t byt
   return data;
 }
 
-/// Reads one file; the first error ends the reading.
+/// Reads one PCD file; the first error ends the reading.
 class PcdReader {
  public:
   PcdReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
@@ -87,7 +87,7 @@ class PcdReader {
     char type = '\0';       ///< 'I', 'U' or 'F'.
     std::size_t count = 1;
 
-    /// False for padding, named _, and fields of several values or none (old PCL wrote those).
+    /// False for padding (named _) and for fields of several values or none (old PCL wrote those).
     [[nodiscard]] bool is_kept() const { return count == 1 && name != "_"; }
   };
 
@@ -283,7 +283,7 @@ class PcdReader {
   Status read_ascii(FieldTable& cloud) {
     std::size_t values = 0;
     for (const Field& field : fields_) values += field.count;
-    // Each value takes at least a digit and a separator, but for the last.
+    // Each value takes at least a digit and a separator, except the last, which needs no separator.
     if (lines_.rest.size() + 1 < points_ * values * 2) {
       return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
                                 lines_.rest.size(), points_, values));
@@ -313,7 +313,8 @@ class PcdReader {
     return {};
   }
 
-  static constexpr std::size_t kMostValues = 4096;  ///< In one field; histograms have hundreds.
+  /// Most values of one field; histograms have hundreds.
+  static constexpr std::size_t kMostValues = 4096;
 
   HeaderLines lines_;
   const std::string& name_;

@@ -15,7 +15,7 @@
 namespace terracut::cloud {
 namespace {
 
-/// The type and size of a property, by either of its names.
+/// The type and size of a property, found by either of two names.
 struct TypeName {
   std::string_view name, other_name;
   char type;
@@ -27,7 +27,7 @@ constexpr TypeName kTypes[] = {
     {"float", "float32", 'F', 4}, {"double", "float64", 'F', 8},
 };
 
-/// Reads one file; the first error ends the reading.
+/// Reads one PLY file; the first error ends the reading.
 class PlyReader {
  public:
   PlyReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
@@ -55,7 +55,7 @@ class PlyReader {
     std::string name;
     char type;
     std::size_t bytes;
-    /// For a list, which is skipped: the type of its length.
+    /// For a list (which is skipped), the type of its length.
     char count_type = '\0';
     std::size_t count_bytes = 0;
 
@@ -202,7 +202,7 @@ class PlyReader {
   }
 
   Status read_text(FieldTable& table, bool has_lists) {
-    // Each value takes at least a digit and a separator, but for the last.
+    // Each value takes at least a digit and a separator, except the last, which needs no separator.
     if (lines_.rest.size() + 1 < points_ * properties_.size() * 2) {
       return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
                                 lines_.rest.size(), points_, properties_.size()));

@@ -11,11 +11,12 @@
 namespace terracut::cloud {
 namespace {
 
-/// A single sensor's points lie within 0.1 to 20 cm of their line; those of KITTI's scans,
-/// compensated for motion at speed, within 27. Two sensors' points never come in KITTI's order.
+/// The points of one sensor lie within 0.1 to 20 cm of the line of their row; those of KITTI's
+/// scans, compensated for motion at speed, within 27 cm. Points of two sensors never come in
+/// KITTI's order.
 constexpr double kWidestRow_m = 0.3, kWidestOfKitti_m = 0.4;
-/// If half of the points lie nearer to their line than noise, the others are not from a second
-/// sensor.
+/// If half of the points lie nearer to their line than noise would put them, the others are not
+/// from a second sensor.
 constexpr double kNoise_m = 0.01;
 /// Beams start up to 0.2 m above the origin (an HDL-64E's).
 constexpr double kHighestStart_m = 0.5;

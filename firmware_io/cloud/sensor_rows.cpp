@@ -24,9 +24,9 @@ using scan::RingRecovery;
 using scan::RingTable;
 using scan::RingTableFit;
 
-/// If two tables explain the points to within this, the one whose beams start at the origin is
-/// taken. Most sensors' beams do; and the lowest beams see only near ground, which cannot tell a
-/// start above the origin from an elevation.
+/// If two tables explain the points equally well to within this, the one whose beams start at the
+/// origin is taken, as most sensors' beams do: the lowest beams see only near ground, which cannot
+/// tell a start above the origin from an elevation.
 constexpr double kAlike_m = 0.01;
 
 Expected<scan::FittedRings> simplest_fit(const RingTableFit& fit, std::size_t lasers) {
@@ -38,9 +38,9 @@ Expected<scan::FittedRings> simplest_fit(const RingTableFit& fit, std::size_t la
   return plain;
 }
 
-/// Checks that most rings look lower than the one above them. They do not if the driver was not
-/// told its lasers' angles (all points lie on one plane), or if the numbers are not lasers' (each
-/// "laser" has points of all).
+/// Checks that most rings look lower than the ring above them. This fails if the driver was not
+/// told the lasers' angles (all points lie on one plane), or if the numbers are no laser numbers
+/// (each "laser" has points of all).
 Status check_apart(const scan::FittedRings& rings) {
   if (rings.with_line < 2 || 4 * rings.coinciding < 3 * (rings.with_line - 1)) return {};
   return fail(ErrorCode::kMalformed,
@@ -96,7 +96,8 @@ Expected<SensorRows> learn_by_number(RowSource source, std::size_t lasers, std::
   return SensorRows{source, std::move(fitted->rings), std::move(fitted->ring_of_laser), 0};
 }
 
-/// Collects the laser numbers in use. Drivers write -1, 255 in a byte, where a beam had no return.
+/// Collects the laser numbers in use. Where a beam had no return, drivers write -1, which is 255 in
+/// a byte.
 void add_numbers(const CloudView& cloud, std::vector<bool>& numbers) {
   constexpr std::size_t kNone = 255;
   for (std::size_t i = 0; i < cloud.laser.size(); ++i) {

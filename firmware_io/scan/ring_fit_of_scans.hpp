@@ -19,8 +19,8 @@ inline constexpr std::size_t kScansToFit = 40;
 [[nodiscard]] Status read_some_scans(std::size_t scans,
                                      const std::function<Status(std::size_t index)>& read);
 
-/// Adds a scan to `fit` and finds its rings with the help of `table`, which may be null. Then fails
-/// with kUnsupported for a scan that has not all rings.
+/// Adds a scan to `fit`, finding its rings with the help of `table`. If `table` is null, fails with
+/// kUnsupported for a scan that has not all rings.
 using AddScan = std::function<Status(std::size_t index, const RingTable* table, RingTableFit& fit)>;
 
 /// Fits a unit's ring table to the scans that have all 64 rings. If none has, as in cropped views,

@@ -34,7 +34,7 @@ struct MotionFigure {
 struct MotionSignalsConfig {
   MotionFigure speed;     ///< "m/s", "km/h", "mph"
   MotionFigure yaw_rate;  ///< "rad/s", "deg/s"; positive must be to the left
-  /// The greatest age of the signals in a sample, [1e-3, 10] s.
+  /// Largest age of the signals in a sample, [1e-3, 10] s.
   double max_age_s = 0.1;
   /// The vehicle's motion is unknown after so long without a sample, [max_age_s, 60] s.
   double timeout_s = 0.5;

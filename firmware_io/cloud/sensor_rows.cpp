@@ -180,9 +180,9 @@ double share_near_lines(const RingTable& table, std::span<const scan::ScanPoint>
   return static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(all, 1));
 }
 
-/// Learns rows from places alone. Rings whose points show no line, because they see only the floor,
-/// still stand in the comb. `first` is a cloud that can be read; `no_number` says why points have
-/// no laser number.
+/// Learns rows from positions alone. Rings whose points show no line, because they see only the
+/// floor, are still found in the comb. `first` is a cloud that can be read; `no_number` says why
+/// points have no laser number.
 Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds, const ReadCloud& read,
                                        const std::string& no_number) {
   RingRecovery rings;

@@ -11,9 +11,9 @@
 namespace terracut::decode {
 namespace {
 
-/// Slack for azimuths rounded on the wire and heads that rotate unevenly.
+/// Tolerance for azimuths rounded when sent and heads that rotate unevenly.
 constexpr std::int64_t kJitter_ticks = 5 * packet::kTicksPerCdeg;
-/// Most by which gaps differ if the sensor's packets begin with its view: the wire's rounding.
+/// Most by which gaps differ, by rounding of azimuths, if the sensor's packets begin with its view.
 constexpr std::int64_t kRounding_ticks = 3 * packet::kTicksPerCdeg;
 
 }  // namespace
@@ -74,7 +74,7 @@ void BlindSector::move_to(const packet::RotorInterval& common) noexcept {
   sector_.once = common;
 }
 
-/// Notes by how much a gap ends off the sector; if nothing is lost, that is less than a packet.
+/// Notes by how much a gap ends off the sector: less than a packet if nothing is lost.
 void BlindSector::note_end(std::int64_t ticks, const Stride& stride,
                            std::int64_t& widest_ticks) noexcept {
   if (is_within_packet(ticks, stride)) widest_ticks = std::max(widest_ticks, ticks);
@@ -180,8 +180,8 @@ BlindSector::Verdict BlindSector::cross(std::int64_t begin_ticks,
                                         const Stride& stride) noexcept {
   const Verdict verdict = judge(inside, 0, 0, stride);
   // The packet was completed when the head came back: no other packet begins between its begin and
-  // the sector. That is less than a packet before the sector, close to where complete packets still
-  // begin, so only the wire's own rounding is allowed for.
+  // the sector. So it begins less than a packet before the sector, close to where complete packets
+  // still begin; only the rounding of azimuths is tolerated.
   const packet::RotorInterval blind = sector_.next(inside.from_ticks);
   const std::int64_t before_ticks = blind.from_ticks - begin_ticks + packet::kTicksPerCdeg / 2;
   earliest_ticks_ = std::max(earliest_ticks_, before_ticks - kRounding_ticks);

@@ -131,7 +131,7 @@ void Decoder::push(const packet::Datagram& datagram) noexcept {
                *reason == frame::Reject::kAzimuthJump) {
       tracker_.note_rejected(azimuths_.device_stamp_us);
     } else if (*reason == frame::Reject::kDeviceInfo) {
-      rejected_ = reason;  // it carries no returns that could be lost
+      rejected_ = reason;  // a packet with this reason carries no returns that could be lost
       return;
     }
     return reject(*reason);

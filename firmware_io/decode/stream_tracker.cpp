@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t kReorder_us = 20'000;
 /// A longer step of the device clock is a gap only if the host's clock agrees.
 constexpr std::int64_t kOutage_us = 1'000'000;
-/// Longer outages, more than a day, are not counted.
+/// Longer outages (more than a day) are not counted as lost packets.
 constexpr std::int64_t kLongestOutage_us = 86'400'000'000;
 /// The caller is told of missing packets in a gap wider than this even if the period is not known.
 constexpr std::int64_t kWide_ticks = packet::kRevolution_ticks / 90;
@@ -21,9 +21,9 @@ constexpr std::int64_t kFarthest_cdeg = 100'000'000'000'000;
 /// The head may be this far from where time and speed predict it, plus an eighth of its rotation
 /// since.
 constexpr std::int64_t kRotorSlack_cdeg = 2'000;
-/// A missing packet may still arrive out of order during so many packets.
+/// A missing packet may still arrive out of order during this many packets.
 constexpr int kMissingGrace_packets = 16;
-/// After so many successive steps that do not fit the period (a mode switch) it is measured again.
+/// If this many successive steps do not fit the period (a mode switch) it is measured again.
 constexpr int kOffPeriodBeforeRemeasure = 64;
 /// The period is the mean over some thousand packets.
 constexpr std::int64_t kPeriodMean_packets = 8'192;
@@ -33,14 +33,15 @@ constexpr std::uint32_t kRepeatWindow_packets = 1'024;
 constexpr std::size_t kSeenSlots = 8'192;
 constexpr std::int64_t kSeenSlot_us = 64;
 
-/// Wraps, because the stamps of a capture may be anything.
+/// Returns the host's time step; wraps, because the stamps of a capture may be anything.
 std::int64_t host_step_us(std::int64_t from_ns, std::int64_t to_ns) noexcept {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(to_ns) -
                                    static_cast<std::uint64_t>(from_ns)) /
          1000;
 }
 
-/// True if a gap lasted as long by the host's clock, if that tells, as by the device's.
+/// True if a gap lasted as long by the host's clock as by the device's, or if the host's does not
+/// tell.
 bool takes_its_time(std::int64_t step_us, std::int64_t host_us) noexcept {
   return step_us <= kReorder_us || host_us <= 0 || 4 * host_us >= step_us;
 }
@@ -124,8 +125,8 @@ Placement StreamTracker::doubt(const packet::PacketAzimuths& azimuths, std::int6
   return {Arrival::kNewStream, reason, in_doubt_cdeg, 0, 0, false};
 }
 
-/// Returns the unwrapped azimuth at which the packet fits by time and speed; nothing if it does
-/// not.
+/// Returns the unwrapped azimuth at which the packet fits by time and speed; nothing if it does not
+/// fit.
 std::optional<std::int64_t> StreamTracker::head_after(
     const Newest& newest, const packet::PacketAzimuths& azimuths) const noexcept {
   const std::int64_t step_us = device_step_us(newest.stamp_us, azimuths.device_stamp_us);

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kWordBits = 64;
 constexpr std::uint32_t kAllFirings = (1U << kTileFirings) - 1;
 
-/// 0 or 1 for each firing.
+/// A flag, 0 or 1, for each firing.
 using Flags = std::uint8_t[kTileFirings];
 
 /// Packs the flags into one bit for each firing.
@@ -32,14 +32,14 @@ using Flags = std::uint8_t[kTileFirings];
   return bits;
 }
 
-/// Returns the firings with a return.
+/// Returns the mask of firings that have a return.
 [[gnu::always_inline]] inline std::uint32_t hits_of(const std::uint16_t* raw) noexcept {
   Flags is_hit;
   for (std::size_t f = 0; f < kTileFirings; ++f) is_hit[f] = raw[f] != 0;
   return bits_of_firings(is_hit);
 }
 
-/// Returns the firings for which `holds(its value, the value of the firing before)`.
+/// Returns the mask of firings for which `holds(own value, value of the firing before)`.
 template <class Value, class Holds>
 [[gnu::always_inline]] inline std::uint32_t where_after(const Value* values, Holds holds) noexcept {
   Flags flags{};
@@ -47,7 +47,7 @@ template <class Value, class Holds>
   return bits_of_firings(flags);
 }
 
-/// Returns the firings whose columns are in [begin, end).
+/// Returns the mask of firings whose columns are in [begin, end).
 std::uint32_t inside(const BeamColumns& beam, std::int32_t begin, std::int32_t end) noexcept {
   std::uint32_t bits = 0;
   for (std::size_t f = 0; f < kTileFirings; ++f) {
@@ -85,7 +85,7 @@ TERRACUT_VECTOR_CLONES void find_hits(const std::uint16_t* raw, std::size_t lase
   for (std::size_t i = 0; i < lasers; ++i) hits[i] = hits_of(raw + i * kTileFirings);
 }
 
-/// Counts returns by firing, if all lasers' returns are of one frame.
+/// Counts returns by firing, for a tile in which all lasers' returns are of one frame.
 TERRACUT_VECTOR_CLONES void count_all(const std::uint16_t* __restrict raw, std::size_t lasers,
                                       std::uint16_t* __restrict counts) noexcept {
   for (std::size_t i = 0; i < lasers; ++i) {

@@ -8,14 +8,14 @@ namespace terracut::hdl64e {
 namespace {
 
 constexpr std::int64_t kMostPaces = 256;
-/// Longer outages, more than a day, are not counted.
+/// Longer outages (more than a day) are not counted as lost packets.
 constexpr std::int64_t kLongestOutage_ns = 86'400'000'000'000;
 
 constexpr std::int64_t rounded(std::int64_t value, std::int64_t unit) noexcept {
   return (value >= 0 ? value + unit / 2 : value - unit / 2) / unit;
 }
 
-/// Returns the device time of a packet.
+/// Returns the device stamp of the packet with this number.
 constexpr std::int64_t stamp_us(std::int64_t packet) noexcept {
   constexpr std::int64_t kHour_us = kDeviceHour_us;
   const std::int64_t in_hour_us = packet * kS1Packet_ns / 1000 % kHour_us;

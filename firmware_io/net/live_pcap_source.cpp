@@ -57,7 +57,7 @@ std::string filter_of(const LivePcapConfig& config) {
 Status set_filter(::pcap* handle, const LivePcapConfig& config) {
   bpf_program program{};
   std::string text = filter_of(config);
-  // Fails for raw IP links, which have no VLAN.
+  // Fails for raw IP links, because they have no VLAN.
   if (::pcap_compile(handle, &program, text.c_str(), 1, PCAP_NETMASK_UNKNOWN) != 0) {
     text = text.substr(0, text.find(" or "));
     if (::pcap_compile(handle, &program, text.c_str(), 1, PCAP_NETMASK_UNKNOWN) != 0) {
@@ -164,7 +164,8 @@ std::span<const packet::Datagram> LivePcapSource::receive(std::int64_t timeout_n
   }
 }
 
-/// Copies payloads, because libpcap shows frames one by one and takes each back.
+/// Reads the frames that are ready and copies their payloads, because libpcap shows frames one by
+/// one and reuses their memory.
 std::size_t LivePcapSource::read_batch() noexcept {
   if (!handle_) return 0;
   kept_ = 0;

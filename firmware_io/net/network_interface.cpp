@@ -16,7 +16,7 @@ struct FreeNames {
   void operator()(struct if_nameindex* names) const noexcept { ::if_freenameindex(names); }
 };
 
-/// Returns "lo, eth0".
+/// Returns the names of all interfaces: "lo, eth0".
 std::string interface_names() {
   const std::unique_ptr<struct if_nameindex, FreeNames> names(::if_nameindex());
   std::string text;

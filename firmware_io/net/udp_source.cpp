@@ -202,7 +202,7 @@ std::span<const packet::Datagram> UdpSource::receive(std::int64_t timeout_ns) no
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
     if (const std::size_t count = read_batch(); count > 0) {
-      // The socket was empty when the link was found down, so this datagram came since.
+      // The socket was empty when the link was found down, so this datagram has come since then.
       if (link_ != LinkState::kUnknown) link_ = LinkState::kUp;
       return datagrams_.first(count);
     }
@@ -214,7 +214,7 @@ std::span<const packet::Datagram> UdpSource::receive(std::int64_t timeout_ns) no
   }
 }
 
-/// Reads the datagrams that are ready, up to a batch; wanted ones end up at the front of
+/// Reads the datagrams that are ready, up to a batch; puts the wanted ones at the front of
 /// datagrams_.
 std::size_t UdpSource::read_batch() noexcept {
   if (!socket_.descriptor) return 0;
@@ -242,7 +242,7 @@ std::size_t UdpSource::read_batch() noexcept {
   return kept;
 }
 
-/// Returns false for a datagram that is not delivered; it is then counted.
+/// Takes the datagram in a slot; false for a datagram that is not delivered but counted.
 bool UdpSource::take(std::size_t slot, packet::Datagram& datagram) noexcept {
   ::msghdr& header = messages_[slot].msg_hdr;
   const Ipv4Endpoint sender = endpoint_of(senders_[slot]);
@@ -311,7 +311,7 @@ void UdpSource::refresh_drops() noexcept {
   }
 }
 
-/// Checks group and interface, but only when nothing came, and not often.
+/// Checks multicast group and interface, but only when nothing came, and not often.
 void UdpSource::look_after(std::int64_t now_ns) noexcept {
   if (now_ns < next_look_ns_) return;
   next_look_ns_ = now_ns + kLookEvery_ns;

@@ -30,7 +30,7 @@ bool starts_with(Bytes payload, const std::array<std::uint8_t, kSize>& start) no
   return payload.size() >= kSize && std::equal(start.begin(), start.end(), payload.begin());
 }
 
-/// Of the model that sends this number.
+/// Returns the model whose packets carry this product number.
 SensorModel product(std::uint8_t number) noexcept {
   const auto* const found = std::ranges::find(kSensorTable, number, &SensorRow::product_number);
   return number == 0 || found == kSensorTable.end() ? SensorModel::kOtherVelodyne : found->model;
@@ -52,7 +52,7 @@ SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
   return SensorModel::kUnknown;
 }
 
-/// By the Ruby Plus manual byte 31 is 5 for the Ruby family, byte 32 is the model.
+/// True for a Ruby Plus. By its manual byte 31 is 5 for the Ruby family, byte 32 is the model.
 bool is_ruby_plus(Bytes payload) noexcept {
   return payload[31] == 5 && payload[32] == 1;
 }

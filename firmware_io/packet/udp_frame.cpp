@@ -36,7 +36,7 @@ constexpr bool is_vlan_tag(std::uint16_t ether_type) noexcept {
   return ether_type == 0x8100 || ether_type == 0x88A8 || ether_type == 0x9100;
 }
 
-/// The IP packet in a link-layer frame, and its VLAN and sender.
+/// The IP packet in a link-layer frame, with the frame's VLAN and sender.
 struct LinkPayload {
   Bytes ip;
   std::uint32_t vlan = 0;        ///< See Datagram.

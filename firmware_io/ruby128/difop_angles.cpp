@@ -62,7 +62,8 @@ Angle angle_of(double rad) noexcept {
           packet::Be16::of(static_cast<std::uint16_t>(cdeg < 0 ? -cdeg : cdeg))};
 }
 
-/// Fails with kNoCalibration for angles that were never written, kMalformed for other odd signs.
+/// Fails with kNoCalibration for angles that were never written, kMalformed for other invalid
+/// signs.
 Status check_signs(const ruby128_wire::Difop& difop) {
   struct Table {
     const Angles& angles;

@@ -37,7 +37,8 @@ std::optional<frame::Reject> Ruby128Sensor::check(const packet::Datagram& datagr
 
   const RubyTimestamp detected = timestamp_.add(packet->stamp);
   const RubyTimestamp encoding = given_timestamp_.value_or(detected);
-  // About one start in a thousand the first packet looks like the other unit of UTC.
+  // In about one start in a thousand the first packet is read in the wrong unit of UTC; the
+  // encoding then changes.
   azimuths.clock_restarts = encoding != last_encoding_.value_or(encoding);
   last_encoding_ = encoding;
   const std::int64_t stamp_ns = read_ruby_timestamp(packet->stamp, encoding);

@@ -12,7 +12,7 @@ namespace {
 constexpr int kIterations = 12;
 constexpr double kMinScale = 1e-4;  // smaller residuals count as exact
 
-/// Weighted sums of the points about their weighted mean.
+/// Weighted sums over the points, relative to their weighted mean.
 struct Moments {
   double mean_x = 0, mean_y = 0, xx = 0, yy = 0, xy = 0;
 };

@@ -61,8 +61,8 @@ class Directions {
     const auto bin = static_cast<std::size_t>(azimuth_rad(point.x_m, point.y_m) * kPerRad);
     seen_.set(std::min(bin, kBins - 1));
   }
-  /// True if they overlap little, like the halves of a ring torn by jitter: a laser sees each
-  /// direction once a revolution.
+  /// True if the directions of two segments overlap little, like the halves of a ring torn by
+  /// jitter: a laser sees each direction once in a revolution.
   [[nodiscard]] bool may_be_of_one_laser(const Directions& other) const {
     return 4 * (seen_ & other.seen_).count() < std::min(seen_.count(), other.seen_.count());
   }

@@ -28,9 +28,9 @@ struct RingRecovery {
 /// back past straight ahead (with x > 0, y goes from negative to >= 0; -0.0 is 0). Steps back over
 /// that line by less than ten degrees, from motion compensation, stay in their ring. If this does
 /// not give 64 rings, the view may be cropped, with nothing straight ahead: then every fall by more
-/// than 20 degrees starts a ring. Points without a place (is_place()) get kNoRing. Errors:
-/// kMalformed when no point has a place, or when there are many more crossings than in any scan in
-/// ring order (a shuffled or otherwise sorted file).
+/// than 20 degrees starts a ring. Points without a valid position (is_place()) get kNoRing. Fails
+/// with kMalformed if no point has a valid position, or if there are many more crossings than in
+/// any scan in ring order (a shuffled or otherwise sorted file).
 [[nodiscard]] Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recovery);
 
 /// Renumbers the rings of a split whose count is not 64 (a laser without returns, a torn ring, a

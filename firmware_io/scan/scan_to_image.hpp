@@ -44,8 +44,8 @@ class ScanToImage {
   void reserve(std::size_t points);
 
   /// Clears `image`, which must have a row for every ring, and fills it with a cloud.
-  /// `ring_of_point` has for each point its ring, 0 the highest, or kNoRing (always for points
-  /// without a place).
+  /// `ring_of_point` has the ring of each point, 0 the highest, or kNoRing (always for points
+  /// without a valid position).
   Summary place(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point,
                 frame::RangeImage& image);
 

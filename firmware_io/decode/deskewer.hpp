@@ -65,7 +65,7 @@ class Deskewer {
   static constexpr std::int64_t kFromTheStart = std::numeric_limits<std::int64_t>::min();
 
   struct Note {
-    double position = 0;  ///< In units of nodes.
+    double position = 0;  ///< Azimuth of the head, in nodes.
     std::int64_t instant_ns = 0;
   };
 

@@ -52,7 +52,7 @@ struct Packet {
   std::uint8_t reserved1;
   std::uint8_t wave_mode;
   packet::Be16 temperature;            ///< See ruby_temperature_deg_c().
-  std::array<std::uint8_t, 10> stamp;  ///< In one of three encodings (timestamp.hpp).
+  std::array<std::uint8_t, 10> stamp;  ///< Device stamp in one of three encodings (timestamp.hpp).
   std::array<std::uint8_t, 10> reserved2;
   std::uint8_t lidar_type, lidar_model;
   std::array<std::uint8_t, 48> reserved3;

@@ -71,7 +71,7 @@ class RemissionScale {
 
 /// One recorded frame. Its buffers are reused from scan to scan.
 struct KittiScan {
-  std::vector<ScanPoint> points;  ///< In the file's order: ring after ring from the top.
+  std::vector<ScanPoint> points;  ///< Points in the file's order: ring after ring from the top.
   /// SemanticKITTI labels of the points; empty without a label file.
   std::vector<std::uint32_t> labels;
   /// Points without a valid position (is_place()); they stay in the list.

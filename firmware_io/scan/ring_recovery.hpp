@@ -36,8 +36,8 @@ struct RingRecovery {
 /// Renumbers the rings of a split whose count is not 64 (a laser without returns, a torn ring, a
 /// cropped view) by the known elevations: takes the assignment in order with the least angular
 /// error. Rings that look in the same directions are not of one laser; rings that fit no laser get
-/// kNoRing. Afterwards rings is 64. Error: kMalformed if less than half of the points fit a laser,
-/// as in a file in another order.
+/// kNoRing. Afterwards rings is 64. Fails with kMalformed if less than half of the points fit a
+/// laser, as in a file in another order.
 [[nodiscard]] Status align_rings(std::span<const ScanPoint> points, const RingTable& table,
                                  RingRecovery& recovery);
 

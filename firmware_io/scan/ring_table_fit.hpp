@@ -25,7 +25,7 @@ struct HeightResidual {
 /// A unit's ring table found in its recordings, and how well it explains them.
 struct FittedRings {
   RingTable table;
-  HeightResidual residual;  ///< Over all rings.
+  HeightResidual residual;  ///< Residual over all rings.
   std::vector<HeightResidual> by_ring;
   /// True if no scan had all rings, so that a nominal table told them apart.
   bool from_nominal_table = false;
@@ -60,7 +60,7 @@ class RingTableFit {
 
   /// Returns the table of everything added so far. Rings that saw only near ground, as in a cropped
   /// view, cannot tell elevation from vertical offset: with `offsets` these are taken as given, and
-  /// only elevations are found (medians). Error kMalformed when fewer than half the rings have
+  /// only elevations are found (medians). Fails with kMalformed if fewer than half the rings have
   /// enough points.
   [[nodiscard]] Expected<FittedRings> fit(const RingTable* offsets = nullptr) const;
 

@@ -34,7 +34,7 @@ struct ScanFolder {
 /// Tells by name which files of a folder are scans.
 struct ScanKind {
   bool (*is_scan)(const std::filesystem::path&);
-  std::string_view formats;  ///< For messages: "KITTI's .bin (float32 x y z remission)".
+  std::string_view formats;  ///< Named in messages: "KITTI's .bin (float32 x y z remission)".
 };
 /// True for a name that ends in `.bin`.
 [[nodiscard]] bool is_kitti_bin(const std::filesystem::path& path);
@@ -43,7 +43,7 @@ inline constexpr ScanKind kKittiScans{is_kitti_bin, "KITTI's .bin (float32 x y z
 /// Lists a SemanticKITTI sequence folder (velodyne/ with scans, labels/ with .label, poses.txt,
 /// times.txt, calib.txt; all but velodyne/ optional) or a plain folder of scans with .label files
 /// beside them, or a single scan. Scans may lack labels. Hidden files are ignored: macOS puts a
-/// `._000000.bin` beside a 000000.bin. Errors: kNotFound (no such folder, no scan in it),
+/// `._000000.bin` beside a 000000.bin. Fails with kNotFound (no such folder, no scan in it),
 /// kUnreadable, kUnsupported (a file whose name is not a scan's), kMalformed (two scans of one
 /// name, whose outputs would be one file).
 [[nodiscard]] Expected<ScanFolder> list_scan_folder(const std::filesystem::path& folder,

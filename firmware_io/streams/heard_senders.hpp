@@ -95,7 +95,7 @@ class HeardSenders {
 
   std::optional<sensor::SensorModel> wanted_;
   std::map<std::uint32_t, Sender> senders_;
-  std::uint64_t forgotten_datagrams_ = 0;  ///< From senders that were replaced or found no room.
+  std::uint64_t forgotten_datagrams_ = 0;  ///< Sent by senders replaced or not kept.
   std::int64_t newest_ns_ = 0, first_known_ns_ = 0;
 };
 

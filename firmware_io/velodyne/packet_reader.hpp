@@ -20,11 +20,10 @@ namespace terracut::velodyne {
 ///   kWrongSize          not 1206 bytes
 ///   kWrongMagic         other block ids, or a return mode other than strongest, last and dual
 ///   kAzimuthOutOfRange, kAzimuthMismatch (of a firing's blocks, or of a pair in dual return)
-///   kAzimuthJump        steps beyond those of packet_layout.hpp. A packet that was begun before
-///   the
-///                       head went out of a limited field of view goes on behind it: one such step
-///                       is taken for that (PacketAzimuths::behind_sector) once the rate is known,
-///                       and it is for the caller to know whether there is such a sector
+///   kAzimuthJump        steps beyond those of packet_layout.hpp. A packet begun before the head
+///                       left a limited field of view continues when it is back: one such step
+///                       is accepted (PacketAzimuths::behind_sector) once the rate is known; the
+///                       caller must know whether there is such a sector
 ///   kStationary
 ///
 /// `azimuths` holds stamp and azimuths for the azimuth reasons and kStationary, too. One stream,

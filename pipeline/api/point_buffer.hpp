@@ -17,17 +17,17 @@ namespace terracut {
 
 /// Why a buffer is not a valid cloud.
 enum class BufferFault : std::uint8_t {
-  kNoPosition,   ///< A field x, y or z is missing.
-  kUnknownType,  ///< A field's type is not a FieldType.
-  kBeyondPoint,  ///< A field ends beyond its point.
+  kNoPosition,   ///< The field x, y or z is missing.
+  kUnknownType,  ///< The type of a field is not a FieldType.
+  kBeyondPoint,  ///< A field ends beyond the point's last byte.
   kNoPoints,
-  kTooManyPoints,  ///< More than scan::kMaxScanPoints.
+  kTooManyPoints,  ///< The cloud has more than scan::kMaxScanPoints points.
   kSizes,          ///< Width, height and steps ask for more bytes than there are.
-  kLaserNumber,    ///< A return's laser number is not a whole number from 0 to 255.
+  kLaserNumber,    ///< A point's laser number is not a whole number from 0 to 255.
   kCount,
 };
 
-/// Returns a stable lower_snake_case name, as in reports; "unknown" for anything else.
+/// Returns a stable lower_snake_case name for reports; "unknown" for an invalid value.
 [[nodiscard]] constexpr std::string_view to_string(BufferFault fault) noexcept {
   constexpr std::array<std::string_view, static_cast<std::size_t>(BufferFault::kCount)> kNames{
       "no_position",     "unknown_type", "field_beyond_point", "no_points",
@@ -37,10 +37,10 @@ enum class BufferFault : std::uint8_t {
 
 struct RefusedBuffer {
   BufferFault fault;
-  std::string message;  ///< What was expected and what was found.
+  std::string message;  ///< States what was expected and what was found.
 };
 
-/// Copies the points of a driver's memory into `cloud`, whose buffers are reused.
+/// Copies the points of a driver's memory into `cloud`, reusing the memory of `cloud`.
 [[nodiscard]] tl::expected<void, RefusedBuffer> unpack(const PointBuffer& buffer,
                                                        cloud::Cloud& cloud);
 

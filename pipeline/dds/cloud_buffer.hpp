@@ -10,8 +10,8 @@
 
 namespace terracut::dds {
 
-/// Views a cloud as the library takes it, without checks. `fields` stores its fields and must live
-/// as long as the result.
+/// Returns a view of `cloud` as the library's PointBuffer, without checks. The view's fields are
+/// stored in `fields`, which must live as long as the view.
 [[nodiscard]] inline PointBuffer point_buffer_of(const RosCloud& cloud,
                                                  std::vector<PointField>& fields) {
   fields.clear();

@@ -13,11 +13,11 @@
 
 namespace terracut::dds {
 
-/// A PointCloud2 in Cyclone's own memory. May be given back on any thread while its reader lives.
+/// A PointCloud2 in Cyclone's own memory. Any thread may release the cloud while its reader lives.
 using TakenCloud = std::unique_ptr<const sensor_msgs_msg_dds__PointCloud2_,
                                    std::function<void(const sensor_msgs_msg_dds__PointCloud2_*)>>;
 
-/// Takes clouds of one topic. One thread.
+/// Takes the clouds of one topic. For use by one thread.
 class CloudReader {
  public:
   /// `topic` is from dds_topic(). `reliable`: lost parts are requested again, and writers that do
@@ -25,13 +25,13 @@ class CloudReader {
   [[nodiscard]] static Expected<CloudReader> open(const Participant& participant,
                                                   const std::string& topic, bool reliable);
 
-  /// Waits for a cloud, or until the time is up.
+  /// Waits until a cloud arrives or the timeout ends.
   void wait(std::int64_t timeout_ns);
   /// Returns the oldest cloud not taken yet; null if there is none.
   [[nodiscard]] TakenCloud take();
-  /// Returns how many clouds were sent but did not arrive, as far as known.
+  /// Returns how many clouds were sent but lost on the way, as far as Cyclone knows.
   [[nodiscard]] std::uint64_t lost() const;
-  /// Returns the current number of writers.
+  /// Returns the current number of writers of the topic.
   [[nodiscard]] std::uint32_t writers() const;
 
  private:
@@ -39,8 +39,8 @@ class CloudReader {
       : topic_(std::move(topic)), reader_(std::move(reader)), waiting_(std::move(waiting)) {}
 
   Entity topic_;
-  Entity reader_;   ///< Declared after its topic, to be deleted before it.
-  Entity waiting_;  ///< Waits for a cloud of the reader.
+  Entity reader_;   ///< Declared after its topic, so that it is deleted first.
+  Entity waiting_;  ///< Wakes wait() when the reader has a cloud.
 };
 
 }  // namespace terracut::dds

@@ -28,13 +28,13 @@ class DdsSink final : public publish::FrameSink {
   struct Config {
     Participant::Config participant{};
     Quality quality{};
-    /// Topics from dds_topic(); empty: not published.
+    /// Topics from dds_topic(). A topic that is empty is not published.
     std::string points{}, ground{}, obstacles{}, road{}, raw{}, diagnostics{}, tf_static{};
-    /// How long a frame waits for reliable readers of earlier ones; 0: not at all.
+    /// How long a frame waits for reliable readers to acknowledge earlier frames; 0: no wait.
     std::int64_t patience_ns = 0;
   };
 
-  /// Errors of Participant and TopicWriter.
+  /// Returns the errors of Participant::open() and TopicWriter::open().
   [[nodiscard]] static Expected<std::unique_ptr<DdsSink>> open(const Config& config,
                                                                const publish::RunFacts& facts);
 
@@ -44,7 +44,7 @@ class DdsSink final : public publish::FrameSink {
   [[nodiscard]] Status finish() override;
   [[nodiscard]] std::vector<status::NamedCount> losses() const override;
 
-  /// Returns the current number of readers of `points`.
+  /// Returns the current number of readers of the topic `points`.
   [[nodiscard]] std::uint32_t readers() const { return points_ ? points_->readers() : 0; }
   [[nodiscard]] int domain() const noexcept { return participant_.domain(); }
 
@@ -56,7 +56,7 @@ class DdsSink final : public publish::FrameSink {
   void await_readers();
   void put_points(Writer& writer, const publish::LabelledFrame& frame, ros_messages::CloudOf which);
   void put_raw(const publish::LabelledFrame& frame);
-  /// Writes the points in bytes_, which belong to that frame.
+  /// Writes the frame's points, which have been put into bytes_.
   void write(TopicWriter& writer, const publish::LabelledFrame& frame, std::string& frame_id,
              std::vector<sensor_msgs_msg_dds__PointField_>& fields);
 
@@ -67,8 +67,8 @@ class DdsSink final : public publish::FrameSink {
   Writer points_, ground_, obstacles_, road_, raw_, tf_static_;
   std::optional<DiagnosticsWriter> diagnostics_;
   std::vector<sensor_msgs_msg_dds__PointField_> fields_, raw_fields_;
-  std::vector<std::uint8_t> bytes_;  ///< A message's points.
-  int behind_ = 0;  ///< Successive frames that some reader had not acknowledged when the next came.
+  std::vector<std::uint8_t> bytes_;  ///< Bytes of the points of one message.
+  int behind_ = 0;  ///< Number of successive frames that some reader acknowledged too late.
   std::atomic<std::uint64_t> unacknowledged_{0}, refused_{0};
 };
 

@@ -15,7 +15,7 @@ namespace terracut::dds {
 
 using RosCloud = sensor_msgs_msg_dds__PointCloud2_;
 
-/// Returns the bytes of a point. The cloud must have passed terracut::unpack().
+/// Returns the first byte of a point of a cloud, which must have passed terracut::unpack().
 [[nodiscard]] inline const std::uint8_t* point_of(const RosCloud& cloud, std::size_t row,
                                                   std::size_t column) noexcept {
   const std::size_t row_step =
@@ -23,9 +23,9 @@ using RosCloud = sensor_msgs_msg_dds__PointCloud2_;
   return cloud.data._buffer + row * row_step + column * cloud.point_step;
 }
 
-/// An answer to a cloud, with its stamp, frame and fields; these lie in that cloud, which must
-/// outlive the answer. Points lie here, in memory that is reused by the next answer. The cloud must
-/// have passed terracut::unpack() and have one label a point.
+/// A cloud made from another one, keeping its stamp, frame and fields in that original, which must
+/// outlive this object and have passed terracut::unpack() with one label per point. The points lie
+/// here, in memory that the next derived cloud reuses.
 class DerivedCloud {
  public:
   /// Copies the points whose label `takes` accepts, byte for byte, into one row.
@@ -47,12 +47,12 @@ class DerivedCloud {
     const auto points =
         static_cast<std::uint32_t>(static_cast<std::size_t>(to - data_.data()) / step);
     set_size(1, points, from.point_step);
-    cloud_.is_dense = true;  // points without a return have a label that nobody accepts
+    cloud_.is_dense = true;  // points without a return have a label that no caller accepts
     return cloud_;
   }
 
-  /// Copies all points in their order with one more field at the end: label, uint8, classes as in
-  /// .label files (pipeline/output/label_sink.hpp).
+  /// Copies all points in their order and adds a field at the end: label, uint8, with the classes
+  /// of .label files (pipeline/output/label_sink.hpp).
   const RosCloud& with_labels(const RosCloud& from, std::span<const frame::Label> labels);
 
  private:

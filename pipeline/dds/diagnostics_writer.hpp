@@ -7,12 +7,12 @@
 
 namespace terracut::dds {
 
-/// Publishes the state of a run on /diagnostics (diagnostic_msgs/DiagnosticArray). One thread.
+/// Publishes the state of a run on /diagnostics (diagnostic_msgs/DiagnosticArray), by one thread.
 class DiagnosticsWriter {
  public:
   explicit DiagnosticsWriter(TopicWriter writer) noexcept : writer_(std::move(writer)) {}
 
-  /// To be called about once a second. kWriteFailed.
+  /// Publishes `figures`; call it about once a second. Fails with kWriteFailed.
   [[nodiscard]] Status write(const status::MonitorSnapshot& figures);
 
  private:

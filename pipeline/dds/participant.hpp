@@ -14,7 +14,7 @@
 /// with a deadline: writing and taking allocate and lock.
 namespace terracut::dds {
 
-/// Returns Cyclone's reason for refusing; `what` was tried.
+/// Returns an error that names `what` was tried and Cyclone's reason for refusing it.
 [[nodiscard]] tl::unexpected<Error> refused(ErrorCode code, const std::string& what,
                                             dds_return_t returned);
 
@@ -37,20 +37,20 @@ class Entity {
   dds_entity_t entity_;
 };
 
-/// This process on a DDS domain.
+/// Connects this process to a DDS domain.
 class Participant {
  public:
   struct Config {
-    std::optional<int> domain;  ///< [0, 232]; none: ROS_DOMAIN_ID, else 0.
+    std::optional<int> domain;  ///< [0, 232]; if empty, ROS_DOMAIN_ID, or 0 if that is not set.
     std::string
         interface;  ///< Network interface; empty: Cyclone's choice, or lo by ROS_LOCALHOST_ONLY.
-    /// Bytes of a message's fragment, [1000, 65000]. With 63000 readers on this machine lose
-    /// nothing; over Ethernet each becomes 43 IP fragments.
+    /// Bytes in a fragment of a message, [1000, 65000]. With 63000, readers on the same machine
+    /// lose nothing; over Ethernet each fragment is sent as 43 IP fragments.
     int fragment_bytes = 63000;
     int receive_buffer_bytes = 8 << 20;  ///< Requested; the system may grant less.
   };
 
-  /// CYCLONEDDS_URI overrides `config`. kInvalidArgument, kUnsupported.
+  /// CYCLONEDDS_URI overrides `config`. Fails with kInvalidArgument or kUnsupported.
   [[nodiscard]] static Expected<Participant> open(const Config& config);
 
   [[nodiscard]] dds_entity_t id() const noexcept { return participant_.id(); }
@@ -61,7 +61,7 @@ class Participant {
       : domain_entity_(std::move(domain)), participant_(std::move(participant)), domain_(number) {}
 
   Entity domain_entity_;
-  Entity participant_;  ///< Declared after its domain, to be deleted before it.
+  Entity participant_;  ///< Declared after its domain, so that it is deleted first.
   int domain_;
 };
 

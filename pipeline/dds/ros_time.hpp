@@ -8,7 +8,7 @@
 
 namespace terracut::dds {
 
-/// Converts `time_ns`, since 1970 and not before.
+/// Converts `time_ns`, nanoseconds since 1970; negative times are not allowed.
 [[nodiscard]] constexpr builtin_interfaces_msg_dds__Time_ ros_time(std::int64_t time_ns) noexcept {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   return {static_cast<std::int32_t>(time_ns / kSecond_ns),

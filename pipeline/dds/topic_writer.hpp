@@ -12,23 +12,23 @@
 
 namespace terracut::dds {
 
-/// A type of ros_types.idl with its ROS 2 hash (RIHS01, of the type's description:
-/// tests/pipeline/dds/type_hash_test.py computes it); null if the hash is unknown.
+/// A type of ros_types.idl with the hash of its description in ROS 2 (RIHS01), which
+/// tests/pipeline/dds/type_hash_test.py computes; the hash is null if unknown.
 struct MessageType {
   const dds_topic_descriptor_t* descriptor;
   const char* hash;
 };
 extern const MessageType kPointCloud2, kDiagnosticArray, kTfMessage, kFloat64Stamped;
 
-/// The quality of service offered. Reliable and volatile fits ROS 2 readers with either usual
-/// profile, SensorDataQoS and the default.
+/// The quality of service that a writer offers. Reliable and volatile suits ROS 2 readers with
+/// either usual profile, SensorDataQoS or the default.
 struct Quality {
   bool reliable = true;
   int depth = 5;         ///< Messages kept for readers that have not acknowledged them.
   bool latched = false;  ///< TRANSIENT_LOCAL: later readers get the last `depth` messages.
 };
 
-/// Writes messages of one topic. One thread at a time.
+/// Writes messages of one topic. Only one thread may use it at a time.
 class TopicWriter {
  public:
   /// `topic` is from dds_topic().
@@ -36,11 +36,11 @@ class TopicWriter {
                                                   const std::string& topic, const MessageType& type,
                                                   const Quality& quality);
 
-  /// `message` must be of the type. kWriteFailed.
+  /// Publishes `message`, which must have this topic's type. Fails with kWriteFailed.
   [[nodiscard]] Status write(const void* message);
-  /// Waits, at most `patience_ns`, until every reliable reader has acknowledged all messages.
+  /// Waits until every reliable reader has acknowledged all messages; false after `patience_ns`.
   [[nodiscard]] bool is_acknowledged(std::int64_t patience_ns);
-  /// Returns the current number of readers.
+  /// Returns the current number of readers of the topic.
   [[nodiscard]] std::uint32_t readers() const;
 
  private:
@@ -48,7 +48,7 @@ class TopicWriter {
       : topic_(std::move(topic)), writer_(std::move(writer)), name_(std::move(name)) {}
 
   Entity topic_;
-  Entity writer_;  ///< Declared after its topic, to be deleted before it.
+  Entity writer_;  ///< Declared after its topic, so that it is deleted first.
   std::string name_;
 };
 

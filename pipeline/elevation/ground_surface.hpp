@@ -14,52 +14,52 @@ namespace terracut::elevation {
 
 /// The local ground surface over a ring grid, from the lowest return of every grid cell.
 ///
-/// Departs from the paper, which always takes the lowest return of a cell as ground: a car that
-/// hides the ground becomes ground. Here each sector is traced from the vehicle outwards; the
-/// lowest return of a cell is ground only if a passable slope leads to it from the last ground.
+/// This departs from the paper, which always takes the lowest return of a cell as ground, even the
+/// return from a car that hides the ground. Here each sector is traced from the vehicle outwards;
+/// the lowest return of a cell is ground only if a passable slope leads to it from the last ground.
 /// Lost ground is found again where the lowest returns form a passable path of some metres (a bank
-/// behind a ditch, a hillside behind a hedge). Cells without ground of their own are interpolated
-/// from the nearest sectors with ground. Where the ground rises from sector to sector (a bank seen
-/// along its length), it also rises within a sector.
+/// behind a ditch, a hillside behind a hedge). A cell without ground is interpolated from the
+/// nearest sectors with ground. Where the ground rises from sector to sector (a bank seen along its
+/// length), it also rises within a sector.
 class GroundSurface {
  public:
   static constexpr float kEmpty = 1e9F;
 
-  /// The lowest return of a grid cell, and the range it lies at: on a slope it is at the cell's
-  /// near or far end, not in its middle. Half a band of 2 m at a slope of 40 % is 0.4 m of height.
+  /// The lowest return of a grid cell, with its range: on a slope it is at an end of the cell, not
+  /// in the middle. Half a band of 2 m at a slope of 40 % is 0.4 m of height.
   struct LowestReturn {
-    float height_m = kEmpty;    ///< kEmpty where the cell had no return.
-    float range_m = 0;          ///< Horizontal.
-    float highest_m = -kEmpty;  ///< Highest return of the cell.
+    float height_m = kEmpty;    ///< Height of the lowest return; kEmpty if the cell has no return.
+    float range_m = 0;          ///< Horizontal range of the lowest return.
+    float highest_m = -kEmpty;  ///< Height of the cell's highest return.
   };
   struct Config {
-    float step_up_m = 0.04F;        ///< Rise accepted at zero distance (noise, bumps).
+    float step_up_m = 0.04F;        ///< Rise that is accepted even without distance (noise, bumps).
     float slope_tolerance = 0.25F;  ///< Further rise or fall accepted per metre traced.
-    float step_up_limit_m = 0.34F;  ///< A higher rise is never accepted, at any distance.
-    float start_slope = 0.18F;  ///< Height per metre above the mount's plane, beyond `step_up_m`,
-                                ///< at which the first ground may lie: returns nearer than the
-                                ///< first ring's ground are mostly of a car's flank.
-    float foot_rise_m = 0.18F;  ///< The limit where something tall stands.
-    float tall_m = 0.5F;        ///< Tall: this much above the cell's lowest return.
+    float step_up_limit_m = 0.34F;  ///< Largest rise accepted, at any distance.
+    float start_slope = 0.18F;      ///< First ground may be this high above the mount's plane, per
+                                ///< metre of range and beyond `step_up_m`; nearer than the first
+                                ///< ring's ground, most returns come from a car's flank.
+    float foot_rise_m = 0.18F;  ///< Largest rise accepted where something tall stands.
+    float tall_m = 0.5F;        ///< Tall things are this high above their cell's lowest return.
     float extra_fall = 0.30F;   ///< Further fall accepted per metre traced (ground may drop away).
     float slope_gain = 0.20F;   ///< Share of a new step in the running slope, (0, 1].
-    float max_slope = 0.55F;    ///< Largest running slope, rise over run.
-    float slope_memory_m = 2.0F;     ///< How far the running slope is continued without ground.
-    float first_slope_run_m = 0.4F;  ///< Shorter steps count as this long for the slope.
-    float regain_length_m = 3.5F;    ///< Passable metres after which lost ground is found again.
-    float regain_slope = 0.55F;      ///< Steepest start of that path from the last ground.
-    float regain_gap_m = 1e9F;       ///< Longest step on that path.
-    float unconnected_gap_m = 3.5F;  ///< Longest step on a path that starts steeper, as over a
-                                     ///< car's roof: there it ends, and the bank behind begins
-                                     ///< another.
-    float regain_width_m = 4.0F;     ///< Least width of the strip found again.
-    int interpolate_sectors = 14;    ///< Sectors to each side for interpolating a cell.
-    float traced_weight = 0.30F;     ///< Weight of the prediction against a neighbour's 1/distance.
-    float max_cross_slope = 0.5F;  ///< Steepest ground across a sector, rise over width, if nothing
-                                   ///< tall (`tall_m`) stands there; 0: level across.
+    float max_slope = 0.55F;    ///< Largest running slope, as rise over run.
+    float slope_memory_m = 2.0F;     ///< The running slope is continued so far without ground.
+    float first_slope_run_m = 0.4F;  ///< For the slope, shorter steps count as this long.
+    float regain_length_m = 3.5F;    ///< Length of passable path on which lost ground is regained.
+    float regain_slope = 0.55F;  ///< Steepest slope from the last ground to the start of that path.
+    float regain_gap_m = 1e9F;   ///< Longest step between two returns on that path.
+    float unconnected_gap_m =
+        3.5F;  ///< Longest step on a path that starts steeper than that. A longer step, as over a
+               ///< car's roof, ends the path; another path begins behind it.
+    float regain_width_m = 4.0F;   ///< Least width of a strip of ground that is found again.
+    int interpolate_sectors = 14;  ///< Sectors to each side from which a cell is interpolated.
+    float traced_weight = 0.30F;   ///< Weight of the prediction against a neighbour's 1/distance.
+    float max_cross_slope = 0.5F;  ///< Steepest ground across a sector, rise over width, where
+                                   ///< nothing tall stands; 0: ground is level across a sector.
   };
 
-  /// Ground heights above the mount's plane at a sector's first and last edge.
+  /// Heights of the ground above the mount's plane at the first and the last edge of a sector.
   struct EdgeHeights {
     float first_m = 0, last_m = 0;
 
@@ -69,12 +69,12 @@ class GroundSurface {
 
   GroundSurface(const Config& config, const RingGrid& grid, memory::FixedMemory& memory);
 
-  // Order of calls for a frame, which may still be arriving: reset(), trace() sectors as they
-  // become known, finalize() those whose surface is needed early, finally finalize_rest().
+  // Order of calls for a frame, which may still be arriving: reset(); trace() for sectors as they
+  // become known; finalize() for sectors whose surface is needed early; then finalize_rest().
 
-  /// Begins a frame with no sector traced. Real-time safe, like all functions here.
+  /// Begins a frame with no sector traced. All functions of this class are real-time safe.
   void reset() noexcept TERRACUT_NONBLOCKING;
-  /// Traces these sectors, whose lowest returns are known.
+  /// Traces these sectors; the lowest returns in them must be known.
   void trace(const RingGrid& grid, RingGrid::Sectors sectors,
              std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
   /// Estimates the surface in sectors that have been traced. Sectors not traced yet contribute
@@ -85,19 +85,19 @@ class GroundSurface {
   /// `is_current[s]` to 0 if this changes the surface that finalize() found for sector s.
   void finalize_rest(const RingGrid& grid, std::span<const LowestReturn> lowest,
                      std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
-  /// Returns how many sectors to each side a sector's surface depends on (more only beside a strip
-  /// that may be too narrow to be ground).
+  /// Returns how many sectors to each side the surface of a sector depends on. Beside a strip that
+  /// may be too narrow to be ground, the surface may depend on more.
   [[nodiscard]] int reach() const noexcept { return std::max(interpolate_sectors_, 1); }
 
   /// Returns the ground at the middle of each grid cell's band; valid in cells with a return and in
-  /// the bands next to them. One extra element at the end, so that every cell has a successor.
+  /// the bands next to such cells. One extra element at the end gives every cell a successor.
   [[nodiscard]] std::span<const EdgeHeights> heights() const noexcept { return heights_; }
 
  private:
   enum Origin : std::uint8_t {
     kPredicted,  // the cell had no return, or none on the ground
     kMeasured,   // the cell's own lowest return is the ground
-    kRegained,   // as kMeasured, after the trace had lost the ground
+    kRegained,   // as kMeasured, but ground was lost before this cell and found again
   };
 
   /// The state of a trace: its last step and the running slope.
@@ -109,7 +109,7 @@ class GroundSurface {
     [[nodiscard]] float predict_m(float to_range_m, const Config& config) const noexcept;
     [[nodiscard]] bool reaches(float to_range_m, float to_height_m,
                                const Config& config) const noexcept;
-    /// Steps there. Returns the slope of the step, limited to max_slope up or down.
+    /// Moves the trace to a new place. Returns the slope of the step, limited to +-max_slope.
     float step(float to_range_m, float to_height_m, const Config& config) noexcept;
   };
 
@@ -118,19 +118,19 @@ class GroundSurface {
                                               int sector) noexcept {
     return cells.subspan(grid.cell(sector, 0), static_cast<std::size_t>(grid.bands()));
   }
-  /// True if a trace may go on to the lowest return of a cell.
+  /// True if the trace may continue from `ground` to the lowest return `here`.
   [[nodiscard]] bool leads_to(const Trace& ground, const LowestReturn& here) const noexcept;
-  /// True if the first ground of a trace may be so high.
+  /// True if the first ground of a trace may be as high as `here`.
   [[nodiscard]] bool may_start_at(const LowestReturn& here) const noexcept {
     return here.height_m < config_.step_up_m + config_.start_slope * here.range_m;
   }
   void trace_outward(const RingGrid& grid, int sector,
                      std::span<const LowestReturn> lowest) noexcept;
-  /// Traces from `band` to the end of the sector, or until ground is lost that can be found again
-  /// nearer than where the trace would continue. Returns the last band with ground, or -1.
+  /// Traces from `band` to the end of the sector, or to where ground is lost that can be found
+  /// again nearer than the trace would continue. Returns the last band with ground, or -1.
   int trace_on(const RingGrid& grid, int sector, int band, Origin origin, Trace& ground,
                std::span<const LowestReturn> lowest) noexcept;
-  /// Where ground begins again, and its slope there.
+  /// The band where lost ground begins again, and the slope of the ground there.
   struct Detour {
     int band = -1;  // -1: nowhere
     float slope = 0;
@@ -140,12 +140,12 @@ class GroundSurface {
   [[nodiscard]] Detour find_ground_again(const RingGrid& grid, int sector, int lost_band,
                                          int end_band, const Trace& ground,
                                          std::span<const LowestReturn> lowest) const noexcept;
-  /// Finds which ground of a sector its neighbours may use: all of it, except ground found again on
-  /// a strip too narrow to be ground (a row of car roofs, for example).
+  /// Finds which ground of a sector its neighbours may use: all ground, except a strip found again
+  /// that is too narrow to be ground (a row of car roofs, for example).
   void find_donors(const RingGrid& grid, int sector) noexcept;
   [[nodiscard]] bool lies_on_wide_strip(const RingGrid& grid, int sector, int band) const noexcept;
-  /// Estimates a sector's surface from the ground in it and its neighbours. True if that changed
-  /// it.
+  /// Estimates the surface of a sector from the ground in the sector and in its neighbours. Returns
+  /// true if the surface changed.
   bool estimate(const RingGrid& grid, int sector, std::span<const LowestReturn> lowest) noexcept;
   [[nodiscard]] float interpolated_m(const RingGrid& grid, int sector, int band) const noexcept;
 
@@ -153,12 +153,12 @@ class GroundSurface {
   int interpolate_sectors_;  // at most half the circle
   std::span<float> traced_m_;
   std::span<EdgeHeights> heights_;
-  std::span<Origin> found_;               // by the trace; kPredicted where not traced
-  std::span<Origin> origin_;              // found_ without narrow strips
-  std::span<std::uint8_t> has_regained_;  // by sector: found_ has kRegained
-  std::span<std::uint8_t> is_open_;       // by sector: its surface must be estimated again
-  std::span<std::int32_t> wide_from_;     // by band: least sectors of a wide strip
-  std::span<float> max_rise_m_;           // by band, across a sector
+  std::span<Origin> found_;   // origin found by the trace; kPredicted where nothing is traced
+  std::span<Origin> origin_;  // found_ without the narrow strips
+  std::span<std::uint8_t> has_regained_;  // by sector: 1 if found_ has kRegained
+  std::span<std::uint8_t> is_open_;       // by sector: 1 if the surface must be estimated again
+  std::span<std::int32_t> wide_from_;     // by band: number of sectors from which a strip is wide
+  std::span<float> max_rise_m_;           // by band: largest rise across a sector
 };
 
 }  // namespace terracut::elevation

@@ -19,7 +19,7 @@ namespace terracut::elevation {
 
 /// The reference from which a return's height is measured.
 enum class GroundReference : std::uint8_t {
-  kCellMinimum,   ///< The lowest return of its grid cell: the paper's flat-cell assumption.
+  kCellMinimum,   ///< The lowest return of the cell: the paper assumes flat cells.
   kLocalSurface,  ///< The local ground surface (ground_surface.hpp).
 };
 
@@ -33,29 +33,29 @@ class RingElevationMap {
     RoughGround::Config rough;        ///< Used with kLocalSurface.
     float obstacle_height_m = 0.15F;  ///< A return this far above its reference is an obstacle.
   };
-  /// Two numbers: the first is smaller the lower the cell's lowest return, the second the higher
-  /// its highest.
+  /// Two numbers that encode a cell's extreme returns: the first is smaller the lower the lowest
+  /// return, the second is smaller the higher the highest return.
   using Extremes = double __attribute__((vector_size(16)));
 
   RingElevationMap(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                    memory::FixedMemory& memory);
 
-  // Order of calls for a frame, which may still be arriving (CoarseStages): reset(), trace_to()
-  // sector after sector, finalize() those to be labelled early, finalize_rest() when all have been
-  // traced; label() what is final.
+  // Order of calls for a frame, which may still be arriving (CoarseStages): reset(); trace_to() for
+  // sector after sector; finalize() for sectors to be labelled early; finalize_rest() when all
+  // sectors are traced. label() may be called for every final sector.
 
-  /// Begins a frame. Real-time safe, like all functions here.
+  /// Begins a frame. All functions of this class are real-time safe.
   void reset() noexcept TERRACUT_NONBLOCKING;
-  /// Takes a return that does not own its cell, if frames keep their returns as measured.
+  /// Takes a return that shares its cell with another return, if frames keep returns as measured.
   void take_extra(int column, float z_m, float ground_range_m) noexcept TERRACUT_NONBLOCKING;
-  /// Traces the sectors from traced() to `end`, whose columns must be complete. `points` has the
-  /// returns that own their cells; the others are in the image's overflow list or came by
-  /// take_extra().
+  /// Traces the sectors from traced() to `end`; the columns of these sectors must be complete.
+  /// `points` has the returns that own their cells; other returns are in the image's overflow list
+  /// or came by take_extra().
   void trace_to(int end, const frame::RangeImage& image,
                 const frame::PointPlanes& points) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] int traced() const noexcept { return traced_; }
-  /// False if a return came after its sector had been traced: the result is then invalid. To be
-  /// asked once all sectors have been traced.
+  /// Returns false if a return came after its sector was traced, which makes the result invalid.
+  /// Call it once all sectors have been traced.
   [[nodiscard]] bool saw_all_of(const frame::RangeImage& image) const noexcept {
     return !was_overtaken_ && seen_ + seen_overflow_ == image.returns();
   }
@@ -66,7 +66,7 @@ class RingElevationMap {
   [[nodiscard]] int reach() const noexcept {
     return has_surface() ? std::max(surface_.reach(), rough_.reach()) : 0;
   }
-  /// Fills `height_m` and `label` of these columns.
+  /// Fills `height_m` and `label` in these columns.
   void label(const frame::PointPlanes& points, frame::ColumnRange columns,
              stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
@@ -84,17 +84,17 @@ class RingElevationMap {
   RingGrid grid_;
   GroundSurface surface_;
   RoughGround rough_;
-  int traced_ = 0;        // in sectors
-  std::size_t seen_ = 0;  // returns in them that own a cell
-  // Number of returns without a cell: in the overflow list or by take_extra().
+  int traced_ = 0;        // number of sectors traced
+  std::size_t seen_ = 0;  // number of returns in the traced sectors that own a cell
+  // Number of returns that own no cell: from the overflow list or take_extra().
   std::size_t seen_overflow_ = 0;
   bool was_overtaken_ = false;
-  // By grid cell: lowest return and highest height; extremes_ has both during the search.
+  // One element per grid cell; during the search extremes_ has lowest and highest returns.
   std::span<GroundSurface::LowestReturn> lowest_;
   std::span<Extremes> extremes_;
   std::span<float> highest_m_;
-  // For one row, from the first column in work: halves of its returns' extremes, their ranges in
-  // the grid's steps, and the highest return near each.
+  // Work space for one row, from the first column in work: the extremes of its returns in halves,
+  // their ranges in steps of the grid, and the highest return near each return.
   std::span<std::uint32_t> row_halves_;
   std::span<std::uint16_t> row_steps_;
   std::span<float> row_highest_m_;

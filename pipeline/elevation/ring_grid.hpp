@@ -12,9 +12,9 @@
 
 namespace terracut::elevation {
 
-/// The grid of the ring-based elevation map (paper, section III-B): the ground's rings in range,
-/// equal sectors in azimuth, so that every cell expects the same number of ground returns at any
-/// distance.
+/// The grid of the ring-based elevation map (paper, section III-B): bands of range follow the rings
+/// on the ground, sectors of azimuth are equal, so that every cell expects the same number of
+/// ground returns at any distance.
 ///
 /// Band b covers a span of horizontal range. Boundaries lie midway between the mean ground
 /// distances of neighbouring lasers; bands narrower than `min_band_m` are merged, wider ones than
@@ -30,15 +30,15 @@ class RingGrid {
     int columns_per_sector = 10;   ///< Image columns a sector covers; [1, 64].
   };
   static constexpr float kStepsPerMetre = 32.0F;  ///< Resolution of boundaries: 3 cm.
-  static constexpr int kMaxBands = 250;           ///< More would not fit the 8-bit band numbers.
+  static constexpr int kMaxBands = 250;  ///< Largest number that fits the 8-bit band numbers.
 
-  /// The place of a range between the middles of a band and the next, for linear interpolation.
+  /// Where a range lies between the middles of two adjacent bands, for linear interpolation.
   struct BandMix {
     std::int32_t inner = 0;
-    float outer_share = 0;  ///< [0, 1]; 0 before the first middle and beyond the last.
+    float outer_share = 0;  ///< Weight of the outer band, [0, 1]; 0 before the first middle.
   };
-  /// All mixes as arrays, for vector code: the mix of each range step, and the last step, to which
-  /// step_of() limits ranges.
+  /// The BandMix of each range step as arrays, for vector code, and the number of the last step, to
+  /// which step_of() limits ranges.
   struct BandMixes {
     const BandMix* of_step;
     float last_step;
@@ -62,11 +62,11 @@ class RingGrid {
     return center_m_[static_cast<std::size_t>(band)];
   }
 
-  /// Returns the band of a horizontal range. Real-time safe; any float, NaN gives the last band.
+  /// Returns the band of a horizontal range; the last band for NaN. Real-time safe.
   [[nodiscard]] int band_of(float ground_range_m) const noexcept {
     return band_of_step_[step_of(ground_range_m)];
   }
-  /// Returns the band and the next one, with the range's place between them.
+  /// Returns the band of a range, the next band, and where the range lies between them.
   [[nodiscard]] BandMix mix_of(float ground_range_m) const noexcept {
     return mixes_[step_of(ground_range_m)];
   }
@@ -79,21 +79,21 @@ class RingGrid {
   [[nodiscard]] int sector_of(int column) const noexcept {
     return sector_of_column_[static_cast<std::size_t>(column)];
   }
-  /// Returns cell(sector, 0) of the sector of each image column.
+  /// Returns, for each image column, the index of the first cell of the column's sector.
   [[nodiscard]] std::span<const std::int32_t> first_cell_of_column() const noexcept {
     return first_cell_of_column_;
   }
   /// Returns where the middle of each image column lies between the edges of its sector, (0, 1).
   [[nodiscard]] std::span<const float> share_across() const noexcept { return share_across_; }
-  /// Adjacent sectors, [begin, end), not across the seam.
+  /// Adjacent sectors [begin, end), which do not cross the seam of the circle.
   struct Sectors {
     int begin, end;
   };
-  /// Wraps a sector number that is less than one revolution beyond either end.
+  /// Maps a sector number up to one revolution below 0 or above the last to a valid number.
   [[nodiscard]] int wrapped(int sector) const noexcept {
     return sector < 0 ? sector + sectors_ : sector >= sectors_ ? sector - sectors_ : sector;
   }
-  /// Returns the image columns of sectors.
+  /// Returns the image columns that `sectors` cover.
   [[nodiscard]] frame::ColumnRange columns_of(Sectors sectors) const noexcept {
     return {first_column_[static_cast<std::size_t>(sectors.begin)],
             first_column_[static_cast<std::size_t>(sectors.end)]};
@@ -114,7 +114,7 @@ class RingGrid {
   std::span<std::uint16_t> sector_of_column_;
   std::span<std::int32_t> first_cell_of_column_;
   std::span<float> share_across_;          // by column
-  std::span<std::uint16_t> first_column_;  // by sector, and the end of the last
+  std::span<std::uint16_t> first_column_;  // first column by sector, and the end of the last sector
 };
 
 }  // namespace terracut::elevation

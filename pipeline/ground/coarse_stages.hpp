@@ -20,8 +20,8 @@
 
 namespace terracut::ground {
 
-/// The coarse stages of the method, elevation map and adjacent points. Most of the work can be done
-/// while the frame is arriving, on columns just written, which are in the caches next to the core:
+/// The coarse stages of the method: elevation map and adjacent points. Most of the work can be done
+/// while the frame is arriving, on columns just written and still in the core's caches:
 ///
 ///   columns   0 ......................................................... all
 ///             |  labelled  | traced: their lowest returns known |  to come  |
@@ -29,28 +29,28 @@ namespace terracut::ground {
 ///
 /// Later columns can change the ground of sectors already labelled: at the seam, where the circle
 /// closes, and sometimes beside a strip too narrow to be ground. finish() labels those sectors
-/// again. So the labels are bit for bit those of a frame that came at once, whatever was done ahead
-/// and in whatever order packets came.
+/// again. So the labels are bit for bit the same as if the whole frame had come at once, in
+/// whatever order packets came and whatever was labelled ahead.
 ///
-/// Memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
+/// All memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
 class CoarseStages {
  public:
-  /// `profile` must have shape.rows rings; suited_to_rows() adapts `config` to it first. `made` is
-  /// for images that keep their returns as measured, else null: it is filled ahead as columns are
-  /// needed, and with all points by finish().
+  /// `profile` must have shape.rows rings; suited_to_rows() adapts `config` to the rings first.
+  /// `made` is for images that keep their returns as measured, else null: advance() fills it as
+  /// columns are needed, and finish() with all points.
   CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
                frame::ImageShape shape, memory::FixedMemory& memory,
                frame::FramePoints* made = nullptr);
 
-  /// Does work ahead for a frame that is still arriving: labels columns in blocks, at most
-  /// `most_blocks` in this call. Columns [0, complete_columns) of `image` are complete and must not
-  /// be moved any more. The labels go to `planes`, which belong to this frame until finish().
-  /// Another image, or the same image cleared, begins another frame and drops the work for the last
-  /// one.
+  /// Does part of the work on a frame that is still arriving: labels columns in blocks, at most
+  /// `most_blocks` per call. Columns [0, complete_columns) of `image` must be complete and stay
+  /// unchanged. The labels go to `planes`, which belong to this frame until finish(). Another
+  /// image, or the same image cleared, begins another frame and drops the work done for the
+  /// previous frame.
   void advance(const frame::RangeImage& image, int complete_columns, stage::CellPlanes& planes,
                stage::StageObserver* observer = nullptr,
                int most_blocks = kAnyNumber) noexcept TERRACUT_NONBLOCKING;
-  /// Returns the share of a frame's sectors, [0, 1], that finish() would find labelled.
+  /// Returns the share of a frame's sectors, [0, 1], that are already labelled before finish().
   [[nodiscard]] float share_ahead(const frame::RangeImage& image) const noexcept
       TERRACUT_NONBLOCKING {
     if (!has_begun(image)) return 0;
@@ -63,7 +63,7 @@ class CoarseStages {
               stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
 
  private:
-  /// A configuration already adapted to the rows.
+  /// A configuration that has been adapted to the sensor's rows.
   struct Suited {
     SegmenterConfig config;
   };
@@ -80,14 +80,14 @@ class CoarseStages {
   [[nodiscard]] bool has_begun(const frame::RangeImage& image) const noexcept {
     return image_ == &image && generation_ == image.generation();
   }
-  /// Labels sectors for the first time. Those to their left are labelled already, or will be by
-  /// label_again(), which compares them with their neighbours once more.
+  /// Labels sectors for the first time. The sectors to the left have been labelled, or
+  /// label_again() will label them and compare them with these.
   void label(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
              stage::CellPlanes& planes, stage::StageObserver* observer) noexcept;
-  /// Labels sectors again in a labelled frame.
+  /// Labels sectors of a labelled frame again.
   void label_again(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
                    stage::CellPlanes& planes) noexcept;
-  /// Labels the changed ones of the sectors [0, end) again.
+  /// Labels again the sectors in [0, end) whose ground surface has changed.
   void label_changed(int end, const frame::RangeImage& image, stage::CellPlanes& planes) noexcept;
   [[nodiscard]] bool uses_adjacent_points() const noexcept {
     return last_stage_ >= stage::Stage::kAdjacentPoints;
@@ -100,8 +100,8 @@ class CoarseStages {
   frame::FramePoints* made_;
   const frame::RangeImage* image_ = nullptr;  // the frame in work
   std::uint32_t generation_ = 0;
-  int labelled_ = 0;                    // sectors
-  std::span<std::uint8_t> is_current_;  // by sector: labelled by the present surface
+  int labelled_ = 0;                    // number of sectors labelled
+  std::span<std::uint8_t> is_current_;  // by sector: 1 if labelled with the present surface
 };
 
 }  // namespace terracut::ground

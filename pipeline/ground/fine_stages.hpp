@@ -21,43 +21,43 @@
 
 namespace terracut::ground {
 
-/// The fine stage of the method: the random field, its cut, and the labels of returns that follow.
-/// Continues after CoarseStages, on the same thread or another one.
+/// The fine stages of the method: the random field, its cut, and the final labels of the returns.
+/// They continue after CoarseStages, on the same thread or another one.
 ///
-/// Memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
+/// All memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
 class FineStages {
  public:
-  /// `profile` must have shape.rows rings. `return_capacity` is that of the images to come. `made`
-  /// is like that of CoarseStages, on this thread; it is filled where needed, unless it has all
-  /// points.
+  /// `profile` must have shape.rows rings. `return_capacity` is the most returns of an image.
+  /// `made` is as in CoarseStages, but for this thread; points are filled in where needed, unless
+  /// all are there.
   FineStages(const SegmenterConfig& config, const mount::RingProfile& profile,
              frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
              frame::FramePoints* made = nullptr);
 
-  /// Sets the sensor's place in the frame that refine() is called for next, whose image must have
-  /// all its points: that frame is then labelled with memory of earlier frames. Without a place it
-  /// is labelled by itself, and earlier frames are forgotten.
+  /// Sets the sensor's place for the next frame given to refine(), whose image must have all its
+  /// points. The frame is then labelled with memory of earlier frames; without a place it is
+  /// labelled by itself, and earlier frames are forgotten.
   void set_place(const frame::Place& place) noexcept TERRACUT_NONBLOCKING { place_ = place; }
 
-  /// Labels the returns of a frame. CoarseStages::finish() must have filled `planes`; their labels
-  /// become final. If `budget` expires before the random field, or too soon in its cut, labels stay
-  /// as they were.
+  /// Labels the returns of a frame. CoarseStages::finish() must have filled `planes`; refine()
+  /// makes the labels in `planes` final. If `budget` expires before the random field, or too early
+  /// in the cut, the labels stay unchanged.
   [[nodiscard]] stage::SegmentationReport refine(
       const frame::RangeImage& image, stage::CellPlanes& planes,
       const min_cut::CutBudget& budget = {},
       stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
 
-  /// Takes near ground from a frame that was labelled into `planes`.
+  /// Fills `ground` with near ground from a frame that was labelled into `planes`.
   void take_near_ground(const frame::RangeImage& image, const stage::CellPlanes& planes,
                         NearGround& ground) noexcept TERRACUT_NONBLOCKING;
 
-  /// See Segmenter::labels().
+  /// Returns one label per return; see Segmenter::labels().
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
     return return_labels_.labels();
   }
 
  private:
-  /// Returns what was remembered of the cells to be cut; null without motion.
+  /// Returns what earlier frames tell about the cells to be cut; null if the motion is unknown.
   [[nodiscard]] const remembered::StreetMemory* look_back(const frame::RangeImage& image,
                                                           const stage::CellPlanes& planes) noexcept;
   [[nodiscard]] min_cut::CutReport cut(const frame::PointPlanes& points, stage::CellPlanes& planes,
@@ -76,7 +76,7 @@ class FineStages {
   min_cut::GridCut min_cut_;
   stage::ReturnLabels return_labels_;
   std::optional<remembered::StreetMemory> memory_;  // empty unless enabled
-  frame::Place place_;                              // of the next frame
+  frame::Place place_;                              // place of the sensor in the next frame
   std::optional<road::RoadSurface> road_surface_;   // empty unless enabled
 };
 

@@ -21,14 +21,14 @@
 
 namespace terracut::ground {
 
-/// A method that labels range images: Segmenter, or one that it is compared with. Takes all memory
-/// in its constructor; real-time safe if the observer is. One thread.
+/// A method that labels range images: Segmenter, or a method that Segmenter is compared with. Takes
+/// all memory in its constructor; real-time safe if the observer is. For one thread.
 class FrameMethod {
  public:
   virtual ~FrameMethod() = default;
 
-  /// Does part of the work ahead, on a frame that is still arriving; nothing by default. Never
-  /// necessary; labels are the same without it. Overwrites planes(), not labels().
+  /// May do part of the work on a frame that is still arriving; does nothing by default. Labels are
+  /// the same without it. Overwrites planes(), not labels().
   virtual void advance(const frame::RangeImage& /*image*/, int /*complete_columns*/,
                        stage::StageObserver* /*observer*/ = nullptr) noexcept {}
 
@@ -38,18 +38,18 @@ class FrameMethod {
       const frame::RangeImage& image, const min_cut::CutBudget& budget = {},
       stage::StageObserver* observer = nullptr) noexcept = 0;
 
-  /// Sets the sensor's place in the next frame. No effect on a method that labels each frame by
+  /// Sets the sensor's place in the next frame. Does nothing in a method that labels each frame by
   /// itself.
   virtual void set_place(const frame::Place& /*place*/) noexcept {}
 
-  /// Fills `ground` from the frame labelled last. By default `image` must have points.
+  /// Fills `ground` from the frame labelled last. In this default version `image` must have points.
   virtual void take_near_ground(const frame::RangeImage& image, NearGround& ground) noexcept {
     ground::take_near_ground(image, ground);
   }
 
   /// Returns one label per return, in order of arrival (RangeImage::return_index()).
   [[nodiscard]] virtual std::span<const frame::Label> labels() const noexcept = 0;
-  /// Returns the labels by cell, with the heights they were judged by; for pictures.
+  /// Returns the label of each cell and the height from which it was judged; for pictures.
   [[nodiscard]] virtual const stage::CellPlanes& planes() const noexcept = 0;
 };
 
@@ -59,7 +59,7 @@ struct FramesToCome {
   frame::ImageShape shape;
   std::size_t return_capacity = 0;
   bool motion_is_known = false;  ///< True if places will be set.
-  /// The sensor's, if images keep their returns as measured; else null.
+  /// The sensor's tile reader if images keep their returns as measured; else null.
   std::unique_ptr<frame::TileReader> reader = nullptr;
 };
 

@@ -11,11 +11,11 @@
 
 namespace terracut::ground {
 
-/// Finds the mount from the near ground of the first frames of a run: that of an upright sensor or,
-/// if the frames do not show one for certain, of one upside down or tilted. Start-up: allocates.
+/// Finds the mount from the near ground in a run's first frames: that of an upright sensor or, if
+/// the frames are not certain of one, of a tilted or inverted one. Start-up only: allocates.
 class MountSearch {
  public:
-  /// Adds a frame decoded with the mount mount::kAtTheSensor.
+  /// Adds a frame that was decoded with the mount mount::kAtTheSensor.
   void add_frame(const frame::RangeImage& image) {
     take_near_ground(image, *ground_);
     Expected<mount::MountEstimate> standing = mount::estimate_mount(ground_->in_use());
@@ -27,7 +27,7 @@ class MountSearch {
   [[nodiscard]] bool has_enough_frames() const noexcept {
     return standing_.frames_looked_at() >= mount::kFramesToFind;
   }
-  /// Calls MountFinder::certain().
+  /// Returns the mount found, or the errors of MountFinder::certain().
   [[nodiscard]] Expected<mount::FoundMount> found() const { return finder().certain(); }
   [[nodiscard]] const mount::MountFinder& finder() const {
     return standing_.certain() || !any_way_up_.certain() ? standing_ : any_way_up_;

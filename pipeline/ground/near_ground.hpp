@@ -13,10 +13,10 @@
 
 namespace terracut::ground {
 
-/// The returns from which the mount is found: of the strip before and behind the vehicle, the
-/// surface it stands on. Beside it a crowned road falls away. Farther ground is not one plane where
-/// a slope begins: on the simulated hill, ground to 25 m makes a sensor 3 m up seem 0.7 m higher,
-/// ground to 15 m 0.1 m lower.
+/// The returns from which the mount is found: those of the strip before and behind the vehicle, on
+/// the surface it stands on. Beside the strip a crowned road falls away. Farther ground is not one
+/// plane where a slope begins: on the simulated hill, a sensor 3 m up seems 0.7 m higher from
+/// ground up to 25 m away, and 0.1 m lower from ground up to 15 m away.
 struct NearGround {
   static constexpr float kHalfWidth_m = 1.5F;
   static constexpr float kNearest_m = 3.0F;  ///< Nearer returns may be the vehicle itself.
@@ -32,7 +32,7 @@ struct NearGround {
   }
 };
 
-/// True if a return, in the vehicle frame, lies in that strip.
+/// True if a position (metres, vehicle frame) lies in the strip of near ground.
 [[nodiscard]] constexpr bool is_near_ground_place(float x_m, float y_m) noexcept {
   const float range2_m2 = x_m * x_m + y_m * y_m;
   return y_m <= NearGround::kHalfWidth_m && y_m >= -NearGround::kHalfWidth_m &&
@@ -46,12 +46,12 @@ struct NearGround {
     frame::ColumnRange columns, const frame::ImageShape& shape) noexcept TERRACUT_NONBLOCKING;
 
 /// Fills `ground` with returns of the strip, evenly thinned. Examines at most kMostCellsLookedAt
-/// cells of those columns. `points` must be valid there; `height_m` is any height that is NaN in
-/// cells without a return. Real-time safe.
+/// cells of the columns that may have near ground. `points` must be valid in these columns;
+/// `height_m` is any height that is NaN in cells without a return. Real-time safe.
 void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,
                       const frame::ImageShape& shape,
                       NearGround& ground) noexcept TERRACUT_NONBLOCKING;
-/// Fills `ground` from an image that has points.
+/// Fills `ground` with near ground from an image that has points.
 inline void take_near_ground(const frame::RangeImage& image,
                              NearGround& ground) noexcept TERRACUT_NONBLOCKING {
   take_near_ground(image.points(), image.z_m(), image.shape(), ground);

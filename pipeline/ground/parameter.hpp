@@ -12,24 +12,24 @@
 
 namespace terracut::ground {
 
-/// A limit of a parameter from this value on means no limit.
+/// A limit of this value or more means no limit.
 inline constexpr double kNoLimit = 1e9;
 
-/// The parts of a parameter that users see.
+/// The description of a parameter that users see.
 struct ParameterText {
   std::string_view key;   ///< "stage.name_unit"
-  std::string_view unit;  ///< "m", "rad", "1/m", ... or empty
+  std::string_view unit;  ///< Unit, such as "m", "rad" or "1/m"; empty if there is none
   std::string_view help;
-  double least = 0, most = 0;                 ///< Valid range, ends included.
+  double least = 0, most = 0;                 ///< Least and greatest valid value.
   std::span<const std::string_view> choices;  ///< Names of the values 0, 1, ..; empty for a number.
 
-  /// Reads a value. kInvalidArgument, naming the key and the valid values.
+  /// Reads a value. Fails with kInvalidArgument, naming the key and the valid values.
   [[nodiscard]] Expected<double> value_of(std::string_view text) const;
-  /// Returns the text of a value for value_of().
+  /// Returns `value` as text that value_of() can read.
   [[nodiscard]] std::string text_of(double value) const;
 };
 
-/// A parameter with its field of a configuration: a row of a table.
+/// A row of the parameter table: a parameter and its field in a configuration.
 template <class Config>
 struct ParameterOf : ParameterText {
   using Get = double (*)(const Config&) noexcept;
@@ -42,18 +42,18 @@ struct ParameterOf : ParameterText {
         get(its_get),
         set(its_set) {}
 
-  /// Sets the field from text. Errors of value_of().
+  /// Sets the field from text. Returns the errors of value_of().
   [[nodiscard]] Status read(Config& config, std::string_view text) const {
     return value_of(text).map([&](double value) { set(config, value); });
   }
-  /// Returns the text of the field's value for read().
+  /// Returns the field's value as text that read() can read.
   [[nodiscard]] std::string text(const Config& config) const { return text_of(get(config)); }
 
   Get get;
   Set set;
 };
 
-/// Returns the row of that key; null if there is none.
+/// Returns the row with this key; null if there is none.
 template <class Config>
 [[nodiscard]] const ParameterOf<Config>* find_parameter(std::span<const ParameterOf<Config>> table,
                                                         std::string_view key) noexcept {
@@ -68,15 +68,15 @@ template <class Config>
   return keys;
 }
 
-/// The parts of "KEY=VALUE".
+/// The key and the value of a setting "KEY=VALUE".
 struct SettingParts {
   std::string_view key, value;
 };
-/// Splits a setting. kInvalidArgument for anything else.
+/// Splits a setting "KEY=VALUE". Fails with kInvalidArgument for any other form.
 [[nodiscard]] Expected<SettingParts> parts_of_setting(std::string_view setting);
 
-/// Returns kInvalidArgument for a key not among `known`, suggesting the nearest and those of the
-/// same stage.
+/// Returns kInvalidArgument for a key that is not in `known`; the message suggests the nearest key
+/// and the keys of the same stage.
 [[nodiscard]] tl::unexpected<Error> unknown_parameter(std::string_view key,
                                                       std::span<const std::string_view> known);
 

@@ -17,12 +17,12 @@ using Parameter = ParameterOf<SegmenterConfig>;
 /// (docs/reference/parameters.md is printed from this table).
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
 
-/// Sets one parameter from text ("0.2", "local_surface"). The error names the key, the value and
-/// the valid values; for an unknown key, the keys of the same stage.
+/// Sets one parameter from text ("0.2", "local_surface"). The error's message names the key, the
+/// value and the valid values, or, for an unknown key, the keys of the same stage.
 [[nodiscard]] Status set_parameter(SegmenterConfig& config, std::string_view key,
                                    std::string_view value);
 
-/// Sets a parameter from "KEY=VALUE".
+/// Sets a parameter from the text "KEY=VALUE".
 [[nodiscard]] Status apply_setting(SegmenterConfig& config, std::string_view setting);
 
 }  // namespace terracut::ground

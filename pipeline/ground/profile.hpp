@@ -19,9 +19,9 @@
 
 namespace terracut::ground {
 
-/// Every parameter of the method, by stage. The defaults are the `terracut` profile.
+/// Every parameter of the method, by stage. The defaults are those of the profile `terracut`.
 struct SegmenterConfig {
-  /// kElevationMap, kAdjacentPoints or kMinCut: the rows of the paper's Table III.
+  /// The last stage to run: kElevationMap, kAdjacentPoints or kMinCut (paper, Table III).
   stage::Stage last_stage = stage::Stage::kMinCut;
   elevation::RingElevationMap::Config elevation_map;
   elevation::AdjacentPoints::Config adjacent_points;
@@ -32,22 +32,22 @@ struct SegmenterConfig {
   stage::ReturnLabels::Config returns;
   road::RoadSurface::Config road;
   remembered::StreetMemory::Config memory;
-  SparseRows sparse;  ///< Replace others if rows are sparse, see suited_to_rows().
+  SparseRows sparse;  ///< Replaces other parameters if rows are sparse; see suited_to_rows().
 };
 
-/// Returns the configuration; without known motion of the vehicle nothing is remembered and no
-/// memory taken for it.
+/// Returns `config`, with the memory of earlier frames switched off (and no memory taken) if the
+/// motion of the vehicle is unknown.
 [[nodiscard]] inline SegmenterConfig remembering(SegmenterConfig config,
                                                  bool motion_is_known) noexcept {
   config.memory.enabled = config.memory.enabled && motion_is_known;
   return config;
 }
 
-/// Returns the default: the paper's structure with measured improvements
+/// Returns the default profile: the paper's structure with measured improvements
 /// (docs/reference/method.md).
 [[nodiscard]] SegmenterConfig terracut_profile() noexcept;
 
-/// Returns the method as printed; docs/reference/method.md says how its open points are set.
+/// Returns the method as published; docs/reference/method.md lists what the paper leaves open.
 [[nodiscard]] SegmenterConfig paper_profile() noexcept;
 
 }  // namespace terracut::ground

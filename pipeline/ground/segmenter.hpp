@@ -14,13 +14,13 @@ namespace terracut::ground {
 
 /// The coarse-to-fine method: labels every return of a range image.
 ///
-/// Memory is taken once, in the constructor; nothing else allocates, locks, throws or looks at a
+/// All memory is taken in the constructor; no other function allocates, locks, throws or looks at a
 /// clock. The same image gives the same labels on every machine (unless a budget with a clock cuts
-/// the min-cut short). One thread at a time; for two threads use CoarseStages and FineStages.
+/// the min-cut short). One thread at a time; two threads use CoarseStages and FineStages instead.
 class Segmenter final : public FrameMethod {
  public:
-  /// `profile` must have shape.rows rings. `return_capacity` is that of the images to come.
-  /// `reader` is their sensor's if they keep their returns as measured, else null.
+  /// `profile` must have shape.rows rings. `return_capacity` is the most returns of an image.
+  /// `reader` is the sensor's tile reader if images keep their returns as measured, else null.
   Segmenter(const SegmenterConfig& config, const mount::RingProfile& profile,
             frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
             std::unique_ptr<frame::TileReader> reader = nullptr)
@@ -31,8 +31,8 @@ class Segmenter final : public FrameMethod {
         coarse_(config, profile, shape, memory, made_.get()),
         fine_(config, profile, shape, return_capacity, memory, made_.get()) {}
 
-  /// Works ahead on a frame that is still arriving: CoarseStages::advance(). Never necessary:
-  /// labels are the same without it. Overwrites planes(), not labels().
+  /// Does part of the work on a frame that is still arriving, by CoarseStages::advance(). Labels
+  /// are the same without it. Overwrites planes(), not labels().
   void advance(const frame::RangeImage& image, int complete_columns,
                stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING override {
     coarse_.advance(image, complete_columns, planes_, observer);
@@ -47,34 +47,34 @@ class Segmenter final : public FrameMethod {
     return fine_.refine(image, planes_, budget, observer);
   }
 
-  /// Sets the place of the frame to be labelled next: FineStages::set_place().
+  /// Sets the sensor's place in the next frame to be labelled; see FineStages::set_place().
   void set_place(const frame::Place& place) noexcept TERRACUT_NONBLOCKING override {
     fine_.set_place(place);
   }
 
-  /// Takes near ground from the frame labelled last.
+  /// Fills `ground` with near ground from the frame labelled last.
   void take_near_ground(const frame::RangeImage& image,
                         NearGround& ground) noexcept TERRACUT_NONBLOCKING override {
     fine_.take_near_ground(image, planes_, ground);
   }
 
-  /// Returns one label a return, in order of arrival (RangeImage::return_index()). kGround is all
-  /// ground; with road.enabled kGround is road and kOtherGround the rest.
+  /// Returns one label per return, in order of arrival (RangeImage::return_index()). kGround is all
+  /// ground; with road.enabled, kGround is road and kOtherGround is all other ground.
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept override {
     return fine_.labels();
   }
-  /// Returns the labels by cell with the heights they were judged by; for pictures and
+  /// Returns the label of each cell and the height from which it was judged; for pictures and
   /// measurements.
   [[nodiscard]] const stage::CellPlanes& planes() const noexcept override { return planes_; }
 
  private:
   stage::CellPlanes planes_;
-  std::unique_ptr<frame::FramePoints> made_;  // set if images have no points
+  std::unique_ptr<frame::FramePoints> made_;  // set if images keep their returns as measured
   CoarseStages coarse_;
   FineStages fine_;
 };
 
-/// Returns a maker of Segmenters, which remember nothing if motion is unknown.
+/// Returns a function that makes Segmenters. They remember earlier frames only if motion is known.
 [[nodiscard]] inline MethodMaker maker_of(const SegmenterConfig& config) {
   return [config](FramesToCome frames, memory::FixedMemory& memory) {
     return std::make_unique<Segmenter>(remembering(config, frames.motion_is_known), frames.profile,

@@ -11,32 +11,32 @@
 
 namespace terracut::health {
 
-/// The state of terracut, in two CAN frames. terracut_health.dbc describes them for readers.
+/// The state of terracut that two CAN frames report; terracut_health.dbc describes the frames.
 struct HealthReport {
   std::uint32_t frame_number = 0;
   std::uint32_t returns = 0;
   status::Level level = status::Level::kFull;
   bool missed = false;
   status::FrameMissCause cause = status::FrameMissCause::kOwnWork;  ///< Valid only if missed.
-  std::int64_t latency_ns = -1;  ///< From the last packet to the labels; negative: unknown.
+  std::int64_t latency_ns = -1;  ///< Time from the last packet to the labels; negative: unknown.
   bool ego_motion = false;       ///< True if the frame was deskewed.
   status::LinkState link = status::LinkState::kWaiting;
-  std::uint64_t misses = 0;  ///< Since the start, like the next two.
+  std::uint64_t misses = 0;  ///< Missed frames since the start; so are the next two.
   std::uint64_t skipped = 0;
   std::uint64_t losses = 0;
-  std::uint32_t alive = 0;  ///< To be incremented with every report.
+  std::uint32_t alive = 0;  ///< Counter that the caller increments with every report.
 };
 
-/// The ids in terracut_health.dbc; the second frame's follows the first's.
+/// The id of the first frame in terracut_health.dbc; the second frame's id is one higher.
 inline constexpr can::CanId kHealthId{1744, false};
 
-/// Makes a report of a live process's figures. It leaves `alive` unset.
+/// Makes a report from the figures of a running process. Leaves `alive` unset.
 [[nodiscard]] HealthReport health_report_of(const status::MonitorSnapshot& figures,
                                             const status::FrameRecord& newest) noexcept;
 
-/// Returns TERRACUT_FRAME and TERRACUT_TOTALS, to be sent in this order. Numbers that do not fit:
-/// latency and returns saturate, counters wrap to 0. `first` is the id of the first frame, the
-/// other has the next id; unless it is kHealthId, readers need a changed DBC.
+/// Returns TERRACUT_FRAME and TERRACUT_TOTALS, to be sent in this order. Values too large for their
+/// signal: latency and returns saturate, counters wrap to 0. `first` is the id of the first frame;
+/// the second frame has the next id. With an id other than kHealthId readers need a changed DBC.
 [[nodiscard]] std::array<can::CanFrame, 2> health_frames(const HealthReport& report,
                                                          can::CanId first = kHealthId) noexcept;
 

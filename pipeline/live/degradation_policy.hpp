@@ -32,7 +32,7 @@ namespace terracut::live {
 /// So labels return within three frames after a slow frame or an overload, and so does the whole
 /// method, unless trials of the cut made frames late before.
 ///
-/// Real-time safe; one thread. `Clock` as measure::SystemClock.
+/// Real-time safe; one thread. `Clock` is like measure::SystemClock.
 template <class Clock>
 class DegradationPolicyOf {
  public:
@@ -43,7 +43,7 @@ class DegradationPolicyOf {
         unseen_stop_ns_(kMargin_ns + std::min(deadline_ns / 8, kUnseenStop_ns)),
         stopping_(unseen_stop_ns_) {}
 
-  /// Begins a frame. False: skip it, because not even the coarse stages would be done in time.
+  /// Begins a frame. False: skip it, because not even its coarse stages would end in time.
   [[nodiscard]] bool begin(std::int64_t last_packet_ns) noexcept TERRACUT_NONBLOCKING {
     due_ns_ = last_packet_ns + deadline_ns_;
     before_cut_ = true;
@@ -59,9 +59,9 @@ class DegradationPolicyOf {
     skipped_ = 0;
     return true;
   }
-  /// Returns the cut's budget for this frame. It expires early enough for the stages after the cut;
-  /// if asked before the cut, it has expired unless a cut can be finished in time. Valid as long as
-  /// this object is.
+  /// Returns the cut's budget for this frame, valid as long as this object. It expires early enough
+  /// for the stages after the cut; before the cut has begun, it counts as expired unless the cut
+  /// can probably end in time.
   [[nodiscard]] min_cut::CutBudget budget() noexcept TERRACUT_NONBLOCKING {
     return {min_cut::CutBudget::kDefaultOps,
             [](void* degradation) noexcept TERRACUT_NONBLOCKING {
@@ -69,11 +69,11 @@ class DegradationPolicyOf {
             },
             this};
   }
-  /// True if the frame's labels may be handed on. False for a late trial: it counts as skipped.
+  /// True if the frame's labels may be handed on; false for a late trial, counted as skipped.
   [[nodiscard]] bool may_hand_on() const noexcept TERRACUT_NONBLOCKING {
     return !is_trial_ || clock_.realtime_ns() <= due_ns_;
   }
-  /// Ends the frame and learns from it. `handing_on_ns` is the processor time for its labels.
+  /// Ends the frame and learns its costs. `handing_on_ns` is the cost of handing on labels.
   void end(const stage::StageTimes& times, const stage::SegmentationReport& report,
            std::int64_t handing_on_ns) noexcept TERRACUT_NONBLOCKING {
     using stage::Stage;
@@ -107,7 +107,7 @@ class DegradationPolicyOf {
   }
 
  private:
-  /// The cost of something in the last three frames that had it; at first an estimate.
+  /// The costs of one kind of work in the last three frames that had it; at first an estimate.
   class LastThree {
    public:
     explicit LastThree(std::int64_t expected_ns) noexcept {
@@ -155,35 +155,35 @@ class DegradationPolicyOf {
     }
     cut_left_out_ = 0;
     tries_cut_ = true;
-    if (left_ns < after_cut_ns()) {  // else this alone would stop it at once
+    if (left_ns < after_cut_ns()) {  // else this would stop the cut at once
       stopping_ = LastThree(unseen_stop_ns_);
       labels_ = LastThree(labels_.least_ns());
     }
     return true;
   }
 
-  /// A stage left out of so many frames in a row is tried again.
+  /// A stage that was left out of this many frames in a row is tried again.
   static constexpr int kMostInARow = 2;
   static constexpr int kMostRest = 32;
-  /// Reserve for waking up late and for handing over.
+  /// Time reserved for waking up late and for handing labels on.
   static constexpr std::int64_t kMargin_ns = 500'000;
-  /// Time reserved for labels of a stopped cut before one was seen; at most an eighth of the
-  /// deadline.
+  /// Time reserved for the labels after a stopped cut until one has been measured; at most an
+  /// eighth of the deadline.
   static constexpr std::int64_t kUnseenStop_ns = 3'000'000;
 
   Clock clock_;
   std::int64_t deadline_ns_;
   std::int64_t unseen_stop_ns_;
 
-  LastThree coarse_{kMargin_ns};  ///< All stages but seeds and cut.
-  LastThree labels_{kMargin_ns};  ///< The stages after the cut.
-  LastThree stopping_;            ///< Time from the stop of a cut to the end.
-  LastThree cut_{0};  ///< Least cost of a useful cut: its seeds, and more than was spent in vain.
-  int skipped_ = 0;   ///< Frames skipped in a row.
-  int cut_left_out_ = 0;  ///< Cuts left out in a row.
+  LastThree coarse_{kMargin_ns};  ///< Cost of all stages except seeds and cut.
+  LastThree labels_{kMargin_ns};  ///< Cost of the stages after the cut.
+  LastThree stopping_;            ///< Time from stopping a cut to the end of the frame.
+  LastThree cut_{0};              ///< Least cost of a useful cut, seeds included.
+  int skipped_ = 0;               ///< Successive frames skipped.
+  int cut_left_out_ = 0;          ///< Successive cuts left out.
   int cut_rest_ = kMostInARow;
 
-  // The frame in work.
+  // State of the frame in work.
   std::int64_t due_ns_ = 0;
   bool is_trial_ = false, tries_cut_ = false;
   bool before_cut_ = true;

@@ -16,19 +16,19 @@ namespace terracut::live {
 /// Hands frames from the receiving thread to the segmenting one: always the newest, never a queue.
 /// A frame that was not taken before the next one came is skipped; the receiving thread counts it.
 ///
-/// Images are exchanged one for one. The decoder has two open; three more are here: one being read,
-/// the newest one, and one that the decoder gets back for its next frame.
+/// Images are exchanged one for one. The decoder has two open images; this object has three more:
+/// the image being read, the newest one, and one that the decoder gets back for its next frame.
 class FrameExchange {
  public:
   static constexpr std::size_t kImages = 2 + queues::LatestSlot::kSlots;
 
-  /// `images` are the decoder's, kImages of them; the first two are open.
+  /// `images` are the decoder's kImages images; the first two are open in the decoder.
   explicit FrameExchange(std::span<frame::RangeImage> images) noexcept {
     for (std::size_t i = 0; i < frames_.size(); ++i) frames_[i].image = &images[2 + i];
   }
 
-  /// Receiving thread: hands `frame` over and returns the next image to use. Calls
-  /// on_skipped(Frame&) if the previous frame was never taken.
+  /// To be called on the receiving thread: hands `frame` over and returns the next image to use.
+  /// Calls on_skipped(Frame&) if the previous frame was never taken.
   template <class OnSkipped>
   frame::RangeImage* hand_over(const run::Frame& frame, OnSkipped&& on_skipped) noexcept {
     run::Frame& slot = frames_[slots_.writer_slot()];
@@ -37,8 +37,8 @@ class FrameExchange {
     if (slots_.publish()) on_skipped(frames_[slots_.writer_slot()]);
     return next;
   }
-  /// Segmenting thread: returns the newest frame if it has not been taken yet. It may be used until
-  /// the next call that returns one.
+  /// To be called on the segmenting thread: returns the newest frame unless it was taken before.
+  /// The frame may be used until the next call that returns one.
   [[nodiscard]] run::Frame* take_if_new() noexcept TERRACUT_NONBLOCKING {
     return slots_.take_if_new() ? &frames_[slots_.reader_slot()] : nullptr;
   }

@@ -17,10 +17,10 @@
 
 namespace terracut::live {
 
-/// Takes labelled points from the segmenting thread and hands them out on a thread of its own: to
-/// the readers of the stream, and to the queue of every other output. The stream needs no queue:
-/// its server never waits, and a busy reader misses the frame, so it is served on this thread. If
-/// its address is taken, it is tried again.
+/// Takes labelled points from the segmenting thread and, on a thread of its own, hands them to the
+/// readers of the stream and to the queue of every other output. The stream needs no queue: its
+/// server never waits, and a busy reader misses the frame. If the stream's address is in use,
+/// opening it is tried again.
 class FrameOutlet {
  public:
   using Slots = FramePool<points::LabelledPoint>;
@@ -30,19 +30,19 @@ class FrameOutlet {
     std::int64_t deadline_ns;
   };
 
-  /// `ready` is woken when `slots` has a frame, and by finish(). All must outlive this.
+  /// `ready` is woken when `slots` has a frame, and by finish(). All must outlive this object.
   FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
               const threads::WakeEvent& ready);
   ~FrameOutlet() { begin_to_finish(); }
 
-  /// To be called after LiveThreads::stop(). False if it does not end in time, which no peer can
-  /// cause.
+  /// Ends the thread; call it after LiveThreads::stop(). Returns false if the thread does not end
+  /// in time, which no reader can cause.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
   [[nodiscard]] bool has_stream() const noexcept { return stream_.has_value(); }
-  /// Returns the frames that came while the stream's address was taken. From any thread.
+  /// Returns how many frames came while the stream's address was in use. For any thread.
   [[nodiscard]] std::uint64_t frames_while_closed() const noexcept { return while_closed_; }
-  /// Returns the stream's figures as of the last frame or second. From one other thread.
+  /// Returns the stream's figures as of the last frame or second. For one other thread.
   [[nodiscard]] const stream::FrameStreamFigures& figures() const noexcept {
     (void)figures_.take_if_new();
     return figures_.newest_taken();
@@ -51,10 +51,10 @@ class FrameOutlet {
  private:
   void begin_to_finish();
   void work();
-  /// True if the frame reached all outputs or they count it.
+  /// True if the frame reached all outputs, or every output that missed it has counted it.
   [[nodiscard]] bool hand_out(const Slots::Frame& frame);
   [[nodiscard]] bool stream(const Slots::Frame& frame);
-  /// Returns the stream's server; null if there is none or its address is taken.
+  /// Returns the stream's server; null if there is no stream or its address is in use.
   [[nodiscard]] stream::FrameStreamServer* server() {
     return stream_ ? stream_->server.get() : nullptr;
   }
@@ -66,7 +66,7 @@ class FrameOutlet {
   std::atomic<bool> finish_{false};
   std::atomic<std::uint64_t> while_closed_{0};
   mutable queues::LatestValue<stream::FrameStreamFigures> figures_;
-  threads::BackgroundThread thread_;  ///< Declared last, as it uses all of the above.
+  threads::BackgroundThread thread_;  ///< Declared last, because it uses the members above.
 };
 
 }  // namespace terracut::live

@@ -16,7 +16,7 @@
 
 namespace terracut::live {
 
-/// Carries the results of the segmenting thread, one T a return, to one thread without a deadline.
+/// Carries results, one T per return, from the segmenting thread to one thread without a deadline.
 /// If that thread is too slow, frames are left out and counted.
 ///
 ///   segmenting thread  pass_on() --full--> take()       the other thread
@@ -26,7 +26,7 @@ template <class T>
 class FramePool {
  public:
   struct Frame {
-    status::FrameRecord record;  ///< Complete up to the labels.
+    status::FrameRecord record;  ///< Filled in except for what follows the labels.
     std::span<const T> items;
   };
 
@@ -41,8 +41,8 @@ class FramePool {
     }
   }
 
-  /// Segmenting thread: passes a frame on. `fill(std::span<T>)` writes the frame's items,
-  /// record.info.returns of them, to the beginning of its argument. Real-time safe if `fill` is.
+  /// To be called on the segmenting thread: passes a frame on. `fill(std::span<T>)` writes the
+  /// record.info.returns items of the frame to the span's start. Real-time safe if `fill` is.
   template <class Fill>
   void pass_on(const status::FrameRecord& record, Fill&& fill) noexcept {
     std::uint32_t i = 0;
@@ -54,27 +54,27 @@ class FramePool {
     Slot& slot = slots_[i];
     slot.record = record;
     fill(slot.room);
-    (void)full_.try_push(i);  // never fails: as many places as slots
+    (void)full_.try_push(i);  // never fails: the queue has room for all slots
   }
 
-  /// Other thread: takes the next frame, valid until give_back(). False if there is none.
+  /// To be called on the other thread: takes the next frame, if any, valid until give_back().
   [[nodiscard]] bool take(Frame& frame) noexcept {
     if (!full_.try_pop(taken_)) return false;
     const Slot& slot = slots_[taken_];
     frame = {slot.record, slot.room.first(slot.record.info.returns)};
     return true;
   }
-  /// `used` is true if the frame reached its destination.
+  /// Gives the taken frame's slot back. `used` is true if the frame reached its destination.
   void give_back(bool used) noexcept {
     waiting_.fetch_sub(1, std::memory_order_relaxed);
     if (!used) unused_.fetch_add(1, std::memory_order_relaxed);
     (void)free_.try_push(taken_);
   }
 
-  /// Returns the frames that found no room or were given back unused. From any thread, like the
-  /// next.
+  /// Returns how many frames found no room or were given back unused. This and the next function
+  /// may be called on any thread.
   [[nodiscard]] std::uint64_t unused() const noexcept { return unused_.load(); }
-  /// Returns the frames not given back yet; they are lost if the other thread hangs for good.
+  /// Returns how many frames are not given back yet; lost if the other thread hangs for good.
   [[nodiscard]] std::uint64_t waiting() const noexcept { return waiting_.load(); }
 
  private:

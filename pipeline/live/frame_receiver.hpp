@@ -27,22 +27,22 @@ namespace terracut::live {
 
 /// The receiving half of a live run: takes datagrams and hands over frames with most of their
 /// coarse stages done. One thread with a deadline, which calls work_round() repeatedly.
-///
-/// The cost of one packet does not depend on its content (docs/design.md, "Work per packet"): its
-/// decoding; one block of the coarse stages; and the hand-over of frames that it ends, of which at
-/// most one needs its last sectors labelled. A frame of which less than three quarters were
+/// The cost of one packet does not depend on its content (docs/design.md, "Work per packet"):
+/// decoding, one block of the coarse stages, and the hand-over of frames that it ends, of which at
+/// most one still needs its last sectors labelled. A frame with less than three quarters labelled
+/// ahead (deskewed, packets lost, or stream broken off) is left to the segmenting thread.
 /// labelled ahead (deskewed, packets lost, or stream broken off) is left to the segmenting thread.
-///
-/// `Source`: a DatagramSource with refresh_drops(). `Clock`: like measure::SystemClock. `Wait`:
+/// `Source` is a DatagramSource with refresh_drops(), `Clock` is like measure::SystemClock, and
+/// `Wait` is like measure::RunQueueWait.
 /// like measure::RunQueueWait.
 template <class Source, class Clock, class Wait>
 class FrameReceiver {
  public:
   struct Config {
-    std::int64_t deadline_ns = 0;  ///< From a frame's last packet to its labels.
+    std::int64_t deadline_ns = 0;  ///< Time from a frame's last packet to its labels.
     GatheringPolicy::Config gathering;
   };
-  /// The receivers of results; all must outlive this. `recorder` and `told_table` may be null.
+  /// The receivers of results must outlive this object; `recorder`, `told_table` may be null.
   struct Outlets {
     FrameExchange* frames;
     const threads::WakeEvent* frame_ready;
@@ -52,8 +52,8 @@ class FrameReceiver {
     sensor::ToldTable* told_table = nullptr;
   };
 
-  /// Throws away what waits in `source`: it is too old for a label, and counted with what came
-  /// before labelling, not as a loss of the run.
+  /// Throws away the packets waiting in `source`: they are too old to be labelled, and are counted
+  /// as before labelling, not as a loss of the run.
   FrameReceiver(const Config& config, LivePipeline& pipeline, Source& source,
                 const Outlets& outlets, Clock clock, Wait wait) noexcept
       : pipeline_(pipeline),
@@ -77,16 +77,16 @@ class FrameReceiver {
   }
 
   struct Round {
-    int frames = 0;  ///< Frames handed over.
-    /// How long the next packets may gather: none that ends a frame is expected in that time.
+    int frames = 0;  ///< Number of frames handed over.
+    /// How long the next packets may gather: none that ends a frame is due in that time.
     std::int64_t gathering_ns = 0;
   };
-  /// Waits at most `timeout_ns` for datagrams and processes them.
+  /// Waits at most `timeout_ns` for datagrams and processes those that came.
   Round work_round(std::int64_t timeout_ns) noexcept TERRACUT_NONBLOCKING {
     waited_before_last_fetch_ns_ = waited_before_fetch_ns_;
     waited_before_fetch_ns_ = wait_.read_ns();
     const std::span<const packet::Datagram> datagrams = source_.receive(timeout_ns);
-    // Counts received datagrams, as those of other senders fill a batch as well but are not
+    // Counts all received datagrams: those of other senders fill a batch, too, but are not
     // returned.
     const std::uint64_t received = source_.counters().received;
     const bool more_may_wait =
@@ -98,16 +98,16 @@ class FrameReceiver {
     publish();
     return {frames_, more_may_wait ? 0 : gathering_.time_ns(share_to_come_)};
   }
-  /// Ends the run: counts the kernel's last drops.
+  /// Ends the run: counts the datagrams that the kernel dropped last.
   void finish() noexcept TERRACUT_NONBLOCKING {
     source_.refresh_drops();
     publish();
   }
 
  private:
-  /// More than any buffer holds: a sender without end cannot keep the loop.
+  /// Bounds the loop, even if a sender never stops. More batches than any buffer holds.
   static constexpr int kMostBatches = 10'000;
-  /// At least eight times the columns of a packet, so that the coarse stages catch up.
+  /// One block has at least eight times the columns of a packet, so the coarse stages catch up.
   static constexpr int kBlocksAPacket = 1;
   static constexpr float kEnoughAhead = 0.75F;
 
@@ -116,7 +116,7 @@ class FrameReceiver {
     if (to_.recorder != nullptr) to_.recorder->add(datagram);
     if (to_.told_table != nullptr) to_.told_table->add(datagram);
     if (!gate_.lets_in(datagram.stamp_ns, now_ns)) {
-      // Tells the decoder, which would otherwise count the packets left out as lost on the network.
+      // Otherwise the decoder would count packets left out here as lost on the network.
       if (!std::exchange(lets_go_, true)) {
         pipeline_.decoder.end_stream();
         hand_over_frames();
@@ -171,7 +171,7 @@ class FrameReceiver {
     record.segment_cpu_ns = record.ahead_cpu_ns = record.stages.sum_ns();
     const std::int64_t now_ns = clock_.thread_cpu_ns();
     record.decode_cpu_ns = now_ns - std::exchange(spent_ns_, now_ns) - record.segment_cpu_ns;
-    // The frame's last packet came with this fetch or the previous one.
+    // The last packet of the frame came with this fetch or the previous one.
     record.run_queue_wait_ns = wait_.read_ns() - waited_before_last_fetch_ns_;
     record.handed_over_ns = clock_.realtime_ns();
     return record;
@@ -206,14 +206,14 @@ class FrameReceiver {
   GatheringPolicy gathering_;
 
   net::ReceiveCounters before_;
-  std::uint64_t received_ = 0;  ///< Number up to the newest fetch, by the source.
+  std::uint64_t received_ = 0;  ///< Datagrams received up to the newest fetch.
   std::uint64_t let_go_ = 0, device_info_ = 0;
   std::int64_t newest_packet_ns_ = 0;
   bool lets_go_ = false;
-  int frames_ = 0;           ///< Handed over in this round.
-  float share_to_come_ = 1;  ///< Of the arriving frame; 1 if there is none.
+  int frames_ = 0;           ///< Frames handed over in this round.
+  float share_to_come_ = 1;  ///< Share of the arriving frame to come; 1 if there is none.
 
-  std::int64_t spent_ns_;  ///< Processor time up to the last hand-over.
+  std::int64_t spent_ns_;  ///< Processor time at the last hand-over.
   std::int64_t waited_before_fetch_ns_, waited_before_last_fetch_ns_;
 };
 

@@ -23,11 +23,11 @@ namespace terracut::live {
 /// The segmenting half of a live run: takes the newest frame and hands its labels on before the
 /// deadline. One thread with a deadline, which calls work_round() repeatedly.
 ///
-/// `Clock`: like measure::SystemClock. `Wait`: like measure::RunQueueWait.
+/// `Clock` is like measure::SystemClock, `Wait` like measure::RunQueueWait.
 template <class Clock, class Wait>
 class FrameSegmenter {
  public:
-  /// The receivers of results; all must outlive this. Slots and `near_ground` may be null.
+  /// The receivers of results must outlive this object; slots and `near_ground` may be null.
   struct Outlets {
     FrameRecords* records;
     FramePool<frame::Label>* labels;
@@ -48,7 +48,7 @@ class FrameSegmenter {
         degradation_(deadline_ns, clock),
         waited_before_ns_(wait_.read_ns()) {}
 
-  /// Segments the newest frame; false if there is none that it has not had.
+  /// Segments the newest frame. Returns false if there is no frame that it has not segmented yet.
   bool work_round() noexcept TERRACUT_NONBLOCKING {
     run::Frame* frame = frames_.take_if_new();
     if (frame == nullptr) return false;
@@ -79,7 +79,7 @@ class FrameSegmenter {
     record.labels_ns = clock_.realtime_ns();
     const std::int64_t labelled_cpu_ns = clock_.thread_cpu_ns();
     if (record.level != status::Level::kSkipped) hand_on(frame);
-    record.labels_ns = clock_.realtime_ns();  // the time of handing on decides
+    record.labels_ns = clock_.realtime_ns();  // a frame is in time if it is handed on in time
     const std::int64_t handed_on_cpu_ns = clock_.thread_cpu_ns();
     record.segment_cpu_ns += handed_on_cpu_ns - begun_cpu_ns;
     const stage::StageTimes times = stage_clock_.take();

@@ -11,15 +11,15 @@
 
 namespace terracut::live {
 
-/// Decides how long packets may gather in the kernel's buffer before they are fetched: waking up
-/// for every packet costs more than decoding it. The last packets of a frame are fetched as they
-/// come, and the buffer is half full at most. Real-time safe; one thread.
+/// Decides how long packets may gather in the kernel's buffer before they are fetched together:
+/// waking up for every packet costs more than decoding it. The last packets of a frame are fetched
+/// as they come, and the buffer never gets more than half full. Real-time safe; one thread.
 class GatheringPolicy {
  public:
   struct Config {
     std::int64_t frame_period_ns = 0;  ///< Duration of one revolution of the head.
-    std::int64_t longest_ns = 0;       ///< 0: each packet is fetched as it comes.
-    /// The number of packets that the kernel's buffer holds.
+    std::int64_t longest_ns = 0;  ///< Longest time packets may gather; 0: fetch each as it comes.
+    /// The number of packets for which the kernel's buffer has room.
     std::size_t room_packets = std::numeric_limits<std::uint32_t>::max();
   };
   explicit GatheringPolicy(const Config& config) noexcept
@@ -27,8 +27,8 @@ class GatheringPolicy {
         frame_period_ns_(config.frame_period_ns),
         longest_ns_(longest_ns(kMostPacketsAFrame)) {}
 
-  /// Returns how long the next packets may gather. `share_to_come` is that of the arriving frame,
-  /// [0, 1]. 0 if a packet that ends the frame may come so soon that gathering is not worthwhile.
+  /// Returns how long the next packets may gather; 0 if one that ends the frame may come too soon.
+  /// `share_to_come` is the share of the arriving frame that has not come yet, [0, 1].
   [[nodiscard]] std::int64_t time_ns(float share_to_come) const noexcept {
     const auto left_ns = static_cast<std::int64_t>((share_to_come - kFetchedAsTheyCome) *
                                                    static_cast<float>(frame_period_ns_));
@@ -36,15 +36,15 @@ class GatheringPolicy {
     return time_ns < kWorthwhile_ns ? 0 : time_ns;
   }
 
-  /// Learns from a frame. `last_packet_ns` is its last packet's stamp; `received` counts datagrams
-  /// up to now, also those of others, which fill the kernel's buffer as well. A head set to rotate
-  /// faster must not be waited for too long; a lost frame looks like a slower head.
+  /// Learns from a frame. `last_packet_ns` is the stamp of its last packet; `received` counts
+  /// datagrams up to now, also of other senders, which fill the buffer as well. A head set to
+  /// rotate faster must not be waited for too long; a lost frame looks like a slower head.
   void note_frame(std::int64_t last_packet_ns, std::uint64_t received) noexcept {
     const std::int64_t period_ns = last_packet_ns - std::exchange(last_packet_ns_, last_packet_ns);
     frame_period_ns_ = std::clamp<std::int64_t>(period_ns, 0, config_.frame_period_ns);
     const std::uint64_t packets = received - std::exchange(received_before_, received);
     if (period_ns == last_packet_ns) return;  // the first frame may have begun anywhere
-    // A flood shortens gathering at once, until some seconds after its end.
+    // A flood shortens gathering at once and keeps it short until some seconds after the flood.
     many_packets_ = std::max(many_packets_ - many_packets_ / 16, packets);
     longest_ns_ = longest_ns(many_packets_);
   }
@@ -52,14 +52,14 @@ class GatheringPolicy {
   void begin(std::uint64_t received) noexcept { received_before_ = received; }
 
  private:
-  /// Gathering ends this share of a frame before the frame's last packet is due, so that a thread
-  /// which wakes up late is still in time.
+  /// Gathering ends this share of a frame's period before the frame's last packet is due, so that a
+  /// thread that wakes up late is still in time.
   static constexpr float kFetchedAsTheyCome = 0.02F;
   static constexpr std::int64_t kWorthwhile_ns = 300'000;
-  /// A VLS-128's in dual return at 10 Hz.
+  /// Packets per frame of a VLS-128 in dual return at 10 Hz.
   static constexpr std::uint64_t kMostPacketsAFrame = 1875;
 
-  /// Returns the time at which so many packets a frame fill half the kernel's buffer.
+  /// Returns the time in which half the kernel's buffer fills at this number of packets per frame.
   [[nodiscard]] std::int64_t longest_ns(std::uint64_t packets_a_frame) const noexcept {
     const double share_of_frame = static_cast<double>(config_.room_packets / 2) /
                                   static_cast<double>(std::max<std::uint64_t>(packets_a_frame, 1));
@@ -69,11 +69,11 @@ class GatheringPolicy {
   }
 
   Config config_;
-  std::int64_t frame_period_ns_;       ///< The newest frame's, or less.
-  std::int64_t longest_ns_;            ///< Limited by the room for a frame's packets.
-  std::uint64_t many_packets_ = 0;     ///< The most packets of recent frames.
-  std::uint64_t received_before_ = 0;  ///< At the end of the last frame.
-  std::int64_t last_packet_ns_ = 0;    ///< The newest frame's.
+  std::int64_t frame_period_ns_;       ///< Period of the newest frame, or less.
+  std::int64_t longest_ns_;            ///< Longest gathering time that the kernel's buffer allows.
+  std::uint64_t many_packets_ = 0;     ///< The most packets in a recent frame.
+  std::uint64_t received_before_ = 0;  ///< Datagrams received up to the end of the last frame.
+  std::int64_t last_packet_ns_ = 0;    ///< Stamp of the newest frame's last packet.
 };
 
 }  // namespace terracut::live

@@ -12,24 +12,24 @@
 
 namespace terracut::live {
 
-/// Carries the near ground of some frames from the segmenting thread to the one that checks the
-/// mount. One thread on each side; neither waits for the other.
+/// Carries the near ground of some frames from the segmenting thread to the thread that checks the
+/// mount. One thread on each side; neither thread waits for the other.
 class LatestNearGround {
  public:
-  /// One frame in so many is looked at: twice a second at 10 Hz.
+  /// One frame in this many is examined: two per second at 10 Hz.
   static constexpr std::uint32_t kFramesApart = 5;
 
   explicit LatestNearGround(memory::FixedMemory& memory)
       : slots_(memory.take<ground::NearGround>("near ground", queues::LatestSlot::kSlots)) {}
 
-  /// Segmenting thread: `take(NearGround&)` fills in a frame's near ground.
+  /// To be called on the segmenting thread: `take(NearGround&)` fills in the frame's near ground.
   template <class Take>
   void publish(Take take) noexcept {
     take(slots_[slot_.writer_slot()]);
     (void)slot_.publish();
   }
-  /// Checking thread: returns the newest, or null if it was returned already. Valid until the next
-  /// call.
+  /// To be called on the checking thread: returns the newest near ground, or null if it was
+  /// returned before. Valid until the next call.
   [[nodiscard]] const ground::NearGround* newest() noexcept {
     return slot_.take_if_new() ? &slots_[slot_.reader_slot()] : nullptr;
   }

@@ -25,46 +25,46 @@
 
 namespace terracut::live {
 
-/// The vehicle's motion from its CAN bus. `source` was opened for `signals`.
+/// The settings for the vehicle's motion. `source`, a CAN bus, was opened for `signals`.
 struct VehicleConfig {
   const vehicle::MotionSignals* signals = nullptr;
   can::SocketCanSource* source = nullptr;
   vehicle::EgoMotion::Config motion;
-  int priority = 60;  ///< SCHED_FIFO; 0: shared scheduling.
+  int priority = 60;  ///< SCHED_FIFO priority of the thread; 0: shared scheduling.
 };
 
 /// The configuration of a live run; the defaults are those of `terracut live` and LiveRun.
 struct LiveConfig {
   decode::Decoder::Config decoder;  ///< LiveParts sets `reorder_packets`, `motion` and `images`.
-  int reorder_packets = 0;          ///< One cable keeps the order.
+  int reorder_packets = 0;          ///< 0, because one cable keeps packets in order.
   ground::SegmenterConfig method = ground::terracut_profile();
   LiveThreads::Config threads;  ///< LiveParts sets `frame_period_ns`.
-  double recorder_seconds = 0;  ///< Time for which packets are kept; 0: none.
+  double recorder_seconds = 0;  ///< How long packets are kept for dumps; 0: not kept.
   std::optional<VehicleConfig> vehicle;
 };
 
 /// The computing parts of a live run in fixed memory, composed alike for the program and the
-/// library. All arguments must outlive it.
+/// library. All arguments must outlive this object.
 struct LiveParts {
   static constexpr std::size_t kKeptFrames = 256;  ///< Kept by `monitor` for traces and dumps.
 
-  std::optional<VehicleMotion> motion;  ///< Set with LiveConfig::vehicle.
+  std::optional<VehicleMotion> motion;  ///< Exists if LiveConfig::vehicle is set.
   LivePipeline pipeline;
   std::optional<recorder::FlightRecorder> recorder;
   LiveThreads threads;
-  status::DeadlineMonitor monitor;  ///< Used by the thread that takes the records.
+  status::DeadlineMonitor monitor;  ///< Used by the thread that takes records.
 
   LiveParts(const LiveConfig& config, const streams::SensorOnAir& sensor,
             const mount::RingProfile& profile, net::LiveSource& source, LiveThreads::Events events,
             memory::FixedMemory& memory);
-  /// Builds the parts in one region of `memory`, which is locked on request. `grants` receives what
-  /// the system granted. kCapacityExceeded if no descriptor or memory is left.
+  /// Builds the parts in one region of `memory`, locked on request. `grants` receives what the
+  /// system granted. Fails with kCapacityExceeded if no descriptor or memory is left.
   [[nodiscard]] static Expected<std::unique_ptr<LiveParts>> build(
       const LiveConfig& config, const streams::SensorOnAir& sensor,
       const mount::RingProfile& profile, net::LiveSource& source, memory::FixedMemory& memory,
       bool locks_memory, std::vector<threads::Grant>& grants);
 
-  /// Starts all threads; returns what the system granted and refused them.
+  /// Starts all threads. Returns what the system granted to the threads and what it refused.
   [[nodiscard]] std::vector<threads::Grant> start();
   void stop();
 

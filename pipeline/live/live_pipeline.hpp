@@ -17,8 +17,8 @@
 
 namespace terracut::live {
 
-/// Makes points for one thread if frames keep their returns as measured, else returns null. Takes
-/// memory.
+/// Returns an object that computes points for one thread if frames keep their returns as measured,
+/// else null. Takes memory.
 [[nodiscard]] inline std::unique_ptr<frame::FramePoints> points_made_of(
     const decode::Decoder& decoder, memory::FixedMemory& memory) {
   auto reader = decoder.make_reader(memory);
@@ -27,14 +27,14 @@ namespace terracut::live {
 }
 
 /// The objects with which two threads turn packets into labels. The receiving thread decodes and
-/// does the coarse stages, mostly before the frame has ended; their result travels with the frame's
-/// image. If they were not far enough when a frame ended, the segmenting thread does them.
+/// does the coarse stages, mostly before the frame has ended; the result travels with the frame's
+/// image. If the coarse stages were behind when a frame ended, the segmenting thread does them.
 struct LivePipeline {
-  decode::Decoder decoder;  ///< Receiving thread, like `coarse`.
-  /// One for each thread, if frames are kept as measured; else null.
+  decode::Decoder decoder;  ///< Used by the receiving thread, as is `coarse`.
+  /// Points for each of the two threads if frames keep returns as measured; else null.
   std::unique_ptr<frame::FramePoints> receiving_points, segmenting_points;
   ground::CoarseStages coarse;
-  ground::CoarseStages late_coarse;  ///< Segmenting thread, like `fine`.
+  ground::CoarseStages late_coarse;  ///< Used by the segmenting thread, as is `fine`.
   ground::FineStages fine;
 
   LivePipeline(const calib::SensorCalibration& calibration, const mount::RingProfile& profile,
@@ -54,7 +54,7 @@ struct LivePipeline {
   }
 
   /// Returns the planes that belong to one of the decoder's images. The thread that holds the image
-  /// holds its planes, too.
+  /// also holds these planes.
   [[nodiscard]] stage::CellPlanes& planes_of(const frame::RangeImage& image) noexcept
       TERRACUT_NONBLOCKING {
     return planes_[static_cast<std::size_t>(&image - first_image_)];

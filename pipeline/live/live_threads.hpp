@@ -30,8 +30,8 @@
 
 namespace terracut::live {
 
-/// The two threads of a live run with a deadline, and the queues to a third thread. They allocate
-/// nothing, lock nothing and write nothing:
+/// The two threads of a live run with a deadline, and the queues to a third thread. The two threads
+/// allocate nothing, lock nothing and write nothing:
 ///
 ///   FrameReceiver     --FrameExchange-->     FrameSegmenter
 ///   datagrams -> recorder, decoder,          frames -> labels
@@ -45,32 +45,32 @@ class LiveThreads {
   struct Events {
     threads::WakeEvent frame_ready;   ///< Set when a frame was handed over.
     threads::WakeEvent points_ready;  ///< Set when a frame's labelled points were passed on.
-    /// Errors: kCapacityExceeded when the process has no descriptor left.
+    /// Makes both events. Fails with kCapacityExceeded when the process has no descriptor left.
     [[nodiscard]] static Expected<Events> make();
   };
 
   struct Config {
-    std::int64_t deadline_ns = 50'000'000;           ///< From a frame's last packet to its labels.
-    std::int64_t frame_period_ns = 100'000'000;      ///< Duration of one revolution of the head.
+    std::int64_t deadline_ns = 50'000'000;       ///< Time from a frame's last packet to its labels.
+    std::int64_t frame_period_ns = 100'000'000;  ///< Duration of one revolution of the head.
     std::int64_t longest_gathering_ns = 20'000'000;  ///< See GatheringPolicy::Config.
-    bool keeps_labels = false;                       ///< For labels().
-    bool keeps_points = false;                       ///< For points().
-    bool compares_tables = false;                    ///< For told_table().
+    bool keeps_labels = false;                       ///< Provides labels().
+    bool keeps_points = false;                       ///< Provides points().
+    bool compares_tables = false;                    ///< Provides told_table().
     threads::ThreadRequest receive, segment;
   };
 
-  /// Takes all its memory from `memory`. `recorder` may be null. All arguments must outlive this.
+  /// Takes all memory from `memory`. `recorder` may be null. All must outlive this object.
   LiveThreads(const Config& config, LivePipeline& pipeline, net::LiveSource& source, Events events,
               recorder::FlightRecorder* recorder, memory::FixedMemory& memory);
-  /// Calls stop().
+  /// Calls stop(), which ends both threads.
   ~LiveThreads() { stop(); }
   LiveThreads(const LiveThreads&) = delete;
   LiveThreads& operator=(const LiveThreads&) = delete;
 
   /// Starts both threads; returns what the system granted and refused. Throws std::system_error if
-  /// it refuses a thread.
+  /// the system refuses to start a thread.
   [[nodiscard]] std::vector<threads::Grant> start();
-  /// Ends both threads. May be called by anyone and repeatedly.
+  /// Ends both threads. May be called on any thread and repeatedly.
   void stop();
 
   /// Takes the record of the next frame to judge. Skipped frames may come out of order.
@@ -83,21 +83,21 @@ class LiveThreads {
   [[nodiscard]] FramePool<points::LabelledPoint>* points() noexcept {
     return points_ ? &*points_ : nullptr;
   }
-  /// Woken after every frame given to points().
+  /// Returns the event that is woken after every frame given to points().
   [[nodiscard]] const threads::WakeEvent& points_ready() const noexcept {
     return events_.points_ready;
   }
 
-  /// Returns the newest near ground (one frame in LatestNearGround::kFramesApart) if it was not
-  /// taken yet, else null. From one thread; valid until its next call.
+  /// Returns the newest near ground unless it was returned before, else null. Near ground comes
+  /// from one frame in LatestNearGround::kFramesApart. For one thread; valid until its next call.
   [[nodiscard]] const ground::NearGround* near_ground() noexcept { return near_ground_.newest(); }
 
-  /// Returns what the packets tell about the unit's table, with Config::compares_tables.
+  /// Returns what packets tell of the unit's calibration table (Config::compares_tables).
   [[nodiscard]] sensor::ToldTable& told_table() noexcept { return told_table_; }
 
-  /// To be called from one thread.
+  /// Returns the state of the input. To be called from one thread.
   [[nodiscard]] const status::InputState& intake() noexcept;
-  /// Returns the frames not judged because records were taken too slowly.
+  /// Returns how many frames were not judged because their records were taken too slowly.
   [[nodiscard]] std::uint64_t records_dropped() const noexcept {
     return segmented_.dropped() + skipped_.dropped();
   }
@@ -106,7 +106,7 @@ class LiveThreads {
 
  private:
   static constexpr std::size_t kLabelSlots = 8;
-  static constexpr std::size_t kPointSlots = 2;  // the stream wants only the newest
+  static constexpr std::size_t kPointSlots = 2;  // few, as the stream wants only the newest frame
 
   using Receiver = FrameReceiver<net::LiveSource, measure::SystemClock, measure::RunQueueWait>;
   using Segmenter = FrameSegmenter<measure::SystemClock, measure::RunQueueWait>;

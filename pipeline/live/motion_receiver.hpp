@@ -15,30 +15,30 @@
 
 namespace terracut::live {
 
-/// Facts from the vehicle's bus, as of the last look.
+/// What is known of the vehicle's bus and motion after the latest work_round().
 struct HeardMotion {
   can::CanReceiveCounters bus;
   vehicle::MotionCounters signals;
   status::MotionState state = status::MotionState::kWaiting;
   std::uint64_t spare_samples = 0;
-  std::int64_t last_sample_ns = 0;  ///< Of samples in use.
+  std::int64_t last_sample_ns = 0;  ///< Stamp of the newest sample in use.
 };
 
 /// Turns CAN frames into samples of the vehicle's motion. One thread, which calls work_round()
 /// repeatedly; allocates, locks and writes nothing. A flood of samples is thinned to one every two
 /// milliseconds, so that it does not push the motion at the frame's end out of the decoder's queue.
 ///
-/// `Source`: like can::SocketCanSource. `Clock`: like measure::SystemClock.
+/// `Source` is like can::SocketCanSource, `Clock` like measure::SystemClock.
 template <class Source, class Clock>
 class MotionReceiver {
  public:
-  /// All must outlive this.
+  /// All arguments must outlive this object.
   MotionReceiver(vehicle::MotionSignals& signals, vehicle::EgoMotion& motion, Source& source,
                  queues::LatestValue<HeardMotion>& heard, Clock clock) noexcept
       : signals_(signals), motion_(motion), source_(source), heard_(heard), clock_(clock) {}
 
-  /// Waits at most `timeout_ns` for frames, processes them, and updates what is known. False if
-  /// none came.
+  /// Waits at most `timeout_ns` for CAN frames, processes them, and updates what is known. Returns
+  /// false if no frame came.
   bool work_round(std::int64_t timeout_ns) noexcept TERRACUT_NONBLOCKING {
     const auto frames = source_.receive(timeout_ns);
     for (const can::CanFrame& frame : frames) take(frame);
@@ -47,7 +47,7 @@ class MotionReceiver {
   }
 
  private:
-  /// Closest samples: no car's speed or yaw rate changes faster than they show.
+  /// Least time between samples: no car's speed or yaw rate changes faster than this shows.
   static constexpr std::int64_t kClosest_ns = 2'000'000;
 
   void take(const can::CanFrame& frame) noexcept {

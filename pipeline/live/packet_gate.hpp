@@ -10,8 +10,8 @@
 namespace terracut::live {
 
 /// Decides which packets to decode when more come than this machine can handle. The kernel's buffer
-/// is a queue of more than a second; without this every label would be that late as long as the
-/// overload lasts. Two rules:
+/// is a queue of more than a second; without the gate every label would be that late throughout an
+/// overload. Two rules:
 ///
 ///   a packet is dropped   when it is older than a frame and the deadline together: its frame is
 ///                         late, whatever is done now. After a standstill this drops useless
@@ -21,15 +21,15 @@ namespace terracut::live {
 ///                         too slow for the load. It goes on with the newest packets; frames after
 ///                         that are in time until the lag has grown again.
 ///
-/// Ages are by CLOCK_REALTIME, like the kernel's stamps: a step of the clock costs at most what
-/// waits in the buffer then. One thread; looks at no clock.
+/// Ages are measured by CLOCK_REALTIME, like the kernel's stamps: a step of the clock costs at most
+/// the packets then waiting in the buffer. One thread; reads no clock.
 class PacketGate {
  public:
   /// `frame_period_ns` is the duration of one revolution.
   PacketGate(std::int64_t deadline_ns, std::int64_t frame_period_ns) noexcept
       : deadline_ns_(deadline_ns), oldest_useful_ns_(deadline_ns + frame_period_ns) {}
 
-  /// Notes that packets were fetched. `more_may_wait`: so many that more may be ready.
+  /// Notes that packets were fetched. `more_may_wait`: the batch was full, more may be ready.
   void begin_batch(bool more_may_wait) noexcept TERRACUT_NONBLOCKING {
     if (!more_may_wait) lets_backlog_go_ = false;
   }
@@ -50,7 +50,7 @@ class PacketGate {
   static constexpr int kCatchesUpWithin = 3;
 
   std::int64_t deadline_ns_, oldest_useful_ns_;
-  int late_frames_ = 0;  ///< Successive ones.
+  int late_frames_ = 0;  ///< Successive frames handed over too late.
   bool lets_backlog_go_ = false;
 };
 

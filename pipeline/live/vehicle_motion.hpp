@@ -27,31 +27,31 @@ namespace terracut::live {
 ///                                 |
 ///                                 '-- LatestValue --> whoever calls show()
 ///
-/// The bus cannot delay a frame: the decoder uses the motion there is and never waits. After every
-/// batch (64 frames) the thread rests for a millisecond, so that a flood costs no more than three
-/// times the load of a 1 Mbit/s bus; the kernel drops and counts the rest. Frames have the kernel's
-/// stamps, so resting loses no precision.
+/// The bus cannot delay a frame: the decoder uses the motion known so far and never waits. After
+/// every batch (64 CAN frames) the thread rests for a millisecond, so that a flood costs at most
+/// three times the load of a 1 Mbit/s bus; the kernel drops and counts the rest. CAN frames carry
+/// the kernel's stamps, so resting loses no precision.
 ///
 /// The thread allocates, locks and writes nothing.
 class VehicleMotion {
  public:
-  /// `signals` are those that `source` was opened for. Takes the motion's memory from `memory`;
-  /// `source` and `memory` must outlive this. Errors of EgoMotion.
+  /// `signals` are those for which `source` was opened. Takes memory from `memory`; `source` and
+  /// `memory` must outlive this object. Throws the errors of EgoMotion's constructor.
   VehicleMotion(vehicle::MotionSignals signals, const vehicle::EgoMotion::Config& config,
                 can::SocketCanSource& source, memory::FixedMemory& memory);
   ~VehicleMotion();
   VehicleMotion(const VehicleMotion&) = delete;
   VehicleMotion& operator=(const VehicleMotion&) = delete;
 
-  /// Starts the thread. Returns what the system granted and refused. `priority`: SCHED_FIFO, 0:
-  /// shared.
+  /// Starts the thread. Returns what the system granted and refused. `priority` is for SCHED_FIFO;
+  /// 0 means shared scheduling.
   [[nodiscard]] std::vector<threads::Grant> start(int priority);
   void stop();
 
-  /// Returns the motion, to be read by one other thread.
+  /// Returns the vehicle's motion, to be read by one other thread.
   [[nodiscard]] vehicle::EgoMotion& motion() noexcept { return motion_; }
 
-  /// Fills in the figures of the bus and the samples, not those from frames. From one thread.
+  /// Fills in the figures of bus and samples, but none that come from frames. For one thread.
   void show(status::MotionFigures& figures) noexcept;
   [[nodiscard]] const LiveThreadState& thread_state() const noexcept { return thread_state_; }
 

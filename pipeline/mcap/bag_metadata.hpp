@@ -11,23 +11,23 @@
 
 namespace terracut::mcap {
 
-/// How rosbag2 publishes a topic when it plays a recording.
+/// The quality of service with which rosbag2 publishes a topic when it plays a recording.
 enum class Qos : std::uint8_t {
-  kReliable,  ///< Keeps the last ten; reliable, volatile.
-  kLatched,   ///< Keeps the last one for late readers, like static transforms.
+  kReliable,  ///< Reliable and volatile; keeps the last ten messages.
+  kLatched,   ///< Keeps the last message for late readers; for static transforms.
 };
-/// Returns `offered_qos_profiles` as rosbag2 writes them up to version 8 of its metadata, which
-/// every later version reads.
+/// Returns the text of `offered_qos_profiles` as rosbag2 writes it up to version 8 of its metadata;
+/// every later version reads it, too.
 [[nodiscard]] std::string offered_qos_of(Qos qos);
 
-/// A closed file of a bag.
+/// A file of a bag that has been closed.
 struct BagFile {
   std::string name;  ///< Relative to the bag's folder.
   McapFile::Span span;
-  std::vector<std::uint64_t> messages;  ///< Indexed by channel.
+  std::vector<std::uint64_t> messages;  ///< Number of messages by channel.
 };
 
-/// Returns a bag's metadata.yaml (rosbag2, version 5), by which `ros2 bag` opens its folder.
+/// Returns the metadata.yaml (rosbag2, version 5) by which `ros2 bag` opens the bag's folder.
 [[nodiscard]] std::string bag_metadata(const std::vector<Channel>& channels,
                                        const std::vector<BagFile>& files);
 

@@ -23,42 +23,42 @@ namespace terracut::mcap {
 /// A channel of messages with their type.
 struct Channel {
   std::string topic;
-  std::string type, definition;  ///< Of its schema, with encoding "ros2msg".
+  std::string type, definition;  ///< Of the message type, with encoding "ros2msg".
   std::string offered_qos;       ///< In rosbag2's form (bag_metadata.hpp).
 };
 
 /// A recording in the format MCAP (mcap.dev/spec), for ROS 2: profile "ros2", messages in CDR;
-/// chunks compressed by zstd, each with a checksum and followed by its index; at the end statistics
-/// and an index of all chunks. It has a temporary name, NAME.part-PID-N, until close(). Full chunks
-/// are on the disk at once: if the process is killed, the temporary file stays and can be read up
-/// to its last chunk. Not thread-safe; blocks on the disk.
+/// chunks compressed by zstd, each with a checksum and followed by its index; statistics and an
+/// index of all chunks at the end. Until close() the file has a temporary name, NAME.part-PID-N.
+/// Full chunks are written to disk at once: if the process is killed, the temporary file stays and
+/// can be read up to its last chunk. Not thread-safe; blocks on the disk.
 class McapFile {
  public:
   using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-  /// Errors: kWriteFailed. `metadata` is stored under the name "terracut" unless it is empty.
+  /// Stores `metadata` under the name "terracut" unless it is empty. Fails with kWriteFailed.
   [[nodiscard]] static Expected<McapFile> create(std::filesystem::path path,
                                                  std::vector<Channel> channels,
                                                  const Metadata& metadata);
   McapFile(McapFile&&) noexcept = default;
   McapFile& operator=(McapFile&&) = delete;
-  /// Without close() the temporary file is closed as it is and stays.
+  /// Without an earlier close(), the temporary file stays as it is.
   ~McapFile();
 
-  /// `channel` is an index of create()'s channels. Times are CLOCK_REALTIME; earlier ones count as
-  /// 1970. kWriteFailed.
+  /// Adds a message to the channel with this index in create()'s channels. Times are
+  /// CLOCK_REALTIME; negative ones count as 1970. Fails with kWriteFailed.
   [[nodiscard]] Status add_message(std::size_t channel, std::int64_t time_ns,
                                    std::span<const std::byte> message);
-  /// Completes the file and renames it. kWriteFailed. The last call.
+  /// Completes the file and renames it; must be the last call. Fails with kWriteFailed.
   [[nodiscard]] Status close();
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-  /// Returns the bytes on the disk and in the open chunk.
+  /// Returns the number of bytes on the disk and in the open chunk.
   [[nodiscard]] std::uint64_t bytes() const noexcept { return offset_ + chunk_.size(); }
   [[nodiscard]] std::uint64_t messages_of(std::size_t channel) const noexcept {
     return counts_[channel];
   }
-  /// The times of its messages; both 0 if there is none.
+  /// The first and the last time of the messages; both are 0 if there is no message.
   struct Span {
     std::uint64_t first_ns = 0, last_ns = 0;
   };
@@ -66,8 +66,8 @@ class McapFile {
   [[nodiscard]] Span span() const noexcept { return span_.value_or(Span{}); }
 
  private:
-  /// A chunk is closed at this size. A frame is larger, so that each frame of a running recording
-  /// is on the disk when the next one comes.
+  /// A chunk is closed at this size. A frame is larger, so each frame of a running recording is on
+  /// the disk when the next frame comes.
   static constexpr std::size_t kChunkBytes = 1 << 20;
 
   struct IndexEntry {
@@ -99,15 +99,15 @@ class McapFile {
   std::unique_ptr<ZSTD_CCtx_s, FreeCompressor> compressor_;
   std::vector<std::byte> compressed_;
 
-  RecordWriter records_;  ///< Records outside chunks, to be written.
+  RecordWriter records_;  ///< Records outside chunks that are not written yet.
   RecordWriter chunk_;    ///< The content of the open chunk.
   std::optional<Span> chunk_span_, span_;
-  std::vector<std::vector<IndexEntry>> index_;  ///< The open chunk's index, by channel.
+  std::vector<std::vector<IndexEntry>> index_;  ///< Index of the open chunk, by channel.
   std::vector<ChunkPlace> chunks_;
-  std::vector<std::uint64_t> counts_;  ///< Messages by channel.
+  std::vector<std::uint64_t> counts_;  ///< Number of messages by channel.
   std::uint64_t offset_ = 0;           ///< Bytes written.
   std::uint32_t data_crc_ = 0;         ///< Checksum of the bytes written.
-  std::optional<std::pair<std::uint64_t, std::uint64_t>> metadata_;  ///< Its offset and length.
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> metadata_;  ///< Offset and length.
 };
 
 }  // namespace terracut::mcap

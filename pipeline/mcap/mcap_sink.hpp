@@ -23,46 +23,46 @@ namespace terracut::mcap {
 /// Records labelled frames, the run's diagnostics and the mount's transform for ROS 2 and its
 /// viewers.
 ///
-/// A path that ends in ".mcap" is one file. Any other is the folder of a bag as rosbag2 makes it:
-/// NAME_0.mcap, NAME_1.mcap, ... with metadata.yaml beside them, which is renewed with each file
-/// that is full.
+/// A path that ends in ".mcap" is one file. Any other path is the folder of a bag in rosbag2's
+/// form: NAME_0.mcap, NAME_1.mcap, ... and metadata.yaml, which is written again whenever a file is
+/// full.
 ///
-/// An unattended recording (Config::unattended) never overwrites an older one and leaves room on
-/// the disk for others.
+/// An unattended recording (Config::unattended) never overwrites an older one and leaves free space
+/// on the disk for other programs.
 class McapSink final : public publish::FrameSink {
  public:
   struct Config {
     std::filesystem::path path;
-    /// A bag's file ends at so many bytes or so much time; 0: no such limit.
+    /// A bag begins a new file at this many bytes or this much time; 0: no such limit.
     std::uint64_t split_bytes = 0;
     std::int64_t split_ns = 0;
-    /// Records only points, whose label tells ground from obstacles; else also ground and
-    /// obstacles, and road if there is one, in clouds of their own.
+    /// Records only the cloud of all points, whose labels tell ground from obstacles; else ground,
+    /// obstacles and, if labelled, road also have a cloud each.
     bool points_alone = false;
     McapFile::Metadata metadata{};  ///< Stored in every file.
     /// Takes the next free name: "drive_2.mcap" if "drive.mcap" or a killed process's part of it
-    /// exists, "drive_2" if the folder "drive" has anything in it, and so on. Ends with a complete
-    /// file, and an error of put(), when the disk has no room left (files::check_room_left()).
+    /// exists, "drive_2" if the folder "drive" is not empty, and so on. When the disk has no room
+    /// left (files::check_room_left()), completes the file and put() fails.
     bool unattended = false;
   };
 
-  /// kInvalidArgument: a split for a single file.
+  /// Fails with kInvalidArgument if a single file is to be split.
   [[nodiscard]] static Status check(const Config& config);
-  /// kInvalidArgument: as check(), or a bag's folder that is not empty. kWriteFailed.
+  /// Fails with the errors of check(), kInvalidArgument for a folder not empty, or kWriteFailed.
   [[nodiscard]] static Expected<std::unique_ptr<McapSink>> open(Config config,
                                                                 publish::RunFacts facts);
 
-  /// Returns the memory for frames of so many returns with a full queue: the queue, the frames in
-  /// work at either end, the message, its chunk, the compressed chunk, and zstd's own.
+  /// Returns the memory for frames of this many returns while the queue is full: the queue, the
+  /// frames in work at either end, the message, its chunk, the compressed chunk, and zstd's own.
   [[nodiscard]] static constexpr std::size_t memory_bytes(std::size_t returns) noexcept {
     constexpr std::size_t kZstd_bytes = std::size_t{2} << 20;
     return returns * sizeof(points::LabelledPoint) * (kQueueFrames + 5) + kZstd_bytes;
   }
 
-  /// A second and a half, as disks stall at times.
+  /// Frames of one and a half seconds, as disks stall at times.
   static constexpr std::size_t kQueueFrames = 16;
 
-  /// Returns the file, or the bag's folder.
+  /// Returns the path of the file or of the bag's folder.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return config_.path; }
   [[nodiscard]] std::string_view name() const noexcept override { return "mcap"; }
   [[nodiscard]] std::size_t queue_frames() const noexcept override { return kQueueFrames; }
@@ -79,14 +79,14 @@ class McapSink final : public publish::FrameSink {
   [[nodiscard]] static std::filesystem::path free_place(const std::filesystem::path& path);
   [[nodiscard]] std::size_t channel_of(std::size_t topic) const;
   [[nodiscard]] std::filesystem::path next_path() const;
-  /// Makes sure that a file is open, with room in it and on its disk for a message of this time.
-  /// Each file begins with the transform.
+  /// Makes sure that a file is open and that the file and its disk have room for a message of this
+  /// time. Each file begins with the transform.
   [[nodiscard]] Status make_room(std::int64_t time_ns);
   [[nodiscard]] Status close_file();
 
   Config config_;
   publish::RunFacts facts_;
-  std::vector<std::size_t> topics_;  ///< Indices into ros_messages::kTopics, one a channel.
+  std::vector<std::size_t> topics_;  ///< Per channel: index into ros_messages::kTopics.
   std::vector<Channel> channels_;
   std::optional<McapFile> file_;
   std::vector<BagFile> closed_;

@@ -35,7 +35,7 @@ class RecordWriter {
     kDataEnd = 0x0F,
   };
 
-  /// Begins a record; its fields follow, up to end().
+  /// Begins a record. The caller then adds fields and calls end().
   void begin(Opcode opcode) {
     add(static_cast<std::uint8_t>(opcode));
     begin_block<std::uint64_t>();
@@ -54,13 +54,13 @@ class RecordWriter {
   void append(std::span<const std::byte> more) {
     bytes_.insert(bytes_.end(), more.begin(), more.end());
   }
-  /// Begins an array or map; its elements follow, up to end_elements().
+  /// Begins an array or map. The caller then adds elements and calls end_elements().
   void begin_elements() { begin_block<std::uint32_t>(); }
   void end_elements() { end_block<std::uint32_t>(); }
 
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
   [[nodiscard]] std::size_t size() const noexcept { return bytes_.size(); }
-  /// Keeps the memory.
+  /// Removes all records and keeps the memory.
   void clear() noexcept { bytes_.clear(); }
 
  private:
@@ -78,7 +78,7 @@ class RecordWriter {
   }
 
   std::vector<std::byte> bytes_;
-  std::vector<std::size_t> blocks_;  ///< Where the lengths of open blocks go.
+  std::vector<std::size_t> blocks_;  ///< Offsets of the lengths of open blocks.
 };
 
 }  // namespace terracut::mcap

@@ -23,16 +23,16 @@ class BoykovKolmogorov {
  public:
   BoykovKolmogorov(std::size_t max_nodes, memory::FixedMemory& memory);
 
-  /// True when the flow is maximal; each node of the component then has its final `side`. False
-  /// when `ops_limit` (of clock.ops()) or the clock's own budget is reached: any other solver can
-  /// then continue from the residual graph, and `side` is meaningless. Real-time safe.
+  /// Returns true when the flow is maximal; each node of the component then has its final `side`.
+  /// False when `ops_limit` (of clock.ops()) or the clock's own budget is reached: any other solver
+  /// can then continue from the residual graph; `side` is meaningless. Real-time safe.
   [[nodiscard]] bool solve(CutGraph& graph, std::span<const std::uint32_t> component,
                            OpClock& clock, std::int64_t ops_limit) noexcept TERRACUT_NONBLOCKING;
 
  private:
-  /// Value of a node's parent: a direction, or one of these.
+  /// Values of CutNode::parent that are no direction.
   static constexpr std::uint8_t kParentTerminal = 8;
-  static constexpr std::uint8_t kParentNone = 9;  ///< An orphan, or not in a tree.
+  static constexpr std::uint8_t kParentNone = 9;  ///< The node is an orphan or in no tree.
 
   /// An arc that connects the trees, from a node of the source tree to one of the sink tree.
   struct Bridge {
@@ -49,15 +49,15 @@ class BoykovKolmogorov {
   /// outwards, sink trees inwards.
   [[nodiscard]] static int tree_capacity(const CutNode& parent, const CutNode& child,
                                          int child_to_parent) noexcept;
-  /// Returns the edges between `index` and its terminal, or 0 if the way up ends at an orphan.
+  /// Returns the number of edges from `index` to its terminal; 0 if the path ends at an orphan.
   [[nodiscard]] std::uint32_t origin_distance(std::uint32_t index) noexcept;
   void activate(std::uint32_t index) noexcept;
   void cut_off(std::uint32_t index) noexcept;
   [[nodiscard]] CutNode& node(std::uint32_t index) noexcept { return nodes_[index]; }
 
   NodeQueue active_, orphans_;
-  std::span<CutNode> nodes_;  ///< Of the graph being solved, like the three below.
-  std::uint32_t time_ = 0;    ///< Augmentations so far.
+  std::span<CutNode> nodes_;  ///< Nodes of the graph being solved.
+  std::uint32_t time_ = 0;    ///< Number of augmentations so far.
   std::int64_t ops_ = 0;
   std::int64_t flow_ = 0;
 };

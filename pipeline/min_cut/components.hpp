@@ -12,13 +12,13 @@
 
 namespace terracut::min_cut {
 
-/// Connected components of the nodes that persistency left open. Each is solved exactly by itself;
-/// solving the nearest first makes the whole an anytime algorithm.
+/// The connected components of the nodes that persistency left open. Each component is solved
+/// exactly by itself; as the nearest are solved first, the work can be stopped at any time.
 class Components {
  public:
   Components(std::size_t max_nodes, memory::FixedMemory& memory);
 
-  /// Real-time safe. Reads `ground_range_m` at `cells[node]`.
+  /// Finds all components. Reads `ground_range_m` at `cells[node]`. Real-time safe.
   void find(CutGraph& graph, std::span<const std::uint32_t> cells,
             std::span<const float> ground_range_m) noexcept TERRACUT_NONBLOCKING;
 
@@ -30,8 +30,8 @@ class Components {
 
  private:
   struct Extent {
-    std::uint32_t range_bits;  ///< Range of the nearest cell as bits, which order like floats.
-    std::uint32_t begin, end;  ///< In nodes_; begin grows with the first node.
+    std::uint32_t range_bits;  ///< Range of the nearest cell; as bits it orders like a float.
+    std::uint32_t begin, end;  ///< Indices into nodes_; begin advances by each node found.
   };
 
   std::span<std::uint32_t> nodes_;

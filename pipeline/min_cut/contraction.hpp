@@ -26,30 +26,30 @@ namespace terracut::min_cut {
 /// to the cost of that label, and hard seeds need no nodes; this is exact.
 ///
 /// Persistency: a cell whose terminal capacity outweighs all its edges together takes that
-/// terminal's label, whatever its neighbours get. It becomes a hard seed at once: later cells see
-/// it as one; earlier nodes are updated and may be decided by that in turn, until nothing changes.
-/// On real frames two of three unknown cells are decided so, most without ever being a node. Ties
-/// go to obstacle, so that the answer stays the one described in grid_cut.hpp.
+/// terminal's label, whatever its neighbours get. The cell becomes a hard seed at once: later cells
+/// see it as a seed; earlier nodes are updated and may be decided by that in turn, until nothing
+/// changes. On real frames two of three unknown cells are decided this way, most without ever being
+/// a node. A tie goes to obstacle, as grid_cut.hpp promises.
 class Contraction {
  public:
   Contraction(const frame::ImageShape& shape, std::size_t max_nodes, memory::FixedMemory& memory);
 
   struct Result {
-    std::uint32_t unknown = 0;  ///< Cells seen.
-    std::uint32_t decided = 0;  ///< Of these, decided by persistency.
-    std::uint32_t pinned = 0;   ///< Of these, left at their coarse label for lack of nodes.
+    std::uint32_t unknown = 0;  ///< Unknown cells seen.
+    std::uint32_t decided = 0;  ///< Unknown cells decided by persistency.
+    std::uint32_t pinned = 0;   ///< Unknown cells left at their coarse label for lack of nodes.
     std::int64_t ops = 0;       ///< Edges from decided cells to nodes.
     bool finished = false;
   };
-  /// Turns each unknown cell of `problem.seeds` into a decided one, or into a node of `graph`,
-  /// which stays kUnknown; when all nodes are in use, into one pinned to its label in `coarse`. If
-  /// the caller's clock expires, `finished` is false and the graph is useless. Real-time safe.
+  /// Turns each unknown cell of `problem.seeds` into a decided cell or into a node of `graph`,
+  /// whose seed stays kUnknown; when all nodes are in use, pins the cell to its label in `coarse`.
+  /// If the caller's clock expires, `finished` is false and the graph is useless. Real-time safe.
   template <RegionCosts Costs, EdgeWeights Weights>
   [[nodiscard]] Result run(const GridProblem& problem, const Costs& costs, const Weights& weights,
                            std::span<const frame::Label> coarse, OpClock& clock,
                            CutGraph& graph) noexcept;
 
-  /// Returns the cell of each node. A node that was decided later has no edges, but its side.
+  /// Returns the cell of each node. A node decided after its creation has a side but no edges.
   [[nodiscard]] std::span<const std::uint32_t> cells() const noexcept {
     return cells_.first(size_);
   }
@@ -63,8 +63,8 @@ class Contraction {
 
   void begin(const GridProblem& problem, OpClock& clock) noexcept TERRACUT_NONBLOCKING;
   void begin_row(int row) noexcept TERRACUT_NONBLOCKING;
-  /// Counts one piece of work; looks at the clock once in kNodesPerClockLook. False when it has
-  /// expired.
+  /// Counts one piece of work and reads the clock once in kNodesPerClockLook calls. Returns false
+  /// when the clock has expired.
   [[nodiscard]] bool has_time() noexcept {
     if (work_++ % CutBudget::kNodesPerClockLook == 0 && clock_->expired()) is_stopped_ = true;
     return !is_stopped_;
@@ -72,7 +72,7 @@ class Contraction {
   template <class Costs, class Weights>
   void take_cell(const Costs& costs, const Weights& weights, std::uint32_t cell, int column,
                  const NeighbourCells& around, frame::Label coarse) noexcept;
-  /// Does the same, compiled separately: few cells lie at an edge of the image.
+  /// Does the same at an edge of the image; compiled separately, as few cells lie there.
   template <class Costs, class Weights>
   [[gnu::noinline]] void take_cell_at_edge(const Costs& costs, const Weights& weights,
                                            std::uint32_t cell, int column,
@@ -80,7 +80,7 @@ class Contraction {
                                            frame::Label coarse) noexcept {
     take_cell(costs, weights, cell, column, around, coarse);
   }
-  /// Returns the seeds of the neighbours, one a lane; away from the image's edges with three loads.
+  /// Returns the neighbours' seeds, one per lane; with three loads away from the image's edges.
   [[nodiscard]] EightLanes seeds_around(const NeighbourCells& around) const noexcept;
   [[nodiscard]] static Side persistent_side(std::int32_t excess, int capacity) noexcept {
     return excess >= capacity ? Side::kObstacle : -excess > capacity ? Side::kGround : Side::kFree;
@@ -89,18 +89,18 @@ class Contraction {
   /// Tells earlier nodes next to a cell that it has been decided.
   void tell_nodes_before(int column, unsigned edges, Side side) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::uint32_t node_before(int column, int direction) const noexcept;
-  /// Returns the directions to cells before the one in `column`.
+  /// Returns the directions to neighbours that come before the cell in `column`.
   [[nodiscard]] unsigned directions_before(int column) const noexcept {
     return column == 0 ? 0b00111U : column + 1 == columns_ ? 0b11111U : 0b01111U;
   }
 
   int columns_, rows_;
   std::span<CutNode> nodes_;
-  std::span<std::uint32_t> cells_;     // of the nodes
+  std::span<std::uint32_t> cells_;     // cell of each node
   std::span<std::uint32_t> worklist_;  // decided nodes whose neighbours must be told
   std::array<std::span<std::uint32_t>, 2> node_in_row_;  // by column, for even and odd rows
 
-  // State of the problem in work.
+  // State of the problem being solved.
   std::span<Seed> seeds_;
   OpClock* clock_ = nullptr;
   std::uint32_t size_ = 0;
@@ -108,8 +108,8 @@ class Contraction {
   bool is_stopped_ = false;
   std::int64_t flow_ = 0;
   Result result_;
-  // State of the row in work.
-  std::span<std::uint32_t> here_, below_;  // nodes by column of this row and the row below
+  // State of the row being processed.
+  std::span<std::uint32_t> here_, below_;  // node of each column, in this row and in the row below
   EightLanes inside_;                      // all bits set for neighbours in the image
 };
 
@@ -125,18 +125,17 @@ template <RegionCosts Costs, EdgeWeights Weights>
     const bool has_rows_around = row > 0 && row + 1 < shape.rows;
     const std::uint32_t first = static_cast<std::uint32_t>(row) * stride;
     const auto seeds = problem.seeds.subspan(first, static_cast<std::size_t>(columns_));
-    for_each_unknown(
-        seeds, [&](std::size_t index) __attribute__((always_inline)) {
-          if (!has_time()) return;
-          const auto column = static_cast<int>(index);
-          const std::uint32_t cell = first + static_cast<std::uint32_t>(index);
-          if (has_rows_around && column > 0 && column + 1 < columns_) [[likely]] {
-            take_cell(costs, weights, cell, column, neighbours_inside(cell, stride), coarse[cell]);
-          } else {
-            take_cell_at_edge(costs, weights, cell, column, neighbour_cells(shape, row, column),
-                              coarse[cell]);
-          }
-        });
+    for_each_unknown(seeds, [&](std::size_t index) __attribute__((always_inline)) {
+      if (!has_time()) return;
+      const auto column = static_cast<int>(index);
+      const std::uint32_t cell = first + static_cast<std::uint32_t>(index);
+      if (has_rows_around && column > 0 && column + 1 < columns_) [[likely]] {
+        take_cell(costs, weights, cell, column, neighbours_inside(cell, stride), coarse[cell]);
+      } else {
+        take_cell_at_edge(costs, weights, cell, column, neighbour_cells(shape, row, column),
+                          coarse[cell]);
+      }
+    });
     if (is_stopped_) break;
   }
   graph.nodes = nodes_.first(size_);
@@ -177,8 +176,8 @@ template <class Costs, class Weights>
     seeds_[cell] = decided(side);
     ++result_.decided;
   } else {
-    // Its own cost, and that against hard seeds, is constant and left out of the energy, as for a
-    // hard seed.
+    // The cell's own cost and its cost against hard seeds are constant, so they are left out of the
+    // energy, as for a hard seed.
     const bool is_obstacle = coarse == frame::Label::kObstacle;
     flow_ += (is_obstacle ? to_ground : to_obstacle).where(seed, bit(Seed::kDecided)).sum();
     seeds_[cell] = is_obstacle ? Seed::kPinnedObstacle : Seed::kPinnedGround;

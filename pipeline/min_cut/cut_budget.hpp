@@ -14,16 +14,16 @@ namespace terracut::min_cut {
 /// the interrupted component, are outside the budget; the cap on unknown cells bounds them.
 ///
 /// Without `expired` the result depends on the input alone: the deterministic mode, for replays and
-/// tests. With it the caller's clock also stops the solvers and the expensive steps before them
-/// (weights, persistency): live mode.
+/// tests. With `expired` the caller's clock also stops the solvers and the expensive steps before
+/// them (weights, persistency): live mode.
 struct CutBudget {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
-  /// 10 to 25 ms; fifty to two hundred times what a typical street frame needs.
+  /// Takes 10 to 25 ms: fifty to two hundred times what a typical street frame needs.
   static constexpr std::int64_t kDefaultOps = 2'500'000;
-  /// Operations between two looks at the clock, some 40 microseconds. Push-relabel does not look
-  /// while it measures distances, which visits each arc of the component once.
+  /// Operations between two readings of the clock, some 40 microseconds. Push-relabel does not read
+  /// the clock while it measures distances, which visits each arc of the component once.
   static constexpr std::int64_t kOpsPerClockLook = 4096;
-  /// Nodes between two looks at the clock in steps that go by node, as long a time.
+  /// Nodes between two readings of the clock in steps that go node by node; as long a time.
   static constexpr std::uint32_t kNodesPerClockLook = 1024;
 
   std::int64_t ops = kDefaultOps;
@@ -32,7 +32,7 @@ struct CutBudget {
   void* context = nullptr;  ///< Passed to `expired`.
 };
 
-/// Counts operations against a CutBudget. Once exhausted, it stays so.
+/// Counts operations against a CutBudget. Once exhausted, the clock stays exhausted.
 class OpClock {
  public:
   explicit OpClock(const CutBudget& budget) noexcept : budget_(budget), limit_(budget.ops) {}
@@ -48,7 +48,7 @@ class OpClock {
     return expired();
   }
 
-  /// Asks the caller's clock. True if it has run out, however many operations are left.
+  /// Asks the caller's clock. True if the time is over, however many operations are left.
   [[nodiscard]] bool expired() noexcept {
     if (!expired_ && budget_.expired != nullptr && budget_.expired(budget_.context)) {
       expired_ = true;

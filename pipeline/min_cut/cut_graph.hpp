@@ -14,14 +14,14 @@
 
 namespace terracut::min_cut {
 
-/// The terminal of a node. The source is "object", the sink "background".
+/// The terminal on whose side a node is. The source is "object", the sink "background".
 enum class Side : std::uint8_t {
   kFree = 0,
   kObstacle = 1,  ///< Source side.
   kGround = 2,    ///< Sink side.
 };
 
-/// Returns the seed of an unknown cell whose side is certain.
+/// Returns the seed of an unknown cell whose side has been decided.
 [[nodiscard]] constexpr Seed decided(Side side) noexcept {
   return side == Side::kObstacle ? Seed::kDecidedObstacle : Seed::kDecidedGround;
 }
@@ -33,20 +33,20 @@ enum class Side : std::uint8_t {
 struct alignas(64) CutNode {
   std::array<std::uint32_t, kDirections> neighbour;  ///< Node index; valid if `edges` has the bit.
   std::array<std::int16_t, kDirections> residual;  ///< Remaining capacity to it; 0 without an edge.
-  std::int32_t excess;     ///< > 0: capacity left from the source; < 0: to the sink.
-  std::uint32_t distance;  ///< Boykov-Kolmogorov: to the tree's root. Push-relabel: to the sink.
-  std::uint32_t stamp;     ///< Boykov-Kolmogorov: the augmentation at which `distance` held.
+  std::int32_t excess;     ///< Above 0: capacity left from the source; below 0: to the sink.
+  std::uint32_t distance;  ///< To the tree's root (Boykov-Kolmogorov) or the sink (push-relabel).
+  std::uint32_t stamp;     ///< Boykov-Kolmogorov: augmentation at which `distance` was valid.
   std::uint8_t edges;      ///< Bit d: there is an edge in direction d to an open node.
-  std::uint8_t parent;     ///< Boykov-Kolmogorov: the parent's direction, or kParent...
+  std::uint8_t parent;     ///< Boykov-Kolmogorov: direction of the parent, or kParent...
   Side side;               ///< The tree while solving, the answer afterwards.
   bool queued;             ///< True while in the queue of active nodes.
 };
 static_assert(sizeof(CutNode) == 64);
 
-/// The graph that remains after folding seeds into the terminals.
+/// The graph that remains after hard seeds have been folded into the terminals.
 struct CutGraph {
   std::span<CutNode> nodes;
-  std::int64_t flow = 0;  ///< Flow found: energy that no labelling avoids.
+  std::int64_t flow = 0;  ///< Flow found so far: energy that no labelling avoids.
 };
 
 /// Calls visit(direction) for each bit of `edges`, lowest first.
@@ -63,8 +63,8 @@ inline void push_along(CutNode& from, CutNode& to, int direction, int amount) no
   back = static_cast<std::int16_t>(back + amount);
 }
 
-/// Adds terminal capacity (> 0: from the source, < 0: to the sink) to a node. Returns the part that
-/// cancels the opposite terminal's capacity, which is flow.
+/// Adds terminal capacity to a node: above 0 from the source, below 0 to the sink. Returns the part
+/// that cancels capacity of the opposite terminal, which is flow.
 [[nodiscard]] inline int add_excess(CutNode& node, int amount) noexcept {
   const bool meets = (node.excess > 0) != (amount > 0);
   const int flow = meets ? std::min(std::abs(node.excess), std::abs(amount)) : 0;

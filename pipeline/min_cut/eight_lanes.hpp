@@ -39,8 +39,8 @@ struct EightLanes {
                                                               3, 19, 4, 20, 5, 21, 6, 22, 7, 23))};
   }
 
-  /// Returns the lanes of `*this` where `flags` has a bit of `bits` in the same lane, 0 in the
-  /// others.
+  /// Returns the lanes of `*this` for which the same lane of `flags` has a bit of `bits`; other
+  /// lanes are 0.
   [[nodiscard]] EightLanes where(const EightLanes& flags, std::int16_t bits) const noexcept {
     return {lanes & ((flags.lanes & bits) != 0)};
   }
@@ -57,7 +57,7 @@ struct EightLanes {
     const auto words = reinterpret_cast<Words>(lanes);
     return static_cast<int>(((words[0] + words[1]) * kOnes) >> 48U);
   }
-  /// Returns bit d set if lane d is not 0.
+  /// Returns a mask in which bit d is set if lane d is not 0.
   [[nodiscard]] std::uint8_t nonzero() const noexcept {
     constexpr Numbers kBits = {1, 2, 4, 8, 16, 32, 64, 128};
     return static_cast<std::uint8_t>(EightLanes{kBits & (lanes != 0)}.sum());

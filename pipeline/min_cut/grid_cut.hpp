@@ -20,11 +20,11 @@
 
 namespace terracut::min_cut {
 
-/// Minimises GridProblem's energy: exactly, or, when the budget runs out, exactly where finished
-/// and coarsely elsewhere, listed and counted. The energy is never above that of the coarse labels;
-/// if too little is finished, these are the result.
+/// Minimises GridProblem's energy exactly. When the budget runs out, components not finished keep
+/// coarse labels, which are counted. The energy is never above that of the coarse labels; if too
+/// little is finished, all labels stay coarse.
 ///
-/// Among labellings of equal energy it returns the one with the most obstacle cells (there is
+/// Among labellings of equal energy it returns the labelling with the most obstacle cells (there is
 /// exactly one: the largest source side). So the labels of a finished component depend on the
 /// problem alone, not on the solver, the order of work or the budget.
 ///
@@ -33,22 +33,22 @@ class GridCut {
  public:
   struct Config {
     /// The most unknown cells that persistency may leave to the solvers; bounds memory and time.
-    /// Beyond it, cells of higher rows keep their coarse label.
+    /// When there are more, cells of higher rows keep their coarse label.
     std::uint32_t max_unknown = 16'384;
-    /// Boykov-Kolmogorov begins components of up to so many nodes, push-relabel larger ones: rough
-    /// ground leaves some of 1,000 nodes and more.
+    /// Boykov-Kolmogorov begins components of up to this many nodes, push-relabel larger ones:
+    /// rough ground leaves some of 1,000 nodes and more.
     std::uint32_t bk_most_nodes = 64;
     /// Push-relabel finishes a component that takes Boykov-Kolmogorov more operations than
-    /// `bk_ops_per_node` * its nodes + `bk_ops_base`. Each in [0, 1e9].
+    /// `bk_ops_per_node` * its nodes + `bk_ops_base`. Both are in [0, 1e9].
     std::int64_t bk_ops_per_node = 100;
     std::int64_t bk_ops_base = 20'000;
     /// Least share of unknown cells that must be finished (fixed or in solved components) when the
-    /// budget runs out; with less, all keep their coarse label. [0, 1].
+    /// budget runs out, [0, 1]; with less, all cells keep their coarse label.
     float least_finished = 0.5F;
   };
 
-  /// shape.columns >= 3 and shape.rows >= 1. Throws std::invalid_argument when these or the config
-  /// are out of range (start-up only).
+  /// Needs shape.columns >= 3 and shape.rows >= 1. Throws std::invalid_argument when the shape or
+  /// `config` is out of range (start-up only).
   GridCut(const frame::ImageShape& shape, const Config& config, memory::FixedMemory& memory);
 
   /// Labels the unknown cells. On entry `labels` has the coarse label of every unknown cell
@@ -71,18 +71,18 @@ class GridCut {
       std::span<frame::Label> labels) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] bool is_worth_keeping(const CutReport& report) const noexcept;
-  /// Returns the report of a cut that is not used.
+  /// Returns the report of a cut whose labels are discarded.
   [[nodiscard]] static CutReport discard(CutReport report) noexcept TERRACUT_NONBLOCKING;
 
-  /// False if the budget ran out before the end.
+  /// Solves one component. Returns false if the budget ran out before the end.
   [[nodiscard]] bool solve_component(std::span<const std::uint32_t> component, OpClock& clock,
                                      CutReport& report) noexcept;
-  /// Proves what it can of an unfinished component, leaves the rest coarse, and returns the labels'
-  /// cost beyond the flow.
+  /// Labels the nodes of an unfinished component whose side can be proven, leaves the others
+  /// coarse, and returns the labels' cost beyond the flow.
   [[nodiscard]] std::int64_t finalize_unfinished(std::span<const std::uint32_t> component,
                                                  bool started, std::span<const frame::Label> labels,
                                                  std::span<Seed> seeds, CutReport& report) noexcept;
-  /// Gives the cell of a node the node's side.
+  /// Gives a node's side to its cell in `seeds`.
   void decide(std::uint32_t index, std::span<Seed> seeds) const noexcept;
 
   Config config_;

@@ -16,24 +16,24 @@
 
 namespace terracut::min_cut {
 
-/// The state of a cell; before the min-cut one of the first four. Each has its own bit, so that
-/// many cells can be tested at once.
+/// The state of a cell; before the min-cut one of the first four. Each state has its own bit, so
+/// that many cells can be tested at once.
 enum class Seed : std::uint8_t {
-  kNone = 0,      ///< A hole: no return. Cuts the graph.
+  kNone = 0,      ///< No return; the hole separates its neighbours.
   kGround = 1,    ///< High-confidence ground: the "background" terminal of paper section III-C.
   kObstacle = 2,  ///< High-confidence obstacle: the "object" terminal.
-  kUnknown = 4,   ///< To be labelled.
-  // States that the min-cut gives unknown cells. Their neighbours treat them as seeds.
+  kUnknown = 4,   ///< To be labelled by the min-cut.
+  // States that the min-cut gives to unknown cells; neighbours treat such cells as seeds.
   kDecided = 8,
   kDecidedGround = kDecided | kGround,  ///< Has the label of a global optimum.
   kDecidedObstacle = kDecided | kObstacle,
   kPinned = 16,
-  kPinnedGround = kPinned | kGround,  ///< Found no node free: keeps its coarse label.
+  kPinnedGround = kPinned | kGround,  ///< No node was free: keeps its coarse label.
   kPinnedObstacle = kPinned | kObstacle,
 };
 
-/// Calls `visit(index)` for each unknown cell, in order. Unknown cells are few and lie together: it
-/// skips 32 cells at once and tests eight together. `visit` may change the cell it is called for.
+/// Calls `visit(index)` for each unknown cell, in order. As unknown cells are few and lie together,
+/// 32 cells are skipped at once and eight tested together. `visit` may change its own cell.
 template <class Visit>
 [[gnu::always_inline]] inline void for_each_unknown(std::span<const Seed> seeds, Visit visit) {
   static_assert(std::endian::native == std::endian::little, "the first cell is in the low byte");
@@ -62,11 +62,11 @@ inline constexpr int kCapacityScale = 1024;
 /// Upper limit of edge weights: twice the largest B of Eq. 14, and low enough that a residual
 /// capacity, which can reach 2 * weight, fits 16 bits.
 inline constexpr int kMaxEdgeWeight = 2 * kCapacityScale;
-/// Costs are clamped to [0, kMaxTerminalCost], in the reported energy as well; with 8 edges folded
-/// into it the sum stays far inside 32 bits.
+/// Costs are clamped to [0, kMaxTerminalCost], also in the reported energy; the sum of a cost and 8
+/// folded edges stays far inside 32 bits.
 inline constexpr std::int32_t kMaxTerminalCost = 1 << 28;
 
-/// The energy of paper Eq. 6-15 in integers scaled by kCapacityScale, as views the caller owns.
+/// The energy of paper Eq. 6-15 in integers scaled by kCapacityScale, in the caller's memory.
 ///
 /// Planes are row-major with `shape.stride()` and at least `shape.cells()` long; seeds of padding
 /// cells (column >= columns) are kNone, `ground_range_m` is read at unknown cells only.

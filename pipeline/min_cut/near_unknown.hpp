@@ -14,17 +14,17 @@
 namespace terracut::min_cut {
 
 /// Finds the parts of the image that have an unknown cell in them or next to them, where a cut's
-/// graph has nodes and edges. Works by groups of columns, so the answer may be yes a little too
-/// often.
+/// graph has nodes and edges. Works by groups of columns, so it also reports some cells farther
+/// away.
 ///
-/// Takes its memory in the constructor. One thread; real-time safe.
+/// Takes all memory in the constructor. One thread; real-time safe.
 class NearUnknown {
  public:
   NearUnknown(frame::ImageShape shape, memory::FixedMemory& memory);
 
-  /// Reads all seeds of a frame, padding cells included.
+  /// Reads all seeds of a frame, including those of padding cells.
   void find(std::span<const Seed> seeds) noexcept TERRACUT_NONBLOCKING;
-  /// True if one of these cells, or a neighbour, is unknown.
+  /// True if one of these cells or of their neighbours is unknown.
   [[nodiscard]] bool is_near(int row, frame::ColumnRange columns) const noexcept {
     const std::size_t row_begin = static_cast<std::size_t>(row) * groups_;
     const int left = columns.begin == 0 ? columns_ - 1 : columns.begin - 1;
@@ -47,7 +47,7 @@ class NearUnknown {
   int columns_;
   std::size_t rows_, groups_;
   std::span<std::uint8_t> unknown_;  // [row][group]: the group has an unknown cell
-  std::span<std::uint8_t> near_;     // [row][group]: this row's or an adjacent row's has
+  std::span<std::uint8_t> near_;     // [row][group]: this or an adjacent row has one
 };
 
 }  // namespace terracut::min_cut

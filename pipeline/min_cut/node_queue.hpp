@@ -12,8 +12,8 @@
 
 namespace terracut::min_cut {
 
-/// A ring buffer of node indices, open at both ends. Holds at least `capacity`; the caller ensures
-/// that no node is in it twice, so it never overflows.
+/// A ring buffer of node indices, open at both ends. Holds at least `capacity` indices; the caller
+/// queues no node twice, so the buffer never overflows.
 class NodeQueue {
  public:
   NodeQueue(std::string_view part, std::size_t capacity, memory::FixedMemory& memory)

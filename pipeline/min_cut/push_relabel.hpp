@@ -22,8 +22,8 @@ class PushRelabel {
  public:
   PushRelabel(std::size_t max_nodes, memory::FixedMemory& memory);
 
-  /// True when the cut is minimal; each node of the component then has its final `side`. False when
-  /// the clock's budget is reached; the residual graph is still valid. Real-time safe.
+  /// Returns true when the cut is minimal; each node of the component then has its final `side`.
+  /// False when the clock's budget is reached; the residual graph stays valid. Real-time safe.
   [[nodiscard]] bool solve(CutGraph& graph, std::span<const std::uint32_t> component,
                            OpClock& clock) noexcept TERRACUT_NONBLOCKING;
 
@@ -39,16 +39,16 @@ class PushRelabel {
   void make_active(std::uint32_t index) noexcept;
   [[nodiscard]] std::uint32_t take_highest_active() noexcept;
 
-  /// Nodes of each distance to the sink in [1, component size], as doubly linked lists; of these,
-  /// the ones with excess also as stacks.
+  /// Lists of the nodes at each distance to the sink in [1, component size], doubly linked; nodes
+  /// with excess are also on a stack for each distance.
   std::span<std::uint32_t> level_first_, level_next_, level_previous_;
   std::span<std::uint32_t> active_first_, active_next_;
   std::span<std::uint32_t> queue_;
-  std::uint32_t levels_ = 0;          ///< Levels in use; higher ones are empty.
-  std::uint32_t highest_active_ = 0;  ///< No active node above this level.
+  std::uint32_t levels_ = 0;          ///< Levels in use; all higher levels are empty.
+  std::uint32_t highest_active_ = 0;  ///< No active node is above this level.
 
-  std::span<CutNode> nodes_;    ///< Of the graph being solved.
-  std::int64_t ops_ = 0;        ///< Not yet reported to the clock.
+  std::span<CutNode> nodes_;    ///< Nodes of the graph being solved.
+  std::int64_t ops_ = 0;        ///< Operations not yet reported to the clock.
   std::int64_t lift_work_ = 0;  ///< Operations in lifts since the last exact relabelling.
   std::int64_t flow_ = 0;
 };

@@ -13,32 +13,32 @@
 
 namespace terracut::output {
 
-/// A folder to which a run writes one file a frame, all with one ending. Its files are those of one
-/// run: a run's first file removes the files of an earlier run on the same input, and no others.
-/// For this a list of the files and their input is kept in the folder (the ending and ".terracut").
-/// Not thread-safe; blocks on the disk.
+/// A folder to which a run writes one file per frame, all with the same ending. The folder holds
+/// the files of one run: the first file of a run removes those of an earlier run on the same input,
+/// and no others. A list of the files and their input is kept in the folder (the ending and
+/// ".terracut"). Not thread-safe; blocks on the disk.
 class FrameFolder {
  public:
   struct Config {
     std::filesystem::path folder;
-    std::string ending;            ///< ".label"
-    std::string made_of{};         ///< The input, to be shown and compared; empty: unknown.
-    bool replaces_others = false;  ///< Also replaces files made of another input.
-    /// Called once with the number of files removed, if any.
+    std::string ending;            ///< Ending of the files, such as ".label".
+    std::string made_of{};         ///< Name of the input, shown and compared; empty: unknown.
+    bool replaces_others = false;  ///< True: also replaces files made from another input.
+    /// Called once with the number of files removed, if any were removed.
     std::function<void(std::size_t)> on_replaced{};
   };
 
   /// Does nothing on the disk before the first file.
   explicit FrameFolder(Config config) : config_(std::move(config)) {}
 
-  /// Errors: kInvalidArgument if the folder has files of that ending that no run has listed, as
-  /// they may be truth labels, say, or files that a run made of another input. kUnreadable: the
-  /// list is not a list.
+  /// Fails with kInvalidArgument if the folder has files of that ending that no run has listed
+  /// (they may be truth labels) or that a run made from another input; with kUnreadable if the list
+  /// is not a list.
   [[nodiscard]] Status check() const;
 
-  /// Returns the path for `name`, which must have the ending, and lists it. kWriteFailed, also if
-  /// another, unchecked folder took its place since the first file; before the first file the
-  /// errors of check().
+  /// Returns the path for `name`, which must have the ending, and lists the file. Before the first
+  /// file it fails with the errors of check(), later with kWriteFailed, also if another, unchecked
+  /// folder has taken the folder's place.
   [[nodiscard]] Expected<std::filesystem::path> place(const std::string& name);
 
  private:

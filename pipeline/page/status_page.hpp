@@ -24,15 +24,15 @@ namespace terracut::page {
 ///
 /// Readers map the page read-only, so nothing they do affects the publisher.
 ///
-/// T is trivially copyable, has no pointers in it, and the same layout in all programs that use the
-/// page: `layout` in the header is a number the owner of T raises with every change to it.
+/// T must be trivially copyable, have no pointers, and have the same layout in all programs that
+/// use the page: the owner of T raises the number `layout` in the header with every change of T.
 template <class T>
 class StatusPagePublisher {
   static_assert(std::is_trivially_copyable_v<T> && std::is_default_constructible_v<T>);
 
  public:
-  /// Makes the page `name`. Before the first publish() readers find no value. Errors of
-  /// StatusPageFile::create(). Start-up only.
+  /// Makes the page `name`; until the first publish() readers find no value. Fails with the errors
+  /// of StatusPageFile::create(). Start-up only.
   [[nodiscard]] static Expected<StatusPagePublisher> create(
       const std::string& name, std::uint32_t layout,
       const std::filesystem::path& folder = status_page_folder()) {
@@ -41,7 +41,7 @@ class StatusPagePublisher {
     return StatusPagePublisher(std::move(*file));
   }
 
-  /// To be called from one thread. Wait-free: memory accesses only, no system call.
+  /// Publishes `value`; for one thread. Wait-free: memory accesses only, no system call.
   void publish(const T& value) noexcept TERRACUT_NONBLOCKING {
     queues::SequenceLock<T>::write(value, file_.header()->sequence, file_.words());
   }
@@ -53,15 +53,15 @@ class StatusPagePublisher {
   StatusPageFile file_;
 };
 
-/// Reads the value of a StatusPagePublisher of the same T and layout, in this process or another.
-/// Movable; one thread an object.
+/// Reads the value of a StatusPagePublisher with the same T and layout, in this process or another.
+/// Movable; for one thread at a time.
 template <class T>
 class StatusPageReader {
   static_assert(std::is_trivially_copyable_v<T> && std::is_default_constructible_v<T>);
 
  public:
-  /// Errors of StatusPageFile::open(). A page whose publisher has died can be opened: see
-  /// publisher_lives().
+  /// Fails with the errors of StatusPageFile::open(). A page whose publisher has died can be
+  /// opened; publisher_lives() tells.
   [[nodiscard]] static Expected<StatusPageReader> open(
       const std::string& name, std::uint32_t layout,
       const std::filesystem::path& folder = status_page_folder()) {
@@ -70,19 +70,19 @@ class StatusPageReader {
     return StatusPageReader(std::move(*file));
   }
 
-  /// Returns the newest whole value. Nothing if none was published yet, or if all of kTries tries
-  /// met the publisher at work: it died or was held up while writing. Try later.
+  /// Returns the newest whole value. Returns nothing if none was published yet, or if each of
+  /// kTries tries met the publisher writing: it died or was held up then. Try later.
   [[nodiscard]] std::optional<T> read() const noexcept TERRACUT_NONBLOCKING {
     return queues::SequenceLock<T>::read(file_.header()->sequence, file_.words(), kTries);
   }
 
-  /// Returns how often a value was published, which tells of news without reading it.
+  /// Returns how often a value was published, so that readers need not read an unchanged value.
   [[nodiscard]] std::uint64_t publications() const noexcept TERRACUT_NONBLOCKING {
     return file_.header()->sequence.load(std::memory_order_acquire) / 2;
   }
 
-  /// True while the process that made this page has it. False for good once it has ended, in any
-  /// way; a new process makes a new page, for which open() must be called again.
+  /// True while the process that made this page lives. Once that process has ended, false for good;
+  /// a new process makes a new page, for which open() must be called again.
   [[nodiscard]] bool publisher_lives() const noexcept { return file_.publisher_lives(); }
 
   [[nodiscard]] std::int32_t publisher_pid() const noexcept { return file_.header()->pid; }

@@ -15,19 +15,19 @@
 
 namespace terracut::page {
 
-/// The beginning of a status page file; numbers in the machine's own byte order. The words of the
-/// value follow from the next cache line on.
+/// The beginning of a status page file; numbers are in the machine's byte order. The words of the
+/// value begin at the next cache line.
 struct StatusPageHeader {
   static constexpr std::uint64_t kMagic = 0x65'67'61'70'74'63'72'74;  // "trctpage" in the file
 
   std::uint64_t magic = kMagic;
-  std::uint32_t header_bytes = 64;  ///< Where the words begin.
+  std::uint32_t header_bytes = 64;  ///< Offset of the value's words.
   std::uint32_t layout = 0;         ///< The version of the value's layout.
   std::uint64_t value_bytes = 0;
-  std::int64_t started_ns = 0;  ///< When the page was made, since 1970.
-  std::int32_t pid = 0;         ///< Of the publisher, in its own namespace (a container differs).
+  std::int64_t started_ns = 0;  ///< Time when the page was made, since 1970.
+  std::int32_t pid = 0;         ///< Process number of the publisher, in its own container.
   std::uint32_t reserved = 0;
-  std::atomic<std::uint64_t> sequence{0};  ///< Even: at rest; odd: being written; 0: no value yet.
+  std::atomic<std::uint64_t> sequence{0};  ///< Even: at rest; odd: in writing; 0: no value yet.
   std::uint64_t reserved_too[2]{};
 };
 static_assert(sizeof(StatusPageHeader) == 64);
@@ -44,16 +44,16 @@ inline constexpr std::string_view kStatusPageEnding = ".terracut";
 /// True if a living process holds the lock of the open page file.
 [[nodiscard]] bool has_publisher(int file) noexcept;
 
-/// The file of one status page, mapped into memory. The publisher holds a lock on it, which the
-/// kernel releases however the process ends. So a page in use is told from one left behind, even if
-/// the process number was given to another process, and between containers. Readers query the lock
-/// but never take it. A forked process without a following exec shares the lock. Movable; start-up
+/// The file of one status page, mapped into memory. The publisher holds a lock on the file, which
+/// the kernel releases however the process ends. So a page in use is told from one left behind,
+/// even if the process number is in use again, and between containers. Readers query the lock but
+/// never take it. A forked process without a following exec shares the lock. Movable; start-up
 /// only.
 class StatusPageFile {
  public:
   StatusPageFile(StatusPageFile&& other) noexcept;
   StatusPageFile& operator=(StatusPageFile&& other) noexcept;
-  /// The publisher's object removes the page.
+  /// If this object belongs to the publisher, removes the page.
   ~StatusPageFile();
 
   /// For the publisher: makes `name`.terracut in `folder`, whole or not at all, readable for all. A
@@ -84,7 +84,7 @@ class StatusPageFile {
   StatusPageFile() = default;
 
   std::filesystem::path path_;
-  files::OwnedDescriptor file_;  ///< Holds the lock.
+  files::OwnedDescriptor file_;  ///< On the publisher's side it holds the lock.
   bool publishes_ = false;
   std::size_t mapped_bytes_ = 0;
   StatusPageHeader* header_ = nullptr;

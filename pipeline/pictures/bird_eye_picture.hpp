@@ -10,7 +10,7 @@
 
 namespace terracut::pictures {
 
-/// What the bird's-eye view shows.
+/// The area and the scale of the bird's-eye view.
 struct BirdEyeView {
   double side_m = 100;  ///< Length of the square's side; the sensor is in the middle. [10, 400]
   double pixels_per_m = 10;    ///< [2, 40]
@@ -22,12 +22,12 @@ struct BirdEyeView {
 /// Higher returns cover lower ones.
 [[nodiscard]] Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view = {});
 
-/// A frame with its own colours, one a return.
+/// A labelled frame with a colour chosen for each return.
 struct ColouredFrame {
   const frame::RangeImage& image;
   std::span<const Colour> colours;  ///< One per return.
-  /// By return index: returns of a higher level cover those of a lower one, whatever their heights.
-  /// Empty: all of one level.
+  /// Level of each return, by return index: a higher level covers a lower one, whatever the
+  /// heights. Empty: all returns have the same level.
   std::span<const std::uint8_t> level;
 };
 [[nodiscard]] Picture bird_eye_picture(const ColouredFrame& frame, const BirdEyeView& view = {});

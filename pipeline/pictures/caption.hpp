@@ -11,14 +11,14 @@
 
 namespace terracut::pictures {
 
-/// What a colour, or a range of colours, stands for.
+/// A colour, or a range of colours, and its meaning.
 struct LegendEntry {
   std::string text;
-  std::vector<Colour> colours;  ///< Colours of its swatch from left to right; at least one.
+  std::vector<Colour> colours;  ///< Colours of the swatch from left to right; at least one.
 };
 
-/// Returns `picture` with a band below it that holds the title and the legend; long ones continue
-/// on further lines.
+/// Returns `picture` with a band below it that holds the title and the legend. Long text is
+/// continued on further lines.
 [[nodiscard]] Picture with_caption(const Picture& picture, std::string_view title,
                                    std::span<const LegendEntry> legend);
 

@@ -23,8 +23,8 @@ enum class Mistake : std::uint8_t {
 /// A labelled frame as the pictures need it. All spans are by return index.
 struct LabelledFrame {
   const frame::RangeImage& image;
-  std::span<const frame::Label> labels;  ///< One a return.
-  std::span<const Mistake> mistakes;     ///< One a return; empty if the truth is unknown.
+  std::span<const frame::Label> labels;  ///< One label per return.
+  std::span<const Mistake> mistakes;     ///< One per return; empty if the truth is unknown.
 };
 
 inline constexpr Colour kPictureBackground{14, 17, 23};
@@ -32,12 +32,12 @@ inline constexpr Colour kTextColour{240, 244, 248};
 inline constexpr Colour kMissedObstacleColour{255, 30, 30};
 inline constexpr Colour kFalseObstacleColour{255, 221, 0};
 
-/// Returns a colour. Ground is sand, brighter with more returned light. Obstacles go by height,
-/// from coral at the ground over violet to blue above 4 m; if mistakes are shown they are all
-/// slate, so that mistakes stand out.
+/// Returns the colour of a return. Ground is sand, brighter with more returned light. Obstacles go
+/// by height, from coral at the ground over violet to blue above 4 m; if mistakes are shown, all
+/// other obstacles are slate, so that mistakes stand out.
 [[nodiscard]] Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
                                       const frame::Return& point) noexcept;
-/// Explains the colours of such a frame, in the order of the labels.
+/// Returns the legend for the colours of `frame`, in the order of the labels.
 [[nodiscard]] std::vector<LegendEntry> legend_of(const LabelledFrame& frame);
 
 }  // namespace terracut::pictures

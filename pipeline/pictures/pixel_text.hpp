@@ -16,8 +16,8 @@ inline constexpr int kGlyphHeight = 7;  ///< Without the descenders of g, p, q a
   return static_cast<int>(text.size()) * kGlyphWidth * scale;
 }
 
-/// Writes `text` with its upper left corner at (x, y), each pixel of a glyph scale x scale pixels,
-/// scale >= 1. Has glyphs of ASCII; any other byte is drawn as '?'. Clips at the picture's edges.
+/// Writes `text` with its upper left corner at (x, y). Each pixel of a glyph is drawn as scale x
+/// scale pixels, scale >= 1. Non-ASCII bytes are drawn as '?'. Clips at the picture's edges.
 void draw_text(Picture& picture, int x, int y, std::string_view text, int scale,
                Colour colour) noexcept;
 

@@ -11,7 +11,7 @@
 
 namespace terracut::pictures {
 
-/// A colour, linear steps 0..255 as PNG stores them.
+/// A colour in red, green and blue, each 0 to 255 as PNG stores them.
 struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
 
@@ -22,7 +22,7 @@ struct Colour {
 [[nodiscard]] Colour mix(Colour from, Colour to, double share) noexcept;
 
 /// A picture of height x width pixels, row-major from the top left, three bytes each without
-/// padding. Drawing is clipped at its edges.
+/// padding. Drawing is clipped at the picture's edges.
 class Picture {
  public:
   Picture(int width, int height, Colour background);
@@ -34,19 +34,19 @@ class Picture {
   void set(int x, int y, Colour colour) noexcept;
   /// Blends `colour` over the pixel with the given opacity in [0, 1].
   void blend(int x, int y, Colour colour, double opacity) noexcept;
-  /// Fills [left, left + width) x [top, top + height).
+  /// Fills the pixels [left, left + width) x [top, top + height) with `colour`.
   void rectangle(int left, int top, int width, int height, Colour colour) noexcept;
   /// Draws a smooth-edged ring line of the given width, or a disc if radius <= width / 2.
   void circle(double centre_x, double centre_y, double radius, double width, Colour colour,
               double opacity) noexcept;
 
-  /// Returns the picture at half the size, each pixel the mean of four: smooths edges drawn at
-  /// twice the size.
+  /// Returns the picture at half the size, each pixel the mean of four; smooths the edges of a
+  /// picture drawn at twice the size.
   [[nodiscard]] Picture halved() const;
 
-  /// Returns the bytes of a PNG file (8-bit RGB). kWriteFailed if libpng cannot make it.
+  /// Returns the bytes of a PNG file (8-bit RGB). Fails with kWriteFailed if libpng fails.
   [[nodiscard]] Expected<std::vector<std::byte>> png() const;
-  /// Writes a PNG file, whole or not at all.
+  /// Writes a PNG file, which appears whole or not at all.
   [[nodiscard]] Status write_png(const std::filesystem::path& path) const;
 
  private:

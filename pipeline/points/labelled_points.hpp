@@ -12,14 +12,14 @@
 
 namespace terracut::points {
 
-/// The times of a frame's returns from its packets: the head rotated evenly from the first packet
-/// to the last. The default, all at 0, is for clouds without times.
+/// Gives the times of a frame's returns, assuming that the head rotated evenly from the first
+/// packet to the last. The default gives 0 for all returns and is for clouds without times.
 struct FrameTiming {
   frame::HeadSweep head;
-  double duration_s = 0;              ///< From the first packet to the last.
-  std::span<const float> beam_turns;  ///< decode::Decoder::beam_turns(); one a row, or empty.
+  double duration_s = 0;              ///< Time from the first packet to the last.
+  std::span<const float> beam_turns;  ///< decode::Decoder::beam_turns(), one per row, or empty.
 
-  /// Makes the timing of a frame whose decoder has these beams.
+  /// Returns the timing of a frame, given the beams of the decoder that made the frame.
   [[nodiscard]] static FrameTiming of(const frame::FrameInfo& info,
                                       std::span<const float> beam_turns) noexcept {
     constexpr double kSecond_ns = 1e9;
@@ -29,10 +29,10 @@ struct FrameTiming {
 };
 
 /// Writes the returns of a labelled frame to the first `image.returns()` elements of `points`, in
-/// order of arrival: the n-th is the n-th of a .label file. `labels` has one entry a return, by
-/// return index. False, and nothing written, if there are not as many labels as returns or too
-/// little room. Times are right to half a column and to the head's unevenness; all 0 with the
-/// default `timing`. Real-time safe.
+/// order of arrival: the n-th is the n-th of a .label file. `labels` has one entry per return, by
+/// return index. Returns false, having written nothing, if the number of labels is not that of
+/// returns or there is too little room. Times are exact to half a column and the head's unevenness;
+/// all are 0 with the default `timing`. Real-time safe.
 [[nodiscard]] bool pack_labelled_points(
     const frame::RangeImage& image, std::span<const frame::Label> labels,
     std::span<LabelledPoint> points, const FrameTiming& timing = {}) noexcept TERRACUT_NONBLOCKING;

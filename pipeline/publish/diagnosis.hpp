@@ -11,22 +11,22 @@
 
 namespace terracut::publish {
 
-/// The present state of one part of a run, as diagnostic_msgs/DiagnosticStatus has it.
+/// The present state of one part of a run, in the form of diagnostic_msgs/DiagnosticStatus.
 struct Diagnosis {
   enum class Severity : std::uint8_t { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
 
   Severity level = Severity::kOk;
   std::string name{};         ///< "terracut: deadline"
-  std::string message{};      ///< For people.
-  std::string hardware_id{};  ///< The sensor.
+  std::string message{};      ///< The state in words for people.
+  std::string hardware_id{};  ///< Name of the sensor.
   std::vector<std::pair<std::string, std::string>> values{};
 };
 
 /// Judges the figures of a run, about once a second: a loss is a warning only in the second in
-/// which it happened. One thread.
+/// which it happened. For one thread.
 class Diagnoses {
  public:
-  /// Returns deadline, input, losses, clock, threads and mount.
+  /// Returns one diagnosis each for deadline, input, losses, clock, threads and mount.
   [[nodiscard]] std::vector<Diagnosis> of(const status::MonitorSnapshot& figures);
 
  private:

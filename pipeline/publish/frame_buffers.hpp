@@ -12,15 +12,15 @@
 
 namespace terracut::publish {
 
-/// Recycles frames with the memory of their points once nobody holds them any more. Threads without
-/// a deadline.
+/// Recycles frames and the memory of their points once no output holds them. For threads without a
+/// deadline.
 class FrameBuffers {
  public:
-  /// Makes at most `count` frames at a time.
+  /// At most `count` frames exist at a time.
   explicit FrameBuffers(std::size_t count);
 
-  /// Returns a frame that nobody else has, which may still have old points; waits if all are in
-  /// use. May outlive this.
+  /// Returns a frame that nobody else holds, which may still have old points; waits if all frames
+  /// are in use. The returned frame may outlive this object.
   [[nodiscard]] std::shared_ptr<LabelledFrame> take();
 
  private:

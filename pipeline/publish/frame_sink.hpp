@@ -13,8 +13,8 @@
 
 namespace terracut::publish {
 
-/// An output of labelled frames. All functions but name(), queue_frames() and losses() are called
-/// on one thread of its own without a deadline (Publisher), which they may block for any time.
+/// An output of labelled frames. Publisher calls all functions except name(), queue_frames() and
+/// losses() on one thread of the output's own without a deadline; they may block for any time.
 class FrameSink {
  public:
   FrameSink() = default;
@@ -22,23 +22,23 @@ class FrameSink {
   FrameSink& operator=(const FrameSink&) = delete;
   virtual ~FrameSink() = default;
 
-  /// Returns a stable lower_snake_case name, as in figures: "mcap".
+  /// Returns a stable lower_snake_case name for the figures, such as "mcap".
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
-  /// Returns how many frames may wait for it, >= 1. More help if it stalls at times, as disks do.
+  /// Returns how many frames may wait for the output, >= 1; more if it stalls at times.
   [[nodiscard]] virtual std::size_t queue_frames() const noexcept { return 2; }
 
-  /// Takes a frame, valid during the call. After an error nothing more is called, not even
-  /// finish().
+  /// Takes a frame, valid during the call. After an error no function of the output is called any
+  /// more, not even finish().
   [[nodiscard]] virtual Status put(const LabelledFrame& frame) = 0;
-  /// Takes the run's figures, about once a second. Errors as of put().
+  /// Takes the run's figures, about once a second. An error has the effect of one of put().
   [[nodiscard]] virtual Status put_figures(const status::MonitorSnapshot& /*figures*/) {
     return {};
   }
-  /// Called after the last frame.
+  /// Completes the output; called after the last frame.
   [[nodiscard]] virtual Status finish() { return {}; }
 
-  /// Returns losses of its own since the start, such as frames for its readers, under names that
-  /// begin with name(). From any thread.
+  /// Returns the output's own losses since the start, such as frames that its readers missed, under
+  /// names that begin with name(). For any thread.
   [[nodiscard]] virtual std::vector<status::NamedCount> losses() const { return {}; }
 };
 

@@ -12,11 +12,11 @@ namespace terracut::publish {
 
 /// A labelled frame on its way to outputs without a deadline.
 struct LabelledFrame {
-  status::FrameRecord record;                 ///< Complete up to the labels.
-  std::vector<points::LabelledPoint> points;  ///< In order of arrival.
+  status::FrameRecord record;                 ///< Filled in except for what follows the labels.
+  std::vector<points::LabelledPoint> points;  ///< Returns of the frame in order of arrival.
 };
 
-/// One frame shared by all outputs, no longer changed.
+/// A frame that all outputs share and nobody changes.
 using SharedFrame = std::shared_ptr<const LabelledFrame>;
 
 }  // namespace terracut::publish

@@ -12,8 +12,8 @@
 
 namespace terracut::publish {
 
-/// Hands every labelled frame to every output. Each has its own queue and thread, so a stalled
-/// output delays no other. One that fails is reported once, by name, and the others go on.
+/// Hands every labelled frame to every output. Each output has its own queue and thread, so a
+/// stalled output delays no other. A failing output is reported once, by name; the others go on.
 ///
 ///   whoever labels  buffer(), fill it, put()  --->  queue  ->  thread  ->  FrameSink
 ///                                             `-->  queue  ->  thread  ->  FrameSink
@@ -27,23 +27,23 @@ class Publisher {
 
   [[nodiscard]] bool has_sinks() const noexcept { return !workers_.empty(); }
 
-  /// Returns room for the next frame. With kWait, waits until an output is done with one; otherwise
-  /// never waits.
+  /// Returns room for the next frame. With kWait, waits until an output has finished with a frame;
+  /// otherwise never waits.
   [[nodiscard]] std::shared_ptr<LabelledFrame> buffer() { return buffers_.take(); }
-  /// Hands out a frame, which nobody may change any more.
+  /// Hands out a frame, which may not be changed any more.
   void put(const SharedFrame& frame);
-  /// May be called from one other thread.
+  /// Hands out figures. May be called from one other thread.
   void put_figures(const status::MonitorSnapshot& figures);
 
-  /// To be called after the last frame: writes all that waits. `patience` is the time an output may
-  /// take for one frame, or to end; none: unlimited. False if an output does not answer; then the
-  /// process must end without destroying this.
+  /// Writes all that waits; call it after the last frame. `patience` is the longest time an output
+  /// may take for one frame or to end; without it there is no limit. Returns false if an output
+  /// does not answer; the process must then end without destroying this object.
   [[nodiscard]] bool finish(std::optional<std::chrono::milliseconds> patience);
 
-  /// Returns the first error of any output. From any thread, like the next function.
+  /// Returns the first error of any output. This and the next function may be called on any thread.
   [[nodiscard]] Status outcome() const;
-  /// Returns each output's left-out frames (NAME_frames_left_out) and its own counts. With `over`,
-  /// frames that still wait count as lost.
+  /// Returns each output's left-out frames (NAME_frames_left_out) and the output's own losses. If
+  /// `over` is true, frames that still wait count as lost.
   [[nodiscard]] std::vector<status::NamedCount> losses(bool over = false) const;
 
  private:

@@ -13,14 +13,14 @@
 
 namespace terracut::publish {
 
-/// Holds an object that may be unavailable, such as a port that another program has or a disk
-/// without room. Opens it on demand and, if that fails, again at intervals. One thread, without a
-/// deadline.
+/// Holds an object that may be unavailable, such as a port in use by another program or a disk
+/// without room. Opens the object on demand and, if that fails, again at intervals. For one thread
+/// without a deadline.
 template <class T>
 class Reopened {
  public:
   using Open = std::function<Expected<T>()>;
-  /// Called once with the reason when it becomes unavailable, and once when it is available again.
+  /// Called once with the reason when the object becomes unavailable, once when it is back.
   using OnNews = std::function<void(const Status&)>;
   struct Config {
     Open open;
@@ -30,7 +30,7 @@ class Reopened {
 
   explicit Reopened(Config config) : config_(std::move(config)) {}
 
-  /// Returns null if it is unavailable. An exception of open() counts as an error.
+  /// Returns the object, or null if it is unavailable. An exception from open() counts as an error.
   [[nodiscard]] T* get() {
     if (thing_ || measure::monotonic_ns() < due_ns_) return thing_ ? &*thing_ : nullptr;
     auto opened = caught();
@@ -43,13 +43,13 @@ class Reopened {
     return &*thing_;
   }
 
-  /// Drops an object that no longer works.
+  /// Drops the object because it no longer works.
   void give_up(const Error& error) {
     thing_.reset();
     fail(error);
   }
 
-  /// Returns null if it is not open.
+  /// Returns the object, or null if it is not open.
   [[nodiscard]] T* opened() noexcept { return thing_ ? &*thing_ : nullptr; }
 
  private:

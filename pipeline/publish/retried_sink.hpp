@@ -15,32 +15,32 @@
 
 namespace terracut::publish {
 
-/// An output that neither ends a run nor keeps it from starting: its inner sink is opened on its
-/// own thread, and opened again after a failure (Reopened). Frames in between are left out and
-/// counted as NAME_frames_while_closed.
+/// An output whose failure neither ends a run nor keeps it from starting: an inner sink is opened
+/// on the output's thread, and again after a failure (Reopened). Frames that come in between are
+/// left out and counted as NAME_frames_while_closed.
 class RetriedSink final : public FrameSink {
  public:
   using Inner = std::unique_ptr<FrameSink>;
   struct Config {
-    std::string name;  ///< The inner sink's, as is the next.
+    std::string name;  ///< Of the inner sink, as is queue_frames.
     std::size_t queue_frames = 2;
     Reopened<Inner>::Config inner;
-    /// For a recording: missing frames are an error in the end.
+    /// True for a recording: finish() then fails if frames are missing.
     bool is_to_be_whole = false;
   };
   explicit RetriedSink(Config config);
 
   [[nodiscard]] std::string_view name() const noexcept override { return name_; }
   [[nodiscard]] std::size_t queue_frames() const noexcept override { return queue_frames_; }
-  /// Never returns an error.
+  /// Passes the frame to the inner sink. Never fails.
   [[nodiscard]] Status put(const LabelledFrame& frame) override;
   [[nodiscard]] Status put_figures(const status::MonitorSnapshot& figures) override;
-  /// Errors: kWriteFailed if frames are missing and Config::is_to_be_whole.
+  /// Fails with kWriteFailed if frames are missing and Config::is_to_be_whole is set.
   [[nodiscard]] Status finish() override;
   [[nodiscard]] std::vector<status::NamedCount> losses() const override;
 
  private:
-  /// Returns null if it is not open.
+  /// Returns the inner sink, or null if it is not open.
   [[nodiscard]] FrameSink* inner();
   void give_up(const Error& error);
 
@@ -50,9 +50,9 @@ class RetriedSink final : public FrameSink {
   bool is_to_be_whole_;
 
   mutable std::mutex mutex_;    ///< Shared by threads without a deadline.
-  FrameSink* shown_ = nullptr;  ///< The sink that losses() may ask.
+  FrameSink* shown_ = nullptr;  ///< The open sink, for losses(); null if there is none.
   std::uint64_t while_closed_ = 0;
-  std::vector<status::NamedCount> before_;  ///< Losses of sinks that failed earlier.
+  std::vector<status::NamedCount> before_;  ///< Summed losses of sinks that failed earlier.
 };
 
 }  // namespace terracut::publish

@@ -14,14 +14,14 @@ struct RunFacts {
   std::string sensor;  ///< For messages: "hdl64e at 192.168.1.201, 10.0 Hz, single return".
   int rows = 0;        ///< Rows of the range image; points have rows [0, rows).
   mount::Mount mount{};
-  std::int64_t deadline_ns = 0;  ///< From a frame's last packet to its labels; 0: none.
-  bool has_road = false;         ///< Ground that is not road has a label of its own.
+  std::int64_t deadline_ns = 0;  ///< From a frame's last packet to its labels; 0: no deadline.
+  bool has_road = false;         ///< True if ground that is not road has its own label.
 
   /// Names of coordinate frames in ROS' transform tree. Points lie in the vehicle frame
-  /// (calib/mount/mount.hpp), published as a child of the sensor's frame: that one has a parent in
-  /// a vehicle's tree already, and a frame can have only one parent.
+  /// (calib/mount/mount.hpp), published as a child of the sensor's frame: the sensor's frame
+  /// already has a parent in a vehicle's tree, and a frame can have only one parent.
   std::string frame_id = "terracut_ground";
-  std::string sensor_frame_id = "terracut_lidar";  ///< Empty: no transform is published.
+  std::string sensor_frame_id = "terracut_lidar";  ///< Sensor's frame; empty: no transform.
 };
 
 }  // namespace terracut::publish

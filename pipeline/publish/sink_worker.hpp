@@ -18,16 +18,16 @@
 
 namespace terracut::publish {
 
-/// What happens to a frame for which an output has no room.
+/// What happens to a frame when an output's queue is full.
 enum class WhenFull : std::uint8_t {
   kWait,        ///< The producer waits: a recording must not lose frames.
   kDropOldest,  ///< The oldest waiting frame is left out and counted.
 };
 
-/// An output with its queue and its thread.
+/// Runs an output with a queue and a thread of its own.
 class SinkWorker {
  public:
-  /// Called once, on its thread, with the reason why an output gets nothing more.
+  /// Called once, on the output's thread, with the reason why the output gets nothing more.
   using OnFailure = std::function<void(std::string_view sink, const Error& error)>;
 
   SinkWorker(std::unique_ptr<FrameSink> sink, WhenFull when_full, OnFailure on_failure);
@@ -35,31 +35,31 @@ class SinkWorker {
   SinkWorker& operator=(const SinkWorker&) = delete;
   ~SinkWorker() { begin_to_finish(); }
 
-  // For one thread:
+  // The following functions are for one thread.
 
   void put(SharedFrame frame);
-  /// Replaces figures that the sink has not had yet.
+  /// Hands over figures; figures that the sink has not taken yet are replaced.
   void put_figures(std::shared_ptr<const status::MonitorSnapshot> figures);
-  /// Writes all that waits, then ends.
+  /// Lets the thread write all that waits and then end.
   void begin_to_finish();
-  /// False if it did not end; then the process must end without destroying this.
+  /// False if the thread did not end; the process must then end without destroying this object.
   [[nodiscard]] bool ends_within(std::chrono::milliseconds patience) {
     return thread_.ends_within(patience);
   }
 
-  // For any thread:
+  // The following functions are for any thread.
 
   [[nodiscard]] const FrameSink& sink() const noexcept { return *sink_; }
-  /// Returns the frames left out for lack of room or after a failure.
+  /// Returns how many frames were left out for lack of room or after a failure.
   [[nodiscard]] std::uint64_t left_out() const;
-  /// Returns the frames that wait or are in work; they are lost if the sink hangs for good.
+  /// Returns how many frames wait or are being written; they are lost if the sink hangs for good.
   [[nodiscard]] std::uint64_t waiting() const;
-  /// Returns the first error, after which the sink got nothing more.
+  /// Returns the first error, if any; after it the sink got nothing more.
   [[nodiscard]] std::optional<Error> failure() const;
 
  private:
   void work();
-  /// The next piece of work; empty at the end.
+  /// The next piece of work for the thread; empty at the end.
   struct Work {
     SharedFrame frame;
     std::shared_ptr<const status::MonitorSnapshot> figures;
@@ -79,7 +79,7 @@ class SinkWorker {
   bool is_working_ = false, finish_ = false;
   std::optional<Error> failure_;
 
-  threads::BackgroundThread thread_;  ///< Declared last, as it uses all of the above.
+  threads::BackgroundThread thread_;  ///< Declared last, because it uses the members above.
 };
 
 }  // namespace terracut::publish

@@ -16,8 +16,8 @@ namespace terracut::random_field {
 
 /// The rule by which two neighbouring returns tend to the same label.
 enum class BoundaryRule : std::uint8_t {
-  kHeightGradient,  ///< exp(-sigma dh^2 / d), Eq. 14: small height difference for its distance.
-  kNearness,        ///< exp(-distance / scale): closeness in space, scale growing with range.
+  kHeightGradient,  ///< exp(-sigma dh^2 / d), Eq. 14: dh is the height difference, d the distance.
+  kNearness,        ///< exp(-distance / scale); the scale grows with range.
 };
 
 /// Stage 3b, the boundary term B(A) of the energy (paper, Eq. 8, 9, 14, 15): the weight of an edge
@@ -26,15 +26,15 @@ class BoundaryTerm {
  public:
   struct Config {
     BoundaryRule rule = BoundaryRule::kNearness;
-    // kHeightGradient
+    // Settings of kHeightGradient
     float sigma = 10.0F;           ///< Adjustment coefficient of Eq. 14, 1/m.
-    float min_distance_m = 0.05F;  ///< Least d: on walls d goes to 0 and the exponent to infinity.
-    // kNearness
+    float min_distance_m = 0.05F;  ///< Least d: on walls d nears 0 and the exponent infinity.
+    // Settings of kNearness
     float scale_m = 0.10F;          ///< Distance at which the weight is 1/e, at range 0.
     float scale_per_metre = 0.01F;  ///< Growth of that distance per metre of range.
   };
 
-  /// `points` of the whole image, valid at unknown cells and next to them.
+  /// `points` covers the whole image and must be valid at unknown cells and next to them.
   BoundaryTerm(const Config& config, const stage::NegativeExp& negative_exp,
                const frame::PointPlanes& points) noexcept
       : rule_(config.rule),
@@ -65,13 +65,13 @@ class BoundaryTerm {
  private:
   using FourFloats = stage::FourFloats;
   using FourInts = stage::FourInts;
-  /// Values of the neighbours in directions 0, 2, 4, 6 and 1, 3, 5, 7.
+  /// A value of each neighbour: those in directions 0, 2, 4, 6 and those in 1, 3, 5, 7.
   struct Eight {
     FourFloats even, odd;
   };
 
   [[nodiscard]] static FourFloats all(float value) noexcept { return value - FourFloats{}; }
-  /// Reads a plane at the eight neighbours; away from the image's edges with three loads.
+  /// Reads a plane at the eight neighbours; needs three loads away from the image's edges.
   [[gnu::always_inline, nodiscard]] static Eight around(const float* plane,
                                                         const min_cut::NeighbourCells& n) noexcept {
     if (min_cut::are_next_to_each_other(n)) [[likely]] {

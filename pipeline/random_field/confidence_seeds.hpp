@@ -11,26 +11,26 @@
 
 namespace terracut::random_field {
 
-/// The rows of the range image that the MRF decides.
+/// The rows of the range image that the Markov random field (MRF) decides.
 enum class CutRows : std::uint8_t {
   kAuto,  ///< kAll for images of up to 64 rows, kGround for denser ones.
   kAll,   ///< Every row.
-  /// Rows whose beam meets the mount's ground plane within the profile's range limit (the paper's
-  /// 70 of the RS-Ruby128's 128). Rows above keep the label of earlier stages.
+  /// The rows whose beam meets the mount's ground plane within the profile's range limit (70 of 128
+  /// rows of an RS-Ruby128 in the paper). Higher rows keep the label of earlier stages.
   kGround,
 };
 
-/// Stage 3a: chooses the returns that initialise the MRF as "object" and "background"; the others
-/// stay unknown (paper, section III-D). Obstacles of earlier stages are trusted if they are high or
-/// steep; ground is trusted if the share of ground in a window around it exceeds k.
+/// Stage 3a: chooses the returns that initialise the MRF as "object" and "background"; other
+/// returns stay unknown (paper, section III-D). Obstacles of earlier stages are trusted if they are
+/// high or steep; ground is trusted if the share of ground in a window around it exceeds k.
 class ConfidenceSeeds {
  public:
   struct Config {
-    float ground_share = 0.7F;         ///< k: share of ground among the window's returns, [0, 1].
-    int window_rows = 2;               ///< Window reach up and down, row steps; [0, 8].
-    float row_step_deg = 0.25F;        ///< A row step covers at least this (RowSteps), [0, 5].
-    int window_columns = 3;            ///< Window reach to each side, columns; [0, 16].
-    float max_ground_height_m = 1e9F;  ///< Ground seeds are no higher above the reference.
+    float ground_share = 0.7F;         ///< Share k of ground among the window's returns, [0, 1].
+    int window_rows = 2;               ///< Row steps the window extends up and down, [0, 8].
+    float row_step_deg = 0.25F;        ///< Least elevation of a row step (RowSteps), [0, 5].
+    int window_columns = 3;            ///< Columns the window extends to each side, [0, 16].
+    float max_ground_height_m = 1e9F;  ///< Highest ground seed above the reference.
     float min_obstacle_height_m =
         0.30F;                         ///< Obstacles this high are seeds; lower ones only if steep.
     bool trust_all_obstacles = false;  ///< Makes all obstacles of earlier stages seeds, as printed.
@@ -45,9 +45,9 @@ class ConfidenceSeeds {
   void select(const stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] std::span<const min_cut::Seed> seeds() const noexcept { return seeds_; }
-  /// Returns the seeds for the cut, which decides the unknown ones in place.
+  /// Returns the seeds, in which the cut then decides the unknown cells.
   [[nodiscard]] std::span<min_cut::Seed> mutable_seeds() noexcept { return seeds_; }
-  /// Rows 0 .. cut_rows() - 1 may hold unknown returns.
+  /// Returns how many rows may hold unknown returns: rows 0 to cut_rows() - 1.
   [[nodiscard]] int cut_rows() const noexcept { return cut_rows_; }
 
  private:
@@ -59,15 +59,15 @@ class ConfidenceSeeds {
   Config config_;
   frame::ImageShape shape_;
   int cut_rows_;
-  std::span<std::int32_t> window_begin_, window_end_;  // by row: the window's rows [begin, end)
-  int counted_begin_ = 0, counted_end_ = 0;            // rows in the sums below
+  std::span<std::int32_t> window_begin_, window_end_;  // by row: rows [begin, end) of its window
+  int counted_begin_ = 0, counted_end_ = 0;            // rows included in the sums below
   std::span<min_cut::Seed> seeds_;
-  // Sums of one row's windows over their rows, with the seam's columns repeated at both ends.
+  // Sums over the rows of a row's windows, by column; columns near the seam appear at both ends.
   std::span<std::uint8_t> ground_in_column_;
   std::span<std::uint8_t> returns_in_column_;
-  // Sums over whole windows, in bytes if those hold most_in_window_.
+  // Sums over whole windows; stored as bytes if most_in_window_ fits a byte.
   std::span<std::uint16_t> sums_;
-  int most_in_window_ = 0;                                     // in returns
+  int most_in_window_ = 0;                                     // most returns in a window
   std::span<std::uint8_t> trusted_ground_, trusted_obstacle_;  // of the row being judged
 };
 

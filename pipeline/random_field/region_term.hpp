@@ -14,12 +14,12 @@
 
 namespace terracut::random_field {
 
-/// The source of the costs of calling an unknown return ground or obstacle.
+/// The way to find what it costs to call an unknown return ground or obstacle.
 enum class RegionRule : std::uint8_t {
   /// -lambda ln of the seeds' height histograms: Eq. 10-13, read as cost(obstacle) = -ln D_obj and
   /// cost(ground) = -ln D_bkg (as printed, both use D_obj).
   kHistogram,
-  /// A ramp in the height above the local ground, the same in every frame.
+  /// A ramp by the height above the local ground, the same in every frame.
   kHeightRamp,
 };
 
@@ -31,22 +31,22 @@ class RegionTerm {
   struct Config {
     RegionRule rule = RegionRule::kHeightRamp;
     float lambda = 1.0F;  ///< Weight against the boundary term, > 0.
-    // kHistogram
+    // Settings of kHistogram
     float bins_per_metre = 10.0F;  ///< k of Eq. 10.
-    float empty_bin_count = 1.0F;  ///< Least count of a bin (empty ones would cost infinity), > 0.
-    // kHeightRamp
+    float empty_bin_count = 1.0F;  ///< Least count of a bin, > 0; an empty bin would cost infinity.
+    // Settings of kHeightRamp
     float even_height_m = 0.13F;  ///< Ground and obstacle cost the same at this height.
-    float ramp_m = 0.15F;         ///< Beyond this distance from it the cost stays at lambda.
+    float ramp_m = 0.15F;  ///< Farther than this from even_height_m the cost stays at lambda.
   };
 
   explicit RegionTerm(const Config& config) noexcept : config_(config) {}
 
-  /// Sets the frame whose cells are asked for. kHistogram needs `points` of all seeds, kHeightRamp
-  /// none. Real-time safe.
+  /// Sets the frame whose cells will be asked for. kHistogram needs `points` at all seeds;
+  /// kHeightRamp needs no points. Real-time safe.
   void look_at(const frame::PointPlanes& points, const stage::CellPlanes& planes,
                std::span<const min_cut::Seed> seeds) noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns what a cell's height suggests, [-1, 1], obstacle to ground: the ramp of kHeightRamp.
+  /// Returns what a cell's height suggests by kHeightRamp, from -1 (obstacle) to 1 (ground).
   [[nodiscard]] float lean(std::uint32_t cell) const noexcept {
     return -std::clamp((height_m_[cell] - config_.even_height_m) / config_.ramp_m, -1.0F, 1.0F);
   }
@@ -77,7 +77,7 @@ class RegionTerm {
   Config config_;
   const float* z_m_ = nullptr;
   std::span<const float> height_m_;
-  // kHistogram
+  // State of kHistogram
   float lowest_ground_m_ = 0;
   BinCosts ground_costs_{}, obstacle_costs_{};
 };

@@ -13,40 +13,40 @@
 
 namespace terracut::recorder {
 
-/// How much disk the dumps may take.
+/// The limits of the disk space for dumps.
 struct DumpFolderLimits {
-  std::filesystem::path folder;           ///< Made if missing.
-  std::string name = "terracut";          ///< Begins the names of our dumps; see is_dump_name().
-  std::size_t most_dumps = 20;            ///< Our dumps kept, [1, ...).
-  std::uint64_t most_bytes = 2ULL << 30;  ///< For all our dumps together.
-  std::uint64_t least_free_bytes = 1ULL << 30;  ///< Left free for others on that file system.
+  std::filesystem::path folder;                 ///< Folder of the dumps; made if missing.
+  std::string name = "terracut";                ///< Start of our dumps' names; see is_dump_name().
+  std::size_t most_dumps = 20;                  ///< Most dumps kept of ours, [1, ...).
+  std::uint64_t most_bytes = 2ULL << 30;        ///< Most bytes of all our dumps together.
+  std::uint64_t least_free_bytes = 1ULL << 30;  ///< Least space left free on the file system.
 };
 
-/// True for 1 to 64 letters, digits, '_', '-' and '.', as for status pages: it becomes part of file
-/// names.
+/// True for 1 to 64 letters, digits, '_', '-' and '.', as in names of status pages: the name
+/// becomes part of file names.
 [[nodiscard]] bool is_dump_name(std::string_view name) noexcept;
 
-/// The folder in which a recorder keeps its dumps: names them, and makes room by deleting the
-/// oldest. It touches only its own: plain files called
+/// The folder in which a recorder keeps its dumps: names dumps and makes room by deleting the
+/// oldest. It touches only files of its own: plain files called
 /// `NAME-SERIAL-YYYYMMDDTHHMMSS.mmmZ-REASON.pcap`, the `.frames.json` and the unit's
-/// `.calibration.xml` or `.csv` beside it, and parts of these that a killed process left
+/// `.calibration.xml` or `.csv` beside such a file, and parts of these that a killed process left
 /// (`...part-PID-N`). The oldest dump has the lowest serial number, whatever the clock said; dumps
 /// of earlier versions, without a number, are older than all others.
 ///
-/// One thread; blocks on the disk: not for real-time threads.
+/// For one thread without a deadline: blocks on the disk.
 class DumpFolder {
  public:
-  /// std::invalid_argument for a bad name or a limit out of its range.
+  /// Throws std::invalid_argument for an invalid name or a limit out of range.
   explicit DumpFolder(DumpFolderLimits limits);
 
   /// Makes room for a dump of `bytes` (both files) and returns the path of its capture. Deletes old
-  /// dumps as the limits require, but only if the new one can then be written: kOverQuota, kDiskLow
-  /// and kFolderUnusable change nothing.
+  /// dumps as the limits require, but only if the new dump can then be written: kOverQuota,
+  /// kDiskLow and kFolderUnusable change nothing.
   [[nodiscard]] tl::expected<std::filesystem::path, RefusedDump> make_room(std::uint64_t bytes,
                                                                            DumpReason reason,
                                                                            std::int64_t now_ns);
 
-  /// Checks that dumps can be written there; makes the folder if missing. kFolderUnusable.
+  /// Checks that dumps can be written to the folder, made if missing. Fails with kFolderUnusable.
   [[nodiscard]] tl::expected<void, RefusedDump> check() const;
 
   /// Returns how many old dumps make_room() has deleted since construction.
@@ -59,10 +59,10 @@ class DumpFolder {
   std::uint64_t newest_serial_ = 0;  ///< The last serial number given.
 };
 
-/// Returns the path of the JSON file of a dump's capture.
+/// Returns the path of the JSON file that belongs to the capture of a dump.
 [[nodiscard]] std::filesystem::path frame_times_path(const std::filesystem::path& capture);
-/// Returns the path of the unit's table beside it; `suffix` is that of the sensor's drives, such as
-/// ".calibration.xml".
+/// Returns the path of the unit's calibration table that belongs to `capture`; `suffix` is the
+/// ending for the sensor's tables, such as ".calibration.xml".
 [[nodiscard]] std::filesystem::path dump_calibration_path(const std::filesystem::path& capture,
                                                           std::string_view suffix);
 

@@ -15,13 +15,13 @@ namespace terracut::recorder {
 
 /// Allows `burst` dumps at once, and one more for every `interval_s` that passes.
 struct DumpRate {
-  double interval_s = 60;  ///< (0, 1e6]
-  int burst = 1;           ///< [1, 1000]
+  double interval_s = 60;  ///< Time until one more dump is allowed, (0, 1e6]
+  int burst = 1;           ///< Dumps allowed at once, [1, 1000]
 };
 
 struct DumpLimits {
   DumpFolderLimits folder;
-  /// Limited, as a process that misses every deadline must not keep the disk busy.
+  /// Limited, because a process that misses every deadline must not keep the disk busy.
   DumpRate missed_deadline{.interval_s = 60, .burst = 1};
   DumpRate asked{.interval_s = 10, .burst = 3};
 };
@@ -34,33 +34,32 @@ struct DumpCounters {
   std::uint64_t deleted = 0;  ///< Old dumps deleted to make room for new ones.
 };
 
-/// Decides whether a dump may be written, by rate limits, the folder's quota and the least free
-/// space, and counts the outcomes. Each refusal is counted under its name: wanted = written +
-/// refused.
+/// Decides by rate limits, the folder's quota and the least free space whether a dump may be
+/// written. Counts each dump as written or as refused for its reason: wanted = written + refused.
 ///
-/// One thread, the one that dumps.
+/// For one thread, the one that dumps.
 class DumpPolicy {
  public:
-  /// std::invalid_argument for a limit out of its range.
+  /// Throws std::invalid_argument for a limit out of range.
   explicit DumpPolicy(const DumpLimits& limits);
 
-  /// Makes the first check, before anything is copied: kTooSoon by the rate limit of `reason`. Uses
-  /// up one of the dumps allowed, whatever becomes of it: an attempt costs as much as a dump.
-  /// `monotonic_ns` is a clock that nobody sets.
+  /// Makes the first check, before anything is copied: kTooSoon by the rate limit of `reason`. Each
+  /// call uses up one allowed dump even if no dump is written, as an attempt costs as much.
+  /// `monotonic_ns` is a clock that is never set.
   [[nodiscard]] tl::expected<void, RefusedDump> admit(DumpReason reason, std::int64_t monotonic_ns);
 
-  /// Makes the second check, with the size known: calls DumpFolder::make_room().
+  /// Makes the second check, when the size is known, by DumpFolder::make_room().
   [[nodiscard]] tl::expected<std::filesystem::path, RefusedDump> make_room(
       std::uint64_t bytes, DumpReason reason, std::int64_t realtime_ns);
 
-  /// Counts a refusal that the recorder found itself, and returns it.
+  /// Counts a refusal that the recorder itself found, and returns the refusal.
   [[nodiscard]] tl::unexpected<RefusedDump> refuse(RefusedDump refused);
   void note_written() noexcept { ++counters_.written; }
 
   [[nodiscard]] const DumpCounters& counters() const noexcept { return counters_; }
 
  private:
-  /// The dumps a rate allows, counted down and refilled.
+  /// How many dumps the rate allows now: counted down by dumps, refilled with time.
   struct Allowance {
     DumpRate rate;
     double left = 0;

@@ -11,7 +11,7 @@
 
 namespace terracut::recorder {
 
-/// The reason for a dump.
+/// The event that led to a dump.
 enum class DumpReason : std::uint8_t {
   kMissedDeadline,  ///< A frame's labels were late.
   kAsked,           ///< A person or program asked: `terracut dump`, SIGUSR1.
@@ -25,7 +25,7 @@ inline constexpr std::size_t kDumpReasons = 2;
 
 /// Why a dump was refused.
 enum class DumpRefusal : std::uint8_t {
-  kTooSoon,         ///< The rate limit of its reason was reached.
+  kTooSoon,         ///< The rate limit for dumps of this reason was reached.
   kNothingHeld,     ///< No datagram has come yet (or all were overwritten).
   kOverQuota,       ///< The dump alone is larger than the folder's quota.
   kDiskLow,         ///< Free space would fall below the limit.
@@ -35,7 +35,7 @@ enum class DumpRefusal : std::uint8_t {
 };
 inline constexpr std::size_t kDumpRefusals = 7;
 
-/// Returns "too_soon" and so on, for metrics and JSON.
+/// Returns a stable name such as "too_soon", for metrics and JSON.
 [[nodiscard]] constexpr std::string_view to_string(DumpRefusal refusal) noexcept {
   constexpr std::array<std::string_view, kDumpRefusals> kNames{
       "too_soon",        "nothing_held", "over_quota", "disk_low",
@@ -56,9 +56,9 @@ struct DumpReport {
   std::filesystem::path frame_times;  ///< The JSON file beside it.
   std::filesystem::path calibration;  ///< The unit's table beside it; empty if none was written.
   std::uint64_t datagrams = 0;
-  std::uint64_t overwritten = 0;  ///< Not in the capture: overwritten during the copy.
-  std::uint64_t unwritable = 0;   ///< Not in the capture: a pcap cannot hold the stamp.
-  std::int64_t first_stamp_ns = 0, last_stamp_ns = 0;  ///< Stamps of its first and last datagram.
+  std::uint64_t overwritten = 0;  ///< Datagrams overwritten during the copy, so not in the file.
+  std::uint64_t unwritable = 0;   ///< Datagrams left out, as a pcap cannot hold their stamp.
+  std::int64_t first_stamp_ns = 0, last_stamp_ns = 0;  ///< Of the first and last datagram.
 };
 
 }  // namespace terracut::recorder

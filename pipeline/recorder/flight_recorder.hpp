@@ -18,34 +18,34 @@
 
 namespace terracut::recorder {
 
-/// The times of the last frames, to be written beside a dump.
+/// The records of the last frames, whose times are written beside a dump.
 struct DumpFrames {
   std::span<const status::FrameRecord> times;
   std::span<const std::string_view> stages;  ///< Names for FrameRecord::stage_cpu_ns.
 };
 
 /// Keeps the last seconds of datagrams in fixed memory and writes them to disk when something went
-/// wrong: a pcap for `terracut replay`, to look at the frame again, and the times of its frames as
-/// JSON beside it (`X.pcap` and `X.frames.json`).
+/// wrong: a pcap, which `terracut replay` shows again, and the times of the frames as JSON beside
+/// it (`X.pcap` and `X.frames.json`).
 ///
 /// Two threads: one adds, another one dumps. A dump first copies the ring to its own memory (so
-/// twice the ring's size is taken at start), then writes from there: a stalled disk loses nothing.
+/// twice the ring's size is taken at start), then writes the copy: a stalled disk loses nothing.
 class FlightRecorder {
  public:
-  /// Takes all memory. std::invalid_argument for a size of 0.
+  /// Takes all memory. Throws std::invalid_argument for a size of 0.
   FlightRecorder(const net::PacketRingSize& size, memory::FixedMemory& memory)
       : ring_(size, memory), window_(size, memory) {}
 
-  /// For the receive thread: wait-free, allocates nothing, touches no file.
+  /// Adds a datagram; for the receive thread. Wait-free, allocates nothing, touches no file.
   void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING { ring_.add(datagram); }
 
-  /// Writes both files, whole or not at all; neither is ever visible without its content, nor the
-  /// capture without its times. Not for real-time threads: blocks on the disk. kNothingCameOut if
-  /// no datagram is held; else the errors of PcapWriter.
+  /// Writes both files, each whole or not at all, and the capture never without its times. Not for
+  /// real-time threads: blocks on the disk. Fails with kNothingCameOut if no datagram is held, else
+  /// with the errors of PcapWriter.
   [[nodiscard]] Expected<DumpReport> dump(const std::filesystem::path& capture, DumpReason reason,
                                           const DumpFrames& frames);
 
-  /// Dumps where and if `policy` allows it; the policy counts the outcome.
+  /// Dumps if `policy` allows a dump, to the path that `policy` gives; `policy` counts the outcome.
   [[nodiscard]] tl::expected<DumpReport, RefusedDump> dump(DumpPolicy& policy, DumpReason reason,
                                                            const DumpFrames& frames);
 

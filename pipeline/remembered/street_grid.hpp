@@ -13,23 +13,23 @@
 namespace terracut::remembered {
 
 /// Remembers what earlier frames saw of the street around the vehicle, in boxes: squares of the
-/// ground plane, cut into layers of height above the ground found there. Since heights are not
-/// above the mount's plane, neither a nod of the vehicle nor a hill moves the memory.
+/// ground plane, cut into layers of height above the ground found there. As heights are not
+/// measured from the mount's plane, neither a nod of the vehicle nor a hill moves the memory.
 ///
 /// The squares stand still while the vehicle drives over them; they are stored modulo kSide and
-/// forgotten once outside the window. A box keeps the mean evidence of a frame's returns, in
-/// [-kSure, kSure], obstacle to ground, and a share of that of earlier frames, which shrinks from
-/// frame to frame.
+/// forgotten once outside the window. A box keeps the mean evidence of a frame's returns, from
+/// -kSure (obstacle) to kSure (ground), and a share of the evidence of earlier frames, which
+/// shrinks from frame to frame.
 ///
-/// Takes its memory in the constructor. One thread; real-time safe.
+/// Takes all memory in the constructor. One thread; real-time safe.
 class StreetGrid {
  public:
   struct Config {
-    float square_m = 0.4F;  ///< [0.1, 2]
-    float layer_m = 0.1F;   ///< [0.02, 1]
-    float keep = 0.5F;      ///< Share of the memory left a frame later, [0, 1).
+    float square_m = 0.4F;  ///< Side of a square, [0.1, 2]
+    float layer_m = 0.1F;   ///< Height of a layer, [0.02, 1]
+    float keep = 0.5F;      ///< Share of the memory kept from frame to frame, [0, 1).
   };
-  static constexpr int kSide = 256, kLayers = 8;  ///< Squares to a side, and layers.
+  static constexpr int kSide = 256, kLayers = 8;  ///< Squares per side of the window, and layers.
   static constexpr int kLayersBelow = 2;          ///< Layers below the ground.
   static constexpr int kSure = 127;
   static constexpr std::uint32_t kOutside = UINT32_MAX;
@@ -37,11 +37,11 @@ class StreetGrid {
   StreetGrid(const Config& config, memory::FixedMemory& memory);
 
   void clear() noexcept TERRACUT_NONBLOCKING;
-  /// Begins a frame with the sensor at `place`, on the same journey as the last frame unless
-  /// everything was forgotten.
+  /// Begins a frame with the sensor at `place`. The place must be on the same journey as the last
+  /// frame's, unless everything was forgotten.
   void begin_frame(const frame::Place& place) noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns the square of a place in the frame, kOutside beyond the window.
+  /// Returns the square at (x_m, y_m) in the frame; kOutside beyond the window.
   [[nodiscard]] std::uint32_t square_of(float x_m, float y_m) const noexcept {
     const float x = (cosine_ * x_m - sine_ * y_m) * per_metre_ + x_;
     const float y = (sine_ * x_m + cosine_ * y_m) * per_metre_ + y_;
@@ -51,21 +51,21 @@ class StreetGrid {
     const auto row = static_cast<std::uint32_t>(y) + origin_y_;
     return (row % kSide) * kSide + column % kSide;
   }
-  /// Returns the box of a return in a square, by its height above the ground; kOutside above and
-  /// below.
+  /// Returns the box of a return in a square, by the return's height above the ground; kOutside
+  /// above and below the layers.
   [[nodiscard]] std::uint32_t box_of(std::uint32_t square, float height_m) const noexcept {
     const float layer = height_m * layers_per_metre_ + float{kLayersBelow};
     if (!(layer >= 0 && layer < float{kLayers})) return kOutside;
     return square * kLayers + static_cast<std::uint32_t>(layer);
   }
 
-  /// Returns the fading evidence of earlier frames for a box; 0 if there is none.
+  /// Returns the evidence of earlier frames for a box, faded; 0 if there is none.
   [[nodiscard]] int said_before(std::uint32_t box) const noexcept {
     const Box& known = boxes_[box];
     if (known.frame == frame_) return known.before;
     return faded(known);
   }
-  /// Adds a return's evidence to its box, [-kSure, kSure].
+  /// Adds a return's evidence, from -kSure (obstacle) to kSure (ground), to a box.
   void add(std::uint32_t box, int says) noexcept {
     Box& known = boxes_[box];
     if (known.frame != frame_) known = {.before = faded(known), .frame = frame_};
@@ -78,12 +78,12 @@ class StreetGrid {
   static constexpr int kMostReturns = 250;
   static constexpr std::uint32_t kOldest = 16;  ///< In frames; older memory is forgotten.
 
-  /// `before` and the mean of `sum` are kept apart until the next frame.
+  /// `before` and the mean of `sum` are combined only when the next frame adds to the box.
   struct Box {
     std::int16_t sum = 0;
     std::uint8_t returns = 0;
     std::int8_t before = 0;
-    std::uint32_t frame = 0;  ///< The last frame that added to it; 0: none.
+    std::uint32_t frame = 0;  ///< Newest frame that added to the box; 0: none.
   };
 
   [[nodiscard]] std::int8_t faded(const Box& box) const noexcept {
@@ -101,12 +101,12 @@ class StreetGrid {
 
   float per_metre_, layers_per_metre_;
   int keep_;                ///< Share kept per frame, in units of 1 / kOne.
-  int fade_[kOldest] = {};  ///< keep_ to the powers 0, 1, ..., times kOne.
+  int fade_[kOldest] = {};  ///< keep_ to the powers 0, 1, ..., in the same units.
   std::uint32_t frame_ = 0;
   bool is_empty_ = true;
-  std::int64_t square_x_ = 0, square_y_ = 0;     ///< The window's lowest corner, in squares.
+  std::int64_t square_x_ = 0, square_y_ = 0;     ///< Lowest corner of the window, in squares.
   std::uint32_t origin_x_ = 0, origin_y_ = 0;    ///< square_x_, square_y_ modulo kSide.
-  float cosine_ = 1, sine_ = 0, x_ = 0, y_ = 0;  ///< Frame to window, in squares.
+  float cosine_ = 1, sine_ = 0, x_ = 0, y_ = 0;  ///< From frame to window.
   double squares_per_metre_;
   std::span<Box> boxes_;
 };

@@ -22,27 +22,27 @@ namespace terracut::remembered {
 ///
 /// The prior decides only cells that the frame itself leaves nearly open. Seeds stay seeds, except
 /// steep, low obstacles, which become unknown where earlier frames surely saw ground. A prior
-/// weighs no more than a clear height, and beside anything tall now nothing is drawn towards
-/// ground. So objects that appear, leave or move are decided by their own frame. The memory of a
+/// weighs no more than a clear height, and beside anything tall now no cell is drawn towards
+/// ground. So objects that appear, leave or move are decided by the present frame. The memory of a
 /// cell is the mean of its label and of the evidence of its height: a label against a clear height
 /// lasts a few frames; against evidence of less than a third (up to 0.18 m, where ground was
 /// remembered) it stays.
 ///
-/// If what is certain in this frame contradicts what was certain before, the motion is taken to be
+/// If cells that are certain in this frame contradict certain memory, the motion is taken to be
 /// wrong: everything is forgotten, and the frame is labelled by itself. Slightly wrong motion is
 /// seldom noticed.
 ///
-/// Takes its memory in the constructor. One thread; real-time safe.
+/// Takes all memory in the constructor. One thread; real-time safe.
 class StreetMemory {
  public:
   struct Config {
     bool enabled = true;
     StreetGrid::Config grid;
-    float weight = 1.0F;           ///< Of a sure memory, relative to a region term of 1; [0, 10].
+    float weight = 1.0F;            ///< Weight of a sure memory, with a region term of 1; [0, 10].
     float reopen_height_m = 0.35F;  ///< Highest steep obstacle that may become unknown.
-    float reopen_share = 0.2F;     ///< How surely memory must say ground for that, [0, 1].
-    float tall_m = 0.35F;          ///< Beside anything this tall nothing is drawn to ground.
-    /// Share of certain returns contradicting a certain memory at which the motion is taken to be
+    float reopen_share = 0.2F;      ///< How sure of ground the memory must be for that, [0, 1].
+    float tall_m = 0.35F;           ///< Beside anything this tall no cell is drawn to ground.
+    /// If this share of the certain returns contradicts a certain memory, the motion is taken to be
     /// wrong.
     float max_contradiction = 0.2F;
   };
@@ -52,8 +52,8 @@ class StreetMemory {
   /// Forgets all earlier frames.
   void forget() noexcept TERRACUT_NONBLOCKING;
 
-  /// Called before the cut, for a frame whose sensor stands at `place`: finds the memory of its
-  /// unknown cells, and makes seeds unknown that it contradicts. `points` of all cells.
+  /// Finds the memory of the unknown cells of a frame whose sensor stands at `place`, and makes
+  /// contradicted seeds unknown. Called before the cut; `points` must be valid in all cells.
   void look_back(const frame::Place& place, const frame::PointPlanes& points,
                  const stage::CellPlanes& planes,
                  std::span<min_cut::Seed> seeds) noexcept TERRACUT_NONBLOCKING;
@@ -63,8 +63,8 @@ class StreetMemory {
     return for_ground > 0 ? min_cut::LabelCosts{0, for_ground}
                           : min_cut::LabelCosts{-for_ground, 0};
   }
-  /// Called after the cut: remembers the frame given to look_back(). `lean(cell)` is the evidence
-  /// of an unknown cell's own height, [-1, 1], obstacle to ground.
+  /// Remembers the frame given to look_back(); called after the cut. `lean(cell)` is the evidence
+  /// of an unknown cell's own height, from -1 (obstacle) to 1 (ground).
   template <class Lean>
   void remember(const stage::CellPlanes& planes, Lean&& lean) noexcept {
     for (std::size_t cell = 0; cell < box_.size(); ++cell) {
@@ -81,7 +81,7 @@ class StreetMemory {
   [[nodiscard]] const stage::MemoryReport& report() const noexcept { return report_; }
 
  private:
-  /// The state of a cell by its frame alone.
+  /// The state of a cell, judged by the present frame alone.
   enum Own : std::uint8_t { kCertain, kOpen, kLow };
 
   void find_boxes(const frame::PointPlanes& points, const stage::CellPlanes& planes,
@@ -92,11 +92,11 @@ class StreetMemory {
 
   Config config_;
   StreetGrid grid_;
-  std::uint32_t journey_ = 0;        ///< 0: no memory.
-  std::span<std::uint32_t> box_;     ///< Indexed by cell.
+  std::uint32_t journey_ = 0;        ///< Journey of the memory; 0: no memory.
+  std::span<std::uint32_t> box_;     ///< Box of each cell.
   std::span<std::int16_t> prior_;    ///< Per cell: positive for ground, negative against it.
-  std::span<std::uint8_t> own_;      ///< Per cell: an Own.
-  std::span<std::uint8_t> is_tall_;  ///< Per square: something tall is there in this frame.
+  std::span<std::uint8_t> own_;      ///< By cell: a value of Own.
+  std::span<std::uint8_t> is_tall_;  ///< By square: 1 if something tall is there in this frame.
   std::uint32_t agreed_ = 0, contradicted_ = 0;
   stage::MemoryReport report_;
 };

@@ -20,59 +20,59 @@ namespace terracut::road {
 /// without leaving smooth ground. Not in the paper.
 ///
 /// An edge is where the ground rises or falls along a ring more steeply than the terrain at large.
-/// Edges, rough ground (grass) and obstacles are barriers; ground farther from them than half the
-/// vehicle's width is clear. From the track ahead of and behind the vehicle all clear ground is
-/// reached that is level with its neighbours, ring to ring and along the rings; a gap in a kerb too
-/// narrow for the vehicle leads nowhere. Finally the surface is grown back from clear ground to the
-/// barriers.
+/// Edges, rough ground (grass) and obstacles are barriers; ground farther from barriers than half
+/// the vehicle's width is clear. The road is reached from the track ahead of and behind the vehicle
+/// over clear ground that is level with its neighbours, ring to ring and along the rings; a gap in
+/// a kerb too narrow for the vehicle leads nowhere. Finally the surface is grown from clear ground
+/// to the barriers.
 class RoadSurface {
  public:
   struct Config {
-    bool enabled = false;  ///< Costs time; without it all ground is kGround.
+    bool enabled = false;  ///< False: all ground is kGround, which saves time.
     float vehicle_width_m = 2.0F;
-    float track_m = 12.0F;    ///< Starts so far ahead and behind, as wide as the vehicle.
-    int edge_neighbours = 3;  ///< Edges and rough patches with fewer in the rows around are noise.
-    float max_step_m = 0.025F;     ///< Level from ring to ring: any step up to here.
-    float max_step_slope = 0.08F;  ///< Level, too: up to this slope against the terrain.
+    float track_m = 12.0F;         ///< Length of the track ahead and behind, as wide as the car.
+    int edge_neighbours = 3;       ///< Edges and rough patches with fewer around them are noise.
+    float max_step_m = 0.025F;     ///< A step up to this from ring to ring is level.
+    float max_step_slope = 0.08F;  ///< A slope up to this against the terrain is level, too.
     float max_gap_m = 4.0F;        ///< Rings farther apart are not connected.
     GroundPatches::Config patches;
     RingEdges::Config edges;
-    TerrainSlope::Config terrain;  ///< Its max_roughness_m also limits the road's roughness.
+    TerrainSlope::Config terrain;  ///< max_roughness_m also limits the road's roughness.
   };
 
   RoadSurface(const Config& config, frame::ImageShape shape, memory::FixedMemory& memory);
 
-  /// Sets the ground returns in `labels` (one a return, by return index) that are not on the road
-  /// surface to kOtherGround; `planes` has the labels of their cells. Real-time safe.
+  /// Sets the ground returns in `labels` (one per return, by return index) that are not on the road
+  /// surface to kOtherGround; `planes` has the labels of the cells. Real-time safe.
   void mark(const frame::RangeImage& image, const stage::CellPlanes& planes,
             std::span<frame::Label> labels) noexcept TERRACUT_NONBLOCKING;
 
  private:
-  /// The state of a patch; most are reached in this order.
+  /// The state of a patch. Most patches go through the states in this order.
   enum class State : std::uint8_t {
-    kEmpty,    // no relevant return
-    kBarrier,  // an edge, rough, or with an obstacle
-    kGround,   // smooth, but too near a barrier for the vehicle's middle
+    kEmpty,    // no return that matters here
+    kBarrier,  // an edge, rough ground, or an obstacle
+    kGround,   // smooth, but the vehicle's middle would be too near a barrier
     kClear,    // far enough from all barriers
-    kGrown,    // kGround or kClear that was grown back to
+    kGrown,    // added when the surface was grown back to the barriers
     kReached,  // clear and connected to the track
   };
 
   void find_barriers() noexcept;
-  /// Removes the barriers where an edge runs through the sensor.
+  /// Removes barriers at patch numbers where an edge runs through the sensor.
   void open_seams() noexcept;
   void drop_lone_barriers() noexcept;
   void measure_along_rings() noexcept;
-  /// Measures from a barrier to the relevant patches up to the next barrier on its ring.
+  /// Measures the distance from a barrier to the patches up to the next barrier on the ring.
   void measure_from(int row, int index, int step) noexcept;
   void find_clear() noexcept;
   void begin_blocking() noexcept;
-  /// Blocks patches too near to barriers of earlier rows; to be called row by row.
+  /// Blocks patches that are too near to barriers of earlier rows; call it row by row.
   void block_row(int row) noexcept;
   void reach_from_track() noexcept;
   void visit(std::size_t from, int row, int index) noexcept;
   void grow_back() noexcept;
-  /// Grows from one patch to the next if that path is the shortest so far.
+  /// Grows from one patch to the next if that path is the shortest so far. Returns true if it was.
   bool grow(std::size_t from, std::size_t to, float limit_m) noexcept {
     const bool is_open = state_[to] >= State::kGround && state_[to] <= State::kGrown;
     return is_open && grow_far(from, to, limit_m);  // seldom taken, so only the test is inline
@@ -95,14 +95,14 @@ class RoadSurface {
   TerrainSlope terrain_;
   RingEdges edges_;
   std::span<State> state_;
-  std::span<std::uint8_t> is_barrier_;  // of a row, with kAround more on across the seam
-  std::span<std::uint8_t> around_;      // barriers from kAround patches before to kAround after
-  std::span<std::uint8_t> neighbours_;  // by patch of a row: barriers in the rows around
-  std::span<std::uint8_t> is_active_;   // of a row: patches to process; see for_each()
-  std::span<float> distance_m_;         // first to a barrier on the ring, then to reached ground
-  std::span<float> blocked_;            // more than 0 where a barrier of another ring is too near
-  std::span<float> from_m_, to_m_;      // by column: the ranges that earlier barriers block
-  std::span<Place> to_visit_;           // a stack; every patch enters it at most once
+  std::span<std::uint8_t> is_barrier_;  // by patch of a row, and kAround more across the seam
+  std::span<std::uint8_t> around_;      // barriers within kAround patches before and after
+  std::span<std::uint8_t> neighbours_;  // by patch of a row: barriers in nearby rows
+  std::span<std::uint8_t> is_active_;   // by patch of a row: to be processed; see for_each()
+  std::span<float> distance_m_;         // to a barrier on the ring, later to reached ground
+  std::span<float> blocked_;            // above 0 where another ring's barrier is too near
+  std::span<float> from_m_, to_m_;      // by column: ranges blocked by earlier barriers
+  std::span<Place> to_visit_;           // a stack that every patch enters at most once
   std::size_t visits_ = 0;
 };
 

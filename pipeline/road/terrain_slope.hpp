@@ -12,17 +12,17 @@
 
 namespace terracut::road {
 
-/// The slope of the terrain at large: planes through the smooth ground of squares and the eight
-/// around each. Edges are judged relative to it, so that a hill, a banked road or a tilted sensor
-/// makes none.
+/// The slope of the terrain at large: for each square, a plane through the smooth ground of the
+/// square and the eight squares around it. Edges are judged relative to this slope, so that a hill,
+/// a banked road or a tilted sensor makes no edges.
 class TerrainSlope {
  public:
   struct Config {
-    float square_m = 5.0F;           ///< Side of a square; a plane covers three by three of them.
-    float max_roughness_m = 0.006F;  ///< Rougher ground, such as banks beside the road, is ignored.
+    float square_m = 5.0F;           ///< Side of a square; a plane covers 3 x 3 squares.
+    float max_roughness_m = 0.006F;  ///< Rougher ground, such as a bank, is ignored.
   };
 
-  /// Rise over run along x and y.
+  /// The slope along x and along y, as rise over run.
   struct Gradient {
     float along_x = 0, along_y = 0;
     [[nodiscard]] float rise_m(float dx_m, float dy_m) const noexcept {
@@ -30,13 +30,13 @@ class TerrainSlope {
     }
   };
 
-  /// `patches` is the number of patches of the ground to come.
+  /// `patches` is the number of patches of the ground that will be fitted.
   TerrainSlope(const Config& config, std::size_t patches, memory::FixedMemory& memory);
 
-  /// Fits the planes. Real-time safe.
+  /// Fits planes to the ground. Real-time safe.
   void fit(const GroundPatches& ground) noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns the gradient at (x, y); beyond kReach_m that of the nearest square.
+  /// Returns the gradient at (x, y); beyond kReach_m the gradient of the nearest square.
   [[nodiscard]] const Gradient& at(float x_m, float y_m) const noexcept {
     return gradients_[static_cast<std::size_t>(square_of(x_m, y_m))];
   }
@@ -57,10 +57,10 @@ class TerrainSlope {
   [[nodiscard]] Gradient gradient_around(int line_x, int line_y) const noexcept;
 
   Config config_;
-  int side_;  // in squares
+  int side_;  // number of squares per side
   std::span<Sums> sums_;
   std::span<Gradient> gradients_;
-  std::span<std::int32_t> square_;  // by patch
+  std::span<std::int32_t> square_;  // square of each patch
 };
 
 }  // namespace terracut::road

@@ -14,13 +14,13 @@
 namespace terracut::ros_messages {
 
 /// Writes a message in ROS 2's serialisation: OMG CDR, little-endian, version 1, with its
-/// encapsulation header. After that, numbers are aligned to their size.
+/// encapsulation header. Numbers are aligned to their size, counted from the end of that header.
 class CdrWriter {
  public:
   static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie");
   static constexpr std::size_t kEncapsulationBytes = 4;
 
-  /// Begins a message in `bytes`, replacing its content. `bytes` must outlive this.
+  /// Begins a message in `bytes`, replacing the content. `bytes` must outlive this object.
   explicit CdrWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {
     bytes_.assign({std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}});
   }
@@ -32,15 +32,16 @@ class CdrWriter {
     append(std::as_bytes(std::span(&number, 1)));
   }
   void add(bool flag) { add(static_cast<std::uint8_t>(flag)); }
-  /// Adds a text with its terminating zero, which counts in its length.
+  /// Adds a text with a terminating zero; the length written before the text includes the zero.
   void add(std::string_view text) {
     add(static_cast<std::uint32_t>(text.size() + 1));
     append(std::as_bytes(std::span(text)));
     bytes_.push_back(std::byte{0});
   }
-  /// Adds the number of elements of a sequence; they follow.
+  /// Adds the number of elements of a sequence. The caller then adds the elements.
   void add_length(std::size_t elements) { add(static_cast<std::uint32_t>(elements)); }
-  /// Adds a sequence<uint8> and returns its bytes to be filled; valid until the next call.
+  /// Adds a sequence<uint8> and returns its bytes for the caller to fill; valid until the next
+  /// call.
   [[nodiscard]] std::span<std::byte> add_byte_sequence(std::size_t count) {
     add_length(count);
     bytes_.resize(bytes_.size() + count);

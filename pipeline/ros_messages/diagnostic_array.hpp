@@ -11,7 +11,7 @@
 
 namespace terracut::ros_messages {
 
-/// Writes diagnostic_msgs/DiagnosticArray to `message`, replacing its content.
+/// Writes a diagnostic_msgs/DiagnosticArray to `message`, replacing the content of `message`.
 void write_diagnostic_array(std::int64_t stamp_ns, std::span<const publish::Diagnosis> diagnoses,
                             std::vector<std::byte>& message);
 

@@ -18,16 +18,16 @@ namespace terracut::ros_messages {
                                                    : record.info.first_packet_ns;
 }
 
-/// Adds builtin_interfaces/Time.
+/// Adds a builtin_interfaces/Time.
 inline void add_time(CdrWriter& to, std::int64_t time_ns) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   const std::int64_t rest_ns = time_ns % kSecond_ns;
-  const bool is_before_1970 = rest_ns < 0;  // nanoseconds count forward before 1970, too
+  const bool is_before_1970 = rest_ns < 0;  // nanoseconds count forward even before 1970
   to.add(static_cast<std::int32_t>(time_ns / kSecond_ns - (is_before_1970 ? 1 : 0)));
   to.add(static_cast<std::uint32_t>(rest_ns + (is_before_1970 ? kSecond_ns : 0)));
 }
 
-/// Adds std_msgs/Header.
+/// Adds a std_msgs/Header.
 inline void add_header(CdrWriter& to, std::int64_t stamp_ns, std::string_view frame_id) {
   add_time(to, stamp_ns);
   to.add(frame_id);

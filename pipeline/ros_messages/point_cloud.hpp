@@ -14,19 +14,19 @@
 
 namespace terracut::ros_messages {
 
-/// A point in our clouds: the names and types of ROS' drivers (x, y, z, intensity, ring, time),
-/// which PCL's and LIO packages' point types expect, and our label. Packed in memory.
+/// A point in our clouds, packed in memory: the names and types of ROS' drivers (x, y, z,
+/// intensity, ring, time), which the point types of PCL and of LIO packages expect, and our label.
 struct CloudPoint {
   float x_m = 0, y_m = 0, z_m = 0;  ///< Vehicle frame (calib/mount/mount.hpp).
   float intensity = 0;              ///< 0 to 255.
   std::uint16_t ring = 0;           ///< Row of the range image, 0 is the lowest laser.
   std::uint8_t label = 0;           ///< SemanticKITTI class, as in .label files.
   std::uint8_t unused = 0;
-  float time_s = 0;  ///< Measured so long after the header's stamp; may be negative.
+  float time_s = 0;  ///< Time of measurement after the header's stamp; may be negative.
 };
 static_assert(sizeof(CloudPoint) == 24);
 
-/// A field of CloudPoint, in terms of sensor_msgs/PointField.
+/// Describes a field of CloudPoint in the terms of sensor_msgs/PointField.
 struct CloudField {
   std::string_view name;
   std::uint32_t offset;
@@ -41,11 +41,11 @@ inline constexpr CloudField kCloudFields[]{{"x", offsetof(CloudPoint, x_m), kFlo
                                            {"label", offsetof(CloudPoint, label), kUint8},
                                            {"time", offsetof(CloudPoint, time_s), kFloat32}};
 
-/// Which of a frame's points to take.
+/// Selects the points of a frame that a cloud has.
 enum class CloudOf : std::uint8_t { kAll, kGround, kObstacles, kRoad };
 
-/// True if points of this label belong to the cloud. Road is part of the ground, or all of it if
-/// the road surface is not looked for.
+/// True if points of this label belong to the cloud. Road is a part of the ground, or all of it if
+/// road is not labelled apart.
 [[nodiscard]] constexpr bool belongs_to(CloudOf which, frame::Label label) noexcept {
   switch (which) {
     case CloudOf::kAll:
@@ -60,7 +60,7 @@ enum class CloudOf : std::uint8_t { kAll, kGround, kObstacles, kRoad };
   return false;
 }
 
-/// `time_of_first_s` is the time of the frame's first packet after its header's stamp.
+/// `time_of_first_s` is the time of the frame's first packet relative to the header's stamp.
 [[nodiscard]] constexpr CloudPoint cloud_point(const points::LabelledPoint& point,
                                                float time_of_first_s) noexcept {
   return {.x_m = point.x_m,
@@ -73,8 +73,8 @@ enum class CloudOf : std::uint8_t { kAll, kGround, kObstacles, kRoad };
           .time_s = point.time_s + time_of_first_s};
 }
 
-/// Writes sensor_msgs/PointCloud2 of those points, in order of arrival, to `message`, replacing its
-/// content.
+/// Writes a sensor_msgs/PointCloud2 of the points that `which` selects, in order of arrival, to
+/// `message`, replacing the content of `message`.
 void write_point_cloud(const publish::LabelledFrame& frame, CloudOf which,
                        std::string_view frame_id, std::vector<std::byte>& message);
 

@@ -6,8 +6,8 @@
 
 namespace terracut::ros_messages {
 
-/// A message type with its definition and those of its parts, in the encoding "ros2msg" of MCAP and
-/// Foxglove.
+/// A message type with its definition and the definitions of its parts, in the encoding "ros2msg"
+/// of MCAP and Foxglove.
 struct Schema {
   std::string_view type;  ///< "sensor_msgs/msg/PointCloud2"
   std::string_view definition;

@@ -13,11 +13,11 @@
 
 namespace terracut::ros_messages {
 
-/// One of the topics for ROS' tools.
+/// A topic that ROS' tools can show.
 struct Topic {
   std::string_view name;
   const Schema& schema;
-  std::optional<CloudOf> cloud;  ///< None: no message a frame.
+  std::optional<CloudOf> cloud;  ///< Cloud sent for every frame; none: not sent per frame.
 };
 
 inline constexpr std::size_t kDiagnosticsTopic = 4, kTransformsTopic = 5;
@@ -29,8 +29,8 @@ inline constexpr std::array<Topic, 6> kTopics{
     Topic{"/diagnostics", kDiagnosticArray, std::nullopt},
     Topic{"/tf_static", kTfMessage, std::nullopt}};
 
-/// Returns the CLOCK_REALTIME at which a frame counts as published: when its labels were ready or,
-/// in recordings, its last packet came.
+/// Returns the time (CLOCK_REALTIME) at which a frame counts as published: when its labels were
+/// ready or, in recordings, when its last packet came.
 [[nodiscard]] constexpr std::int64_t publish_time_ns_of(
     const status::FrameRecord& record) noexcept {
   return record.labels_ns != 0 ? record.labels_ns : record.info.last_packet_ns;

@@ -10,8 +10,8 @@
 
 namespace terracut::ros_messages {
 
-/// Writes tf2_msgs/TFMessage to `message`, replacing its content: the pose of the points' frame in
-/// the sensor's, from the mount.
+/// Writes a tf2_msgs/TFMessage to `message`, replacing its content: the pose of the points' frame
+/// in the sensor's frame, from the mount.
 void write_mount_transform(std::int64_t stamp_ns, const publish::RunFacts& facts,
                            std::vector<std::byte>& message);
 

@@ -18,42 +18,44 @@
 
 namespace terracut::run {
 
-/// The way from clouds to labels on one thread: clouds of one sensor go in one after the other, a
+/// Turns clouds into labels on one thread: clouds of one sensor go in one after the other, and a
 /// label for every point comes out.
 ///
 ///   status::FrameRecord record;
 ///   if (const Status labelled = pipeline.label(cloud, record); !labelled) return labelled;
 ///   write(record, pipeline.point_labels());
 ///
-/// Whoever needs images alone, to find a mount by, has cloud::CloudToImage.
+/// To find a mount, which needs only images, use cloud::CloudToImage.
 ///
-/// The constructor takes the memory of the image and the method. Labelling allocates for clouds
-/// larger than all before and than reserve()d, and where cloud::RowFinder does; never throws.
+/// The constructor takes the memory of the image and the method. Labelling allocates if a cloud is
+/// larger than all before and than reserve()d, and where cloud::RowFinder does; it never throws.
 class CloudPipeline {
  public:
   CloudPipeline(const cloud::SensorRows& rows, const mount::RingProfile& profile,
                 const ground::MethodMaker& method);
 
-  /// Takes room for clouds of so many points.
+  /// Takes memory for clouds of this many points.
   void reserve(std::size_t points);
 
-  /// Labels one cloud, and fills in what of `record` is known of a cloud. `budget`: what of a cut
-  /// there is time for. The errors of cloud::RowFinder::find().
+  /// Labels one cloud, and fills in those parts of `record` that are known for a cloud. `budget`
+  /// limits the time for a cut. Fails with the errors of cloud::RowFinder::find().
   [[nodiscard]] Status label(const cloud::CloudView& cloud, status::FrameRecord& record,
                              const min_cut::CutBudget& budget = {});
 
-  /// Of the cloud labelled last, as all that follows: one label a point, in the cloud's order.
+  /// Returns one label per point in the cloud's order, like all that follows for the cloud labelled
+  /// last.
   [[nodiscard]] const std::vector<frame::Label>& point_labels() const noexcept {
     return point_labels_;
   }
-  /// One a return, by return index of image().
+  /// Returns one label per return, by return index of image().
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_->labels(); }
   [[nodiscard]] const frame::RangeImage& image() const noexcept { return placement_.image(); }
-  /// How many points became returns, and why others did not.
+  /// Returns how many points became returns, and why the other points did not.
   [[nodiscard]] const scan::ScanToImage::Summary& placed() const noexcept {
     return placement_.placed();
   }
-  /// The truth of each return, by return index; empty where `truth`, one a point, is.
+  /// Returns the truth of each return, by return index. `truth` has one entry per point or is
+  /// empty; if it is empty, so is the result.
   [[nodiscard]] std::span<const std::uint32_t> truth_of_returns(
       std::span<const std::uint32_t> truth);
 

@@ -7,8 +7,8 @@
 
 namespace terracut::run {
 
-/// A frame on its way from packets to labels: its returns and all facts so far. Whoever hands it
-/// out says how long the image is valid.
+/// A frame on its way from packets to labels: its returns and all facts known so far. The function
+/// that returns a frame states how long the image is valid.
 struct Frame {
   frame::RangeImage* image = nullptr;
   status::FrameRecord record;

@@ -13,17 +13,17 @@
 
 namespace terracut::run {
 
-/// Shows a finder one second of frames from a live sensor. If they do not show the mount for
-/// certain, shows it the next second's instead, until `patience` is over or stop_wanted(). Calls
-/// `on_waiting` many times a second with what is waited for. `config` must be for frames with
-/// points. Start-up: allocates.
+/// Shows a mount finder one second of frames from a live sensor. If they do not show the mount for
+/// certain, shows the frames of the next second instead, until `patience` is over or stop_wanted().
+/// Calls `on_waiting` many times a second with what is waited for. `config` must be for frames with
+/// points. Start-up only: allocates.
 [[nodiscard]] mount::MountFinder mount_on_air(
     net::LiveSource& source, const streams::SensorOnAir& sensor,
     const decode::Decoder::Config& config, std::chrono::seconds patience,
     const std::function<bool()>& stop_wanted,
     const std::function<void(const std::string& what)>& on_waiting = [](const std::string&) {});
 
-/// How long to wait for a vehicle that stands where no ground is seen; after that labels must come.
+/// How long to wait if no ground is seen from where the vehicle stands; then labels must come.
 inline constexpr std::chrono::seconds kGroundPatience{10};
 
 }  // namespace terracut::run

@@ -17,8 +17,8 @@
 
 namespace terracut::run {
 
-/// Turns packets into labels on one thread: packets are pushed in, frames come out, and each may be
-/// labelled.
+/// Turns packets into labels on one thread: packets are pushed in, frames come out, and the caller
+/// may have each frame labelled.
 ///
 ///   pipeline.push(datagram);
 ///   while (Frame* frame = pipeline.next()) {
@@ -26,14 +26,14 @@ namespace terracut::run {
 ///     write(frame->record.info, *frame->image, pipeline.labels());
 ///   }
 ///
-/// Coarse stages are done ahead, while a frame arrives. One thread. The constructor takes all
-/// memory (throws std::invalid_argument on a bad setting); nothing else allocates, locks or throws.
+/// Coarse stages are done while a frame arrives. One thread. The constructor takes all memory
+/// (throws std::invalid_argument for an invalid setting); nothing else allocates, locks or throws.
 class PacketPipeline {
  public:
-  /// How the time of decoding is measured.
+  /// The way in which the time of decoding is measured.
   enum class Timing : std::uint8_t {
-    kPackets,  ///< Each packet by itself; the caller may do anything between two packets.
-    kFrames,   ///< From one frame to the next, with two readings of the clock a frame.
+    kPackets,  ///< Packet by packet; the caller may pause between packets.
+    kFrames,   ///< From frame to frame; reads the clock twice per frame.
   };
 
   PacketPipeline(const calib::SensorCalibration& calibration, const mount::RingProfile& profile,
@@ -49,23 +49,24 @@ class PacketPipeline {
         timing_(timing) {}
 
   void push(const packet::Datagram& datagram) noexcept;
-  /// Ends the stream, at its end or before its source jumps (a replay loop).
+  /// Ends the stream; call it when the source ends or is about to jump (a replay loop).
   void end_stream() noexcept;
   /// Returns the frames completed by push() or end_stream(), one after the other, then null; a
-  /// frame is valid until the next call. Call it until it returns null before anything else.
+  /// frame is valid until the next call. Call next() until it returns null before any other
+  /// function.
   [[nodiscard]] Frame* next() noexcept;
-  /// Returns why the last datagram was rejected, if it was.
+  /// Returns why the last datagram was rejected; nothing if it was not rejected.
   [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept {
     return decoder_.rejected();
   }
 
-  /// Labels the frame returned last and completes its record; labels() then has one a return, by
-  /// return index, until the next call. A frame that is not labelled costs only the work done
-  /// ahead.
+  /// Labels the frame returned last and completes its record; labels() then has one label per
+  /// return, by return index, until the next call. A frame that is not labelled costs only the work
+  /// done while it arrived.
   void label(Frame& frame) noexcept;
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_->labels(); }
 
-  /// Takes near ground from the frame labelled last.
+  /// Fills `ground` with near ground from the frame labelled last.
   void take_near_ground(const Frame& frame, ground::NearGround& ground) noexcept {
     method_->take_near_ground(*frame.image, ground);
   }
@@ -80,7 +81,7 @@ class PacketPipeline {
   std::unique_ptr<ground::FrameMethod> method_;  ///< Never null.
   Timing timing_;
   StageClock clock_;
-  std::int64_t decode_ns_ = 0;  ///< Since the last frame.
+  std::int64_t decode_ns_ = 0;  ///< Time of decoding since the last frame.
   std::int64_t resumed_ns_ = 0;
   bool begins_ = true;  ///< True before a stream's first packet.
   Frame frame_;

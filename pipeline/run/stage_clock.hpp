@@ -13,8 +13,8 @@
 
 namespace terracut::run {
 
-/// Times the stages of the pipeline, which has no clock of its own. Adds up the times of a frame,
-/// even with interruptions, until take(). `Clock`: like measure::SystemClock.
+/// Measures the times of the pipeline's stages, as the pipeline has no clock. Adds up the times of
+/// a frame until take(), even with interruptions. `Clock` is like measure::SystemClock.
 template <class Clock>
 class StageClockOf final : public stage::StageObserver {
  public:
@@ -28,7 +28,7 @@ class StageClockOf final : public stage::StageObserver {
     times_.segment_wall_ns += spent.wall_ns;
     last_ = now;
   }
-  /// Returns the times of the frame and begins the next one.
+  /// Returns the times of the present frame and begins the next frame.
   stage::StageTimes take() noexcept TERRACUT_NONBLOCKING {
     return std::exchange(times_, stage::StageTimes{});
   }

@@ -15,23 +15,23 @@ namespace terracut::stage {
 
 inline constexpr std::uint8_t kSteep = 1;
 
-/// The data that stages pass on: planes over the range image's cells, row-major with the image's
-/// stride. Written by one stage after the other, on one thread.
+/// The data that one stage passes to the next: planes over the range image's cells, row-major with
+/// the image's stride. The stages write them one after the other on one thread.
 struct CellPlanes {
   /// Height above the ground reference of the elevation map, metres; NaN in cells without a return,
   /// so that every comparison with such a cell is false.
   std::span<float> height_m;
-  /// The label so far; kNone in cells without a return.
+  /// The label given so far; kNone in cells without a return.
   std::span<frame::Label> label;
-  /// Has kSteep where the adjacent points test found a steep step at this return; the other bits
-  /// belong to that test.
+  /// Has the bit kSteep where the adjacent points test found a steep step at this return; that test
+  /// uses the other bits for itself.
   std::span<std::uint8_t> steep;
 
   CellPlanes(frame::ImageShape shape, memory::FixedMemory& memory)
       : height_m(memory.take<float>("cell planes", shape.cells())),
         label(memory.take<frame::Label>("cell planes", shape.cells())),
         steep(memory.take<std::uint8_t>("cell planes", shape.cells())) {
-    std::ranges::fill(height_m, std::numeric_limits<float>::quiet_NaN());  // kept by padding
+    std::ranges::fill(height_m, std::numeric_limits<float>::quiet_NaN());  // padding cells keep NaN
   }
 };
 

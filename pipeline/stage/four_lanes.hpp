@@ -9,19 +9,19 @@
 namespace terracut::stage {
 
 /// Four numbers processed together. Every supported machine has registers of this width (SSE2 and
-/// NEON), and each lane gets the same bits as in single steps.
+/// NEON), and each lane gets the same bits as if it were computed alone.
 using FourFloats = float __attribute__((vector_size(16)));
 using TwoFloats = float __attribute__((vector_size(8)));
-/// A comparison's result: all bits of a lane, or none.
+/// The result of comparing four lanes: all bits of a lane are set if true, none if false.
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 
-/// Loads from[0] and from[1] from any address.
+/// Loads from[0] and from[1]; `from` may have any alignment.
 [[nodiscard]] inline TwoFloats load_two(const float* from) noexcept {
   TwoFloats two;
   std::memcpy(&two, from, sizeof(two));
   return two;
 }
-/// Loads from[0] to from[3] from any address.
+/// Loads from[0] to from[3]; `from` may have any alignment.
 [[nodiscard]] inline FourFloats load_four(const float* from) noexcept {
   FourFloats four;
   std::memcpy(&four, from, sizeof(four));

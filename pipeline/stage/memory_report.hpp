@@ -8,10 +8,10 @@ namespace terracut::stage {
 
 /// The effect of the street memory on a frame.
 struct MemoryReport {
-  bool used = false;           ///< Earlier frames were remembered, and their motion trusted.
-  bool contradicted = false;   ///< Certain cells contradicted the memory: all was forgotten.
-  std::uint32_t priors = 0;    ///< Unknown cells with a memory.
-  std::uint32_t reopened = 0;  ///< Low steep obstacles left to the cut.
+  bool used = false;           ///< Earlier frames were used and their motion was trusted.
+  bool contradicted = false;   ///< Certain cells contradicted the memory, which was erased.
+  std::uint32_t priors = 0;    ///< Unknown cells that the memory knew.
+  std::uint32_t reopened = 0;  ///< Low steep obstacles made unknown.
 };
 
 }  // namespace terracut::stage

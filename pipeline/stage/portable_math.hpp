@@ -12,8 +12,8 @@
 namespace terracut::stage {
 
 // exp and log of the standard library differ in the last bit between machines, and a label may
-// depend on that bit. These two use plain IEEE arithmetic and are the same everywhere
-// (docs/design.md, promise 5).
+// depend on that bit. The two functions here use plain IEEE arithmetic and give the same bits
+// everywhere (docs/design.md, promise 5).
 
 /// Returns the natural logarithm of a finite x > 0, error below 1e-9.
 [[nodiscard]] double portable_log(double x) noexcept TERRACUT_NONBLOCKING;
@@ -29,7 +29,7 @@ class NegativeExp {
     const FourFloats position = where(is_inside & (t > 0.0F), t) * kStepsPerUnit;
     const FourInts step = __builtin_convertvector(position, FourInts);
     const FourFloats share = position - __builtin_convertvector(step, FourFloats);
-    // One load gets an entry and the next one.
+    // One load reads an entry and the next one.
     const auto pair = [&](int lane) {
       return load_two(&table_[static_cast<std::size_t>(step[lane])]);
     };

@@ -16,18 +16,18 @@
 
 namespace terracut::stage {
 
-/// Last stage: brings the labels of cells back to the returns; each return of the frame gets one
-/// (docs/design.md, promise 1). A return that does not own its cell takes the owner's label if it
-/// is close to it; otherwise its own height above the ground decides.
+/// The last stage: labels every return of the frame from the labels of the cells (docs/design.md,
+/// promise 1). A return that does not own its cell takes the label of the owner if it is close to
+/// the owner; otherwise its own height above the ground decides.
 class ReturnLabels {
  public:
   struct Config {
-    float same_surface_range_m = 0.30F;   ///< Close: at most so far apart in horizontal range.
-    float same_surface_height_m = 0.10F;  ///< Close: at most so far apart in height.
-    float obstacle_height_m = 0.15F;      ///< Otherwise an obstacle from this height on.
+    float same_surface_range_m = 0.30F;   ///< Returns farther apart in range are not close.
+    float same_surface_height_m = 0.10F;  ///< Returns farther apart in height are not close.
+    float obstacle_height_m = 0.15F;      ///< If not close, a return this high is an obstacle.
   };
 
-  /// `return_capacity` is RangeImage::return_capacity() of the images to come.
+  /// `return_capacity` is RangeImage::return_capacity() of the images that will be labelled.
   ReturnLabels(const Config& config, std::size_t return_capacity, memory::FixedMemory& memory);
 
   /// Labels every return of `image`. Real-time safe.
@@ -35,27 +35,28 @@ class ReturnLabels {
               const CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   /// Labels every return of a frame that keeps its returns as measured. `points` must be valid in
-  /// cells with several returns. `reader` is the sensor's.
+  /// cells with several returns. `reader` is the sensor's tile reader.
   void assign(const frame::MeasuredReturns& returns, const frame::PointPlanes& points,
               frame::TileReader& reader, const CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns one label a return, in the order of RangeImage::return_index(); never kNone.
+  /// Returns one label per return, in the order of RangeImage::return_index(); never kNone.
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
     return labels_.first(returns_);
   }
-  /// Returns the labels for the stage that tells road from other ground.
+  /// Returns the labels so that a later stage can tell road from other ground.
   [[nodiscard]] std::span<frame::Label> mutable_labels() noexcept {
     return labels_.first(returns_);
   }
 
  private:
-  /// Returns the label of a return that does not own its cell, by its height above and distance
-  /// behind the owner.
+  /// Returns the label of a return that does not own its cell, by how far the return lies above and
+  /// behind the cell's owner.
   [[nodiscard]] frame::Label label_of_extra(float above_owner_m, float behind_owner_m,
                                             std::size_t cell,
                                             const CellPlanes& planes) const noexcept;
   using TileLabels = frame::TileRow<std::uint8_t>;
-  /// Returns the labels of one laser's returns in the open tile; kNone where it has none.
+  /// Returns the labels of one laser's returns in the open tile; kNone where the laser has no
+  /// return.
   [[nodiscard]] TileLabels labels_of_row(const frame::MeasuredReturns& returns, std::size_t tile,
                                          std::size_t laser, const frame::PointPlanes& points,
                                          frame::TileReader& reader,

@@ -7,21 +7,22 @@
 
 namespace terracut::stage {
 
-/// Steps over rows by angle. Rows may be unevenly spaced: an RS-Ruby128's are 0.1 degrees apart
-/// around the horizon and up to 5.4 degrees below, an HDL-64E's a third or half a degree. A step
-/// goes to the next row, or over as many rows as it takes to cover `step_deg`; so k steps cover
-/// about the same angle on any sensor. With 0 a step is a row, as in the paper.
+/// Steps over rows by angle. Rows may be unevenly spaced: those of an RS-Ruby128 are 0.1 degrees
+/// apart around the horizon and up to 5.4 degrees farther down, those of an HDL-64E a third or half
+/// a degree. A step goes to the next row, or over as many rows as it takes to cover `step_deg`; so
+/// k steps cover about the same angle on any sensor. If step_deg is 0, a step is a row, as in the
+/// paper.
 ///
-/// For constructors: answers are looked up in the profile, O(rows).
+/// For use in constructors: each answer is looked up in the profile, O(rows).
 class RowSteps {
  public:
-  /// `profile` must outlive this.
+  /// `profile` must outlive this object.
   RowSteps(const mount::RingProfile& profile, double step_deg);
 
   /// Returns the first row at least `steps` rows and `steps` times step_deg above `row`; the number
   /// of rows if there is none. steps >= 0.
   [[nodiscard]] int up(int row, int steps) const noexcept TERRACUT_NONBLOCKING;
-  /// Returns the first such row below `row`; -1 if there is none.
+  /// Returns the first row at least as far below `row`; -1 if there is none.
   [[nodiscard]] int down(int row, int steps) const noexcept TERRACUT_NONBLOCKING;
 
  private:

@@ -13,18 +13,18 @@
 
 namespace terracut::stage {
 
-/// The result for one frame in numbers.
+/// The result of segmenting one frame, in numbers.
 struct SegmentationReport {
   std::uint32_t returns = 0;          ///< All returns of the image; all are labelled.
   std::uint32_t ground = 0;           ///< Returns labelled ground of either kind.
   std::uint32_t other_ground = 0;     ///< Ground that is not road surface.
   std::uint32_t obstacles = 0;        ///< Returns labelled obstacle.
-  Stage last_stage = Stage::kMinCut;  ///< How far the labels were refined.
+  Stage last_stage = Stage::kMinCut;  ///< The last stage that ran.
   min_cut::CutReport cut;             ///< All zero if there was no cut.
   MemoryReport memory;                ///< Empty if the motion is unknown.
 
   [[nodiscard]] constexpr std::uint32_t labelled() const noexcept { return ground + obstacles; }
-  /// Fills the four counts from one label a return.
+  /// Fills in the four counts above, given one label per return.
   void count(std::span<const frame::Label> labels) noexcept TERRACUT_NONBLOCKING;
 };
 

@@ -14,16 +14,16 @@ namespace terracut::stage {
 /// The stages of the segmentation in order. The first three are the rows of the paper's Table III:
 /// each can be the last one that runs.
 enum class Stage : std::uint8_t {
-  kElevationMap,    ///< Ring-based elevation map.
-  kAdjacentPoints,  ///< + spatiotemporal adjacent points.
-  kSeeds,           ///< + confidence seeds of the MRF.
-  kMinCut,          ///< + energy, min-cut: the whole method.
-  kLabels,          ///< Brings labels of cells back to the returns, and finds the road surface.
+  kElevationMap,    ///< The ring-based elevation map.
+  kAdjacentPoints,  ///< Adds spatiotemporal adjacent points.
+  kSeeds,           ///< Adds confidence seeds of the Markov random field (MRF).
+  kMinCut,          ///< Adds energy and min-cut: the whole method.
+  kLabels,          ///< Labels the returns from the cells, and finds the road surface.
   kCount,
 };
 inline constexpr int kStages = static_cast<int>(Stage::kCount);
 
-/// The stages' names in lower_snake_case, as in reports.
+/// The names of the stages in reports, in lower_snake_case.
 inline constexpr std::array<std::string_view, kStages> kStageNames{
     "elevation_map", "adjacent_points", "seeds", "min_cut", "labels"};
 [[nodiscard]] constexpr std::string_view to_string(Stage stage) noexcept {
@@ -36,8 +36,8 @@ class StageObserver {
   virtual ~StageObserver() = default;
   /// Called on the segmenting thread when it starts or resumes work on a frame.
   virtual void resumed() noexcept TERRACUT_NONBLOCKING {}
-  /// Called on the segmenting thread right after `stage`, or a part of it. Both functions must be
-  /// real-time safe.
+  /// Called on the segmenting thread right after `stage` or a part of `stage`. Both functions must
+  /// be real-time safe.
   virtual void stage_done(Stage stage) noexcept TERRACUT_NONBLOCKING = 0;
 };
 

@@ -11,7 +11,7 @@
 
 namespace terracut::stage {
 
-/// Processor time of one frame by stage, nanoseconds of the threads that worked on it.
+/// Processor time of one frame by stage, in nanoseconds, summed over the threads that worked on it.
 struct StageTimes {
   std::array<std::int64_t, kStages> stage_ns{};
   std::int64_t segment_wall_ns = 0;  ///< Wall time of the work on the frame.

@@ -14,12 +14,12 @@
 
 namespace terracut::status {
 
-/// Whether the vehicle's motion is known, and if not, why.
+/// Tells whether the vehicle's motion is known and, if not, why.
 enum class MotionState : std::uint8_t {
   kNotAsked,
-  kWaiting,        ///< No speed and yaw rate has come yet.
-  kKnown,          ///< They are coming.
-  kLost,           ///< They came, but not recently.
+  kWaiting,        ///< No sample with speed and yaw rate has come yet.
+  kKnown,          ///< Samples are coming.
+  kLost,           ///< Samples came, but not recently.
   kBusOff,         ///< The CAN controller has taken itself off the bus.
   kInterfaceDown,  ///< The CAN interface is down.
   kInterfaceGone,  ///< The CAN interface is missing.
@@ -33,24 +33,24 @@ enum class MotionState : std::uint8_t {
   return state < MotionState::kCount ? kNames[static_cast<std::size_t>(state)] : "unknown";
 }
 
-/// The vehicle's motion in a live run: its source, and in how many frames it was known. A plain
-/// value, part of MonitorSnapshot.
+/// The vehicle's motion in a live run: where it comes from, and in how many frames it was known. A
+/// plain value, part of MonitorSnapshot.
 struct MotionFigures {
   static constexpr std::size_t kMaxFaults = 24;
 
   memory::FixedText<16> bus;  ///< CAN interface; empty: motion is not used.
   MotionState state = MotionState::kNotAsked;
   std::uint64_t samples = 0;        ///< Samples with valid and recent speed and yaw rate.
-  std::uint64_t spare_samples = 0;  ///< Samples beyond the rate needed; left out.
+  std::uint64_t spare_samples = 0;  ///< Samples left out, beyond the rate needed.
   std::int64_t last_sample_ns = 0;  ///< Kernel's stamp of the newest sample; 0: none yet.
 
-  std::uint64_t deskewed = 0;       ///< Frames of any level.
+  std::uint64_t deskewed = 0;       ///< Deskewed frames of any level.
   std::uint64_t no_ego_motion = 0;  ///< Frames not deskewed.
 
   /// Stamp of the newest sample when a frame was handed over, minus the instant of the frame's last
-  /// firing: about 0 if both use one clock. 0 if there was none.
-  std::int64_t newest_sample_after_frame_ns = 0;  ///< The newest frame's.
-  /// Over the deskewed frames.
+  /// firing: about 0 if both use one clock; 0 without a sample.
+  std::int64_t newest_sample_after_frame_ns = 0;  ///< Of the newest frame.
+  /// The least and the greatest of these differences over all deskewed frames.
   std::int64_t least_sample_after_frame_ns = 0, most_sample_after_frame_ns = 0;
   double sum_sample_after_frame_ns = 0;
 
@@ -65,13 +65,13 @@ struct MotionFigures {
   }
 };
 
-/// The health reports of a live run on a CAN bus. A plain value, part of MonitorSnapshot.
+/// The state of sending health reports on a CAN bus. A plain value, part of MonitorSnapshot.
 struct HealthFigures {
   memory::FixedText<16> bus;     ///< CAN interface; empty: no reports.
-  std::uint64_t sent = 0;        ///< CAN frames.
-  std::uint64_t queue_full = 0;  ///< Not sent: the bus was too busy.
-  std::uint64_t link_down = 0;   ///< Not sent: the interface was down or missing.
-  std::uint64_t failed = 0;      ///< Not sent for another reason.
+  std::uint64_t sent = 0;        ///< CAN frames sent.
+  std::uint64_t queue_full = 0;  ///< CAN frames not sent: the bus was too busy.
+  std::uint64_t link_down = 0;   ///< CAN frames not sent: the interface was down or missing.
+  std::uint64_t failed = 0;      ///< CAN frames not sent for another reason.
 };
 
 }  // namespace terracut::status

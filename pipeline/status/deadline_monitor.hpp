@@ -17,7 +17,8 @@ namespace terracut::status {
 /// Judges every frame by its deadline, names the cause of a miss, and keeps the figures.
 ///
 /// A frame's latency runs from the kernel's stamp of its last packet to its labels. The frame
-/// missed its deadline if the latency is longer, or if it was skipped. The latency is divided in
+/// missed its deadline if the latency is longer or if the frame was skipped. The latency is divided
+/// into shares in this order, each share at most what is left:
 /// this order, each share at most the rest:
 ///
 ///   late_input         last packet -> closing packet: the sensor or the network was late
@@ -26,17 +27,17 @@ namespace terracut::status {
 ///                      the hypervisor was away in both
 ///   own_work           the rest, explained or not: nothing is excused that was not measured
 ///
-/// The largest share is the cause; of equal ones the lowest in this list, the one closer to our own
-/// work.
+/// The largest share is the cause; of equal shares, the lowest in this list, which is the closer to
+/// our own work.
 ///
-/// Fixed memory, taken in the constructor. One thread at a time; nothing here allocates, locks,
-/// makes a system call or looks at a clock.
+/// All memory is fixed and taken in the constructor. One thread at a time; no function allocates,
+/// locks, makes a system call or reads a clock.
 class DeadlineMonitor {
  public:
   struct Config {
     std::int64_t deadline_ns = 50'000'000;            ///< > 0
     std::span<const std::string_view> stage_names{};  ///< At most MonitorSnapshot::kMaxStages.
-    std::size_t kept_frames = 128;                    ///< Kept for traces, >= 2.
+    std::size_t kept_frames = 128;                    ///< Number of frames kept for traces, >= 2.
   };
 
   DeadlineMonitor(const Config& config, memory::FixedMemory& memory);
@@ -44,21 +45,21 @@ class DeadlineMonitor {
   /// Sets frame.missed and frame.cause, counts the frame and keeps it.
   void judge(FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
 
-  /// Sets the rate of frames to 0 if the newest one is more than a second old. `now_ns`: time of
-  /// day.
+  /// Sets the rate of frames to 0 if the newest frame is more than a second old at `now_ns`, a time
+  /// of day.
   void look_at_rate(std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns the frame judged last; before the first, a value without stamps.
+  /// Returns the frame judged last, or a value without stamps if no frame has been judged.
   [[nodiscard]] const FrameRecord& newest() const noexcept TERRACUT_NONBLOCKING {
     return kept_before(0);
   }
   /// Copies the newest frames judged, oldest first, at most into.size() and kept_frames. Returns
-  /// how many.
+  /// how many were copied.
   std::size_t copy_newest(std::span<FrameRecord> into) const noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns the figures. judge() fills in all that comes from frames, deadline_ns and the stages'
-  /// names; the caller fills in the other fields (version, sensor, input, link, losses, threads,
-  /// times, and those of the CAN bus).
+  /// Returns the figures. judge() fills in all that comes from frames, deadline_ns and the names of
+  /// the stages; the caller fills in the other fields (version, sensor, input, link, losses,
+  /// threads, times, and those of the CAN bus).
   [[nodiscard]] MonitorSnapshot& snapshot() noexcept { return *snapshot_; }
   [[nodiscard]] const MonitorSnapshot& snapshot() const noexcept { return *snapshot_; }
 
@@ -73,7 +74,7 @@ class DeadlineMonitor {
   MonitorSnapshot* snapshot_;
   std::span<FrameRecord> kept_;  ///< Ring buffer.
   std::size_t next_ = 0;         ///< Index in kept_ for the next frame.
-  std::size_t count_ = 0;        ///< Frames in kept_.
+  std::size_t count_ = 0;        ///< Number of frames in kept_.
 };
 
 }  // namespace terracut::status

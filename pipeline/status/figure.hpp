@@ -16,7 +16,7 @@
 
 namespace terracut::status {
 
-/// Nanoseconds since 1970; 0: unknown.
+/// A time of day in nanoseconds since 1970; 0: unknown.
 struct TimeOfDay {
   std::int64_t ns = 0;
 };
@@ -28,7 +28,7 @@ struct Duration {
 struct Number {
   double value = 0, least = 0, most = 0;
 };
-/// One of several named states; a larger index is impossible.
+/// One of several named states; an index beyond the names is impossible.
 struct State {
   std::size_t index = 0;
   std::vector<std::string_view> names;
@@ -49,10 +49,10 @@ struct NotKnown {};
 using Value = std::variant<NotKnown, bool, std::uint64_t, Number, TimeOfDay, Duration, std::string,
                            State, Counts, Histogram, Histograms>;
 
-/// A figure under /metrics, in seconds if it is a duration; left out if it has no name.
+/// A figure as shown under /metrics, in seconds if it is a duration; left out if `name` is empty.
 struct Metric {
-  std::string_view name;  ///< Ends in _total if it counts from the start of the process.
-  std::string_view help;  ///< Taken from the first figure of this name.
+  std::string_view name;  ///< Ends in _total if it counts from the process' start.
+  std::string_view help;  ///< Explanation; taken from the first figure of this name.
   std::vector<std::pair<std::string_view, std::string>> labels{};
 };
 
@@ -63,18 +63,18 @@ enum class Shown : std::uint8_t {
   kAlarmOrNone,  ///< Like kAlarm, and otherwise "none".
 };
 
-/// The text of a figure in the lines for people (figure_lines.hpp); for a histogram the row of the
+/// The text of a figure in the lines for people (figure_lines.hpp); for a histogram, its row in the
 /// table of times. Left out if `line` is empty.
 struct Phrase {
-  std::string_view line;  ///< The beginning of the line.
-  /// A format for fmt: "{} packets"; for a duration "{ms}" or "{s}". It follows the previous phrase
-  /// after a comma, unless it begins with a space or a colon; if it begins with a line end, it
-  /// begins a new line.
+  std::string_view line;  ///< Title of the line that has the figure.
+  /// A format for fmt: "{} packets"; for a duration "{ms}" or "{s}". The text follows the previous
+  /// phrase after a comma, unless it begins with a space or a colon; if it begins with a line end,
+  /// it begins a new line.
   std::string_view text = "{}";
   Shown shown = Shown::kAlways;
 };
 
-/// A figure, and where and how it is shown.
+/// A measured value, with its name and the places and forms in which it is shown.
 struct Figure {
   std::string_view key;  ///< In its JSON group, with unit: "deadline_ms"; empty: not in JSON.
   Value value;
@@ -83,10 +83,10 @@ struct Figure {
   std::string group{};  ///< JSON group: "frames", "mount.seen"; digits are an index: "threads.0".
 };
 
-/// True if a process can have published this value, so that it is safe to calculate with it.
+/// True if a process can have published this value, so that calculating with the value is safe.
 [[nodiscard]] bool is_possible(const Value& value) noexcept;
 
-/// True for 0, false or empty, and for times that are all 0.
+/// True for 0, false or an empty value, and for times that are all 0.
 [[nodiscard]] bool is_nothing(const Value& value) noexcept;
 
 /// True if the figure is shown to people, in its line or in the table of times.

@@ -21,16 +21,16 @@ struct LineStyle {
 ///
 ///   link      receiving on 0.0.0.0:2368, last packet 0.021 s ago, 34800 packets
 ///
-/// The output is printable ASCII (and escape sequences of colours), whatever the texts hold.
+/// The output is printable ASCII (plus escape sequences for colours), whatever the texts hold.
 /// Histograms are left out; times_table() shows them.
 [[nodiscard]] std::string figure_lines(std::span<const Figure> figures, const LineStyle& style);
 
 [[nodiscard]] std::string in_bold(const std::string& text, const LineStyle& style);
 
-/// Makes another process's text safe for a terminal: anything but printable ASCII becomes '?'.
+/// Returns another process's text made safe for a terminal: any non-printable byte becomes '?'.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// Lists counts that are not 0: "kernel_drops 7, late_frames 2"; empty if all are 0.
+/// Returns the counts that are not 0: "kernel_drops 7, late_frames 2"; empty if all are 0.
 [[nodiscard]] std::string counts_text(std::span<const NamedCount> counts);
 
 }  // namespace terracut::status

@@ -12,23 +12,24 @@
 
 namespace terracut::status {
 
-/// Returns all figures of a live run, from one table (figures.cpp): they are shown by `terracut
-/// top`, /metrics, --json and the final summary, and checked on a status page. Adding a figure
-/// means adding a row. They refer to `snapshot`, which may have any content.
+/// Returns all figures of a live run, from one table (figures.cpp). `terracut top`, /metrics,
+/// --json and the final summary show them, and a status page is checked by them. A new figure needs
+/// only a new row. The figures refer to `snapshot`, which may have any content.
 [[nodiscard]] std::vector<Figure> figures_of(const MonitorSnapshot& snapshot);
 
-/// Return the parts that runs over files have as well.
+/// These return the groups of figures that runs over files have, too.
 [[nodiscard]] std::vector<Figure> figures_of(const MountFigures& mount);
 [[nodiscard]] std::vector<Figure> figures_of(const frame::BlindAzimuths& blind);
 
-/// True if a process can have published these figures: times and counts are consistent, so that it
-/// is safe to calculate with them. A status page is a file that others can write to and may have
+/// True if a process can have published these figures: times and counts are consistent, so that
+/// calculating with them is safe. A status page is a file that others can write to, so it may have
 /// any content.
 [[nodiscard]] bool are_possible(const MonitorSnapshot& snapshot);
 
-/// Explains for people a contradicted mount and how to mend it; empty if there is none.
+/// Explains to people how the mount is contradicted and what to do; empty if it is not
+/// contradicted.
 [[nodiscard]] std::string contradiction_text(const MountFigures& mount);
-/// Explains for people a guessed mount; empty if it is none.
+/// Explains to people that the mount is guessed; empty if it is not.
 [[nodiscard]] std::string guess_text(const MountFigures& mount);
 
 }  // namespace terracut::status

@@ -13,10 +13,10 @@
 
 namespace terracut::status {
 
-/// How much of the method a frame got before its deadline, best first.
+/// How much of the method a frame got before its deadline; the best level is the first.
 enum class Level : std::uint8_t {
   kFull,        ///< The whole method, with the optimal min-cut.
-  kCutStopped,  ///< The min-cut was stopped at its budget; its best cut.
+  kCutStopped,  ///< The min-cut was stopped at its budget; labels are from its best cut.
   kCoarse,      ///< Elevation map and adjacent points only.
   kSkipped,     ///< No labels.
   kCount,
@@ -33,7 +33,7 @@ enum class FrameMissCause : std::uint8_t {
 };
 inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCause::kCount);
 
-/// Return stable lower_snake_case names, as in reports; "unknown" for anything else.
+/// These return stable lower_snake_case names for reports; "unknown" for an invalid value.
 [[nodiscard]] constexpr std::string_view to_string(Level level) noexcept {
   constexpr std::array<std::string_view, kLevels> kNames{"full", "cut_stopped", "coarse",
                                                          "skipped"};
@@ -45,37 +45,37 @@ inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCau
   return cause < FrameMissCause::kCount ? kNames[static_cast<std::size_t>(cause)] : "unknown";
 }
 
-/// All facts about one frame, filled by the threads it passes from its first packet to the last
-/// report, and judged at the end (pipeline/status/deadline_monitor.hpp). Times of day are
-/// CLOCK_REALTIME like the kernel's packet stamps; 0 means "unknown". Trivially copyable, no thread
-/// contract of its own.
+/// All facts about one frame, filled in by the threads that the frame passes from its first packet
+/// to the last report, and judged at the end (pipeline/status/deadline_monitor.hpp). Times of day
+/// are CLOCK_REALTIME like the kernel's packet stamps; 0 means "unknown". Trivially copyable;
+/// threads must be kept apart by the user.
 struct FrameRecord {
   frame::FrameInfo info;  ///< From the decoder: number, packets' stamps, returns, losses.
 
-  std::int64_t closing_packet_ns = 0;  ///< Of the packet that showed the end of the frame.
+  std::int64_t closing_packet_ns = 0;  ///< Stamp of the packet that showed the frame's end.
   std::int64_t handed_over_ns = 0;     ///< When the decoded frame went to the segmenting thread.
   std::int64_t segment_begin_ns = 0;
-  std::int64_t labels_ns = 0;  ///< When labels were handed out; if skipped, when it was given up.
+  std::int64_t labels_ns = 0;  ///< When labels were handed out or the frame was skipped.
 
-  /// The processor time of the work on it.
-  std::int64_t decode_cpu_ns = 0;   ///< All packets of the frame.
+  /// The processor time of the work on the frame:
+  std::int64_t decode_cpu_ns = 0;   ///< Decoding all packets of the frame.
   stage::StageTimes stages;         ///< Indexed by stage.
-  std::int64_t ahead_cpu_ns = 0;    ///< Of the stages, while the frame was arriving.
-  std::int64_t segment_cpu_ns = 0;  ///< Of all stages and the work between them.
+  std::int64_t ahead_cpu_ns = 0;    ///< Stages done while the frame was arriving.
+  std::int64_t segment_cpu_ns = 0;  ///< All stages and the work between them.
 
-  /// Of the frame's threads, from the last packet to the labels.
+  /// How long the frame's threads waited for a core, from its last packet to the labels.
   std::int64_t run_queue_wait_ns = 0;
-  /// Stolen from the machine around that time if the deadline was missed; else 0.
+  /// Time that the hypervisor took from the machine meanwhile; 0 if the deadline was met.
   std::int64_t steal_ns = 0;
 
   stage::SegmentationReport segmentation;
   Level level = Level::kFull;
-  std::uint8_t stages_ahead = 0;  ///< The number of first stages done at hand-over.
+  std::uint8_t stages_ahead = 0;  ///< How many first stages were done at hand-over.
 
   bool missed = false;                              ///< Set by DeadlineMonitor::judge.
   FrameMissCause cause = FrameMissCause::kOwnWork;  ///< Set by judge; valid only if missed.
 
-  /// Returns the processor time of the stages after the frame's last packet.
+  /// Returns the processor time of the stages that ran after the frame's last packet.
   [[nodiscard]] std::int64_t after_frame_cpu_ns() const noexcept {
     return stages.sum_ns() - ahead_cpu_ns;
   }

@@ -14,22 +14,22 @@
 
 namespace terracut::status {
 
-/// The input as of the receiving thread's last look.
+/// The state of the input when the receiving thread last looked.
 struct InputState {
-  net::DatagramAccount account;  ///< Since labelling began.
+  net::DatagramAccount account;  ///< Datagrams since labelling began.
   net::LinkState link = net::LinkState::kUnknown;
-  std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
-  /// Datagrams that came, or were dropped, before labelling began; not in `account`.
+  std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp of the newest packet; 0: none yet.
+  /// Datagrams that came or were dropped before labelling began; they are not in `account`.
   std::uint64_t before_labelling = 0;
   frame::BlindAzimuths blind;
 };
 
 /// Keeps the figures of a live run's input: where each datagram went, whether the sensor is heard,
-/// whether its head rotates, where it is blind. One thread, without a deadline.
+/// whether its head rotates, where it is blind. For one thread without a deadline.
 class InputStatus {
  public:
-  /// Shows `input` in `figures`, as of figures.taken_ns. Returns news for people if something has
-  /// changed (LinkNews); usually empty.
+  /// Shows `input` in `figures`, as of figures.taken_ns. Returns a sentence for people if the link
+  /// has changed (LinkNews), else an empty text.
   [[nodiscard]] std::string show(const InputState& input, MonitorSnapshot& figures);
 
  private:

@@ -9,11 +9,11 @@
 namespace terracut::status {
 
 /// Reports when a run's sensor falls silent, its interface goes away, its head stops, or such
-/// trouble ends, and counts a run's silences. One thread; looks at no clock.
+/// trouble ends; also counts the silences. One thread; reads no clock.
 class LinkNews {
  public:
   /// Fills in `silences` and `silent_ns` of the present `figures`. Returns a sentence if something
-  /// has changed since the last look, else an empty text.
+  /// has changed since the last call, else an empty text.
   [[nodiscard]] std::string look(MonitorSnapshot& figures);
 
  private:
@@ -24,7 +24,7 @@ class LinkNews {
   Trouble trouble_ = Trouble::kNone;
   std::int64_t since_ns_ = 0;  ///< Start of the present trouble.
   std::uint64_t silences_ = 0;
-  std::int64_t silent_ns_ = 0;  ///< Sum of past silences.
+  std::int64_t silent_ns_ = 0;  ///< Duration of all past silences.
 };
 
 }  // namespace terracut::status

@@ -15,27 +15,27 @@
 namespace terracut::status {
 
 /// Returns every cause of loss by its name in reports ("network_gap_packets",
-/// "rejected_wrong_size"), zeros included. Allocates, like all functions here: not for real-time
-/// threads.
+/// "rejected_wrong_size"), even with a count of 0. All functions here allocate: they are not for
+/// real-time threads.
 [[nodiscard]] std::vector<NamedCount> causes_of(const frame::LossCounters& losses);
 
-/// Returns what a live source did not pass on, or passed on with a fault; kernel_drops is among the
-/// other losses.
+/// Returns the datagrams that a live source did not pass on, or passed on with a fault, by cause;
+/// kernel_drops is among the other losses.
 [[nodiscard]] std::vector<NamedCount> causes_of(const net::ReceiveCounters& counters);
 
-/// True if a cause counts what a viewing client missed (of the page, Foxglove or /metrics): nothing
-/// is then lost between sensor and label, in recordings or in outputs.
+/// True if a cause counts what a viewing client missed (of the page, Foxglove or /metrics): then
+/// nothing is lost between sensor and label, in recordings or in outputs.
 [[nodiscard]] bool is_of_onlookers(std::string_view cause) noexcept;
 
-/// Returns where the datagrams of a live run went. Together with those in doubt they are all
-/// received.
+/// Returns where the datagrams of a live run went. The sum of these outcomes and of the datagrams
+/// in doubt is all that was received.
 [[nodiscard]] std::vector<NamedCount> outcomes_of(const net::DatagramAccount& account);
 
-/// Adds causes to the published figures. std::length_error if there is no room.
+/// Adds causes to the published figures. Throws std::length_error if there is no room.
 void show_losses(std::span<const NamedCount> causes, MonitorSnapshot& figures);
 
-/// Shows how many datagrams were received and where they went. std::length_error if there is no
-/// room.
+/// Shows how many datagrams were received and where they went. Throws std::length_error if there is
+/// no room.
 void show_datagrams(const net::DatagramAccount& account, MonitorSnapshot& figures);
 
 }  // namespace terracut::status

@@ -36,22 +36,21 @@ enum class LinkState : std::uint8_t {
   return state < LinkState::kCount ? kNames[static_cast<std::size_t>(state)] : "unknown";
 }
 
-/// A real-time thread as the system runs it.
+/// A real-time thread and how the system runs it.
 struct ThreadStatus {
   memory::FixedText<16> name;
   memory::FixedText<32> scheduling;                  ///< What was granted: "FIFO 80, core 2".
-  std::uint64_t minor_faults = 0, major_faults = 0;  ///< Page faults since its start-up.
+  std::uint64_t minor_faults = 0, major_faults = 0;  ///< Page faults since the thread's start-up.
 };
 
 /// All that a watcher can know of a running process, in one piece without pointers: it is copied
 /// whole into the status page, and all displays (terracut top, /metrics, the final summary) read
-/// only this. It contains the names of what it counts, so that another build can read it. About 350
-/// KiB, mostly histogram buckets.
-///
+/// only this. Counts come with their names, so that another build can read them. About 350 KiB,
+/// mostly histogram buckets.
 /// A plain value. If it comes from another process it may have any bytes; the accessors below and
-/// to_string are safe then.
+/// to_string are safe even then.
 struct MonitorSnapshot {
-  /// To be increased with every change of the layout.
+  /// The version of the layout; increase it with every change.
   static constexpr std::uint32_t kLayout = 9;
   static constexpr std::size_t kMaxLosses = 64;
   static constexpr std::size_t kMaxOutcomes = 24;
@@ -61,39 +60,39 @@ struct MonitorSnapshot {
   memory::FixedText<24> version;  ///< The program's version.
   memory::FixedText<96> sensor;   ///< Model, spin rate, return mode.
   memory::FixedText<64> input;    ///< Where packets come from: "0.0.0.0:2368".
-  std::int64_t started_ns = 0;    ///< CLOCK_REALTIME, like all times of day here.
+  std::int64_t started_ns = 0;    ///< CLOCK_REALTIME, as are all times of day here.
   std::int64_t taken_ns = 0;      ///< When this snapshot was taken.
   std::int64_t deadline_ns = 0;
-  std::uint8_t interrupted = 0;  ///< 1: ended before the requested time was over.
+  std::uint8_t interrupted = 0;  ///< 1: the run ended before the requested time.
 
   LinkState link = LinkState::kWaiting;
   std::uint64_t silences = 0;       ///< How often no packet came for a second or longer.
   std::int64_t silent_ns = 0;       ///< Duration of all silences.
-  std::uint8_t head_stands = 0;     ///< 1: packets come, but their head does not rotate.
-  std::uint64_t packets = 0;        ///< Datagrams accepted, of those received.
+  std::uint8_t head_stands = 0;     ///< 1: packets come, but the sensor's head does not rotate.
+  std::uint64_t packets = 0;        ///< Datagrams received and accepted.
   std::int64_t last_packet_ns = 0;  ///< Kernel's stamp of the newest packet.
-  /// Head azimuths between which the sensor sends nothing, [0, 36000), perhaps across 0; equal if
-  /// no such sector is known.
+  /// Azimuths of the head between which the sensor sends nothing, [0, 36000), perhaps across 0;
+  /// equal if no such sector is known.
   std::int32_t blind_from_cdeg = 0, blind_to_cdeg = 0;
 
   std::uint64_t frames = 0;    ///< Judged frames of any level.
   std::uint64_t returns = 0;   ///< Returns in these frames.
   std::uint64_t unjudged = 0;  ///< Frames whose stamps give no latency.
-  double frames_per_s = 0;     ///< In the last few seconds, by packet stamps; 0: they stopped.
+  double frames_per_s = 0;     ///< Over the last few seconds of packet stamps; 0: stopped.
   std::array<std::uint64_t, kLevels> levels{};
-  std::array<std::uint64_t, kMissCauses> misses{};  ///< Indexed by cause.
-  std::uint64_t consecutive_misses = 0;             ///< Up to the newest frame.
+  std::array<std::uint64_t, kMissCauses> misses{};  ///< Misses of the deadline, by cause.
+  std::uint64_t consecutive_misses = 0;             ///< Misses in a row up to the newest frame.
   std::uint64_t longest_run_of_misses = 0;
 
   MountFigures mount;
   MotionFigures motion;
   HealthFigures health;
 
-  /// Datagrams that came, or were dropped, before labelling began; not among `packets` or
+  /// Datagrams that came or were dropped before labelling began; they are not among `packets` or
   /// `received`.
   std::uint64_t before_labelling = 0;
   std::uint64_t received = 0;       ///< Datagrams from the kernel: `in_doubt` and all `outcomes`.
-  std::uint64_t in_doubt = 0;       ///< Those whose place in the stream is not known yet.
+  std::uint64_t in_doubt = 0;       ///< Received, but place in the stream not known yet.
   std::uint32_t outcome_count = 0;  ///< The number of `outcomes` in use.
   std::array<NamedCount, kMaxOutcomes> outcomes{};
 
@@ -105,8 +104,8 @@ struct MonitorSnapshot {
   measure::LogLinearHistogram latency;      ///< Wall time from the last packet to the labels.
   measure::LogLinearHistogram wall;         ///< Wall time from the hand-over to the labels.
   measure::LogLinearHistogram total_cpu;    ///< Processor time, decoding and segmenting.
-  measure::LogLinearHistogram decode_cpu;   ///< Processor time.
-  measure::LogLinearHistogram segment_cpu;  ///< Processor time.
+  measure::LogLinearHistogram decode_cpu;   ///< Processor time of decoding.
+  measure::LogLinearHistogram segment_cpu;  ///< Processor time of segmenting.
   std::uint32_t stage_count = 0;
   std::array<memory::FixedText<24>, kMaxStages> stage_names{};
   std::array<measure::LogLinearHistogram, kMaxStages> stage_cpu{};
@@ -117,7 +116,7 @@ struct MonitorSnapshot {
   [[nodiscard]] std::span<const NamedCount> losses_in_use() const noexcept {
     return std::span(losses).first(std::min<std::size_t>(loss_count, losses.size()));
   }
-  /// Returns what happened to the datagrams; each is in one of these.
+  /// Returns what happened to the datagrams; each datagram is in one of these counts.
   [[nodiscard]] std::span<const NamedCount> outcomes_in_use() const noexcept {
     return std::span(outcomes).first(std::min<std::size_t>(outcome_count, outcomes.size()));
   }

@@ -10,7 +10,7 @@
 namespace terracut::status {
 
 /// Tells whether the sensor's head stands still: packets come, but the decoder rejects all of them
-/// for this reason, and no frame can follow. No thread contract of its own.
+/// for this reason, so no frame can follow. The user keeps threads apart.
 class StandingHead {
  public:
   [[nodiscard]] bool is_standing(const net::DatagramAccount& account) noexcept {
@@ -22,7 +22,7 @@ class StandingHead {
   }
 
  private:
-  static constexpr std::uint64_t kEnough = 500;  // a tenth to a quarter of a second
+  static constexpr std::uint64_t kEnough = 500;  // packets of a tenth to a quarter of a second
   std::uint64_t decoded_ = 0, refused_before_ = 0;
 };
 

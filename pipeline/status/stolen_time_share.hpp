@@ -9,24 +9,24 @@
 
 namespace terracut::status {
 
-/// Measures what the hypervisor took from this machine while a frame was on its way, for the thread
-/// that judges frames. Threads with a deadline do not ask, because the kernel may take a
-/// millisecond to answer (rt/measure/stolen_time.hpp). Read a few times a second and after a missed
-/// deadline, so a frame may be charged with time taken up to a quarter of a second around it. One
-/// thread; looks at no clock.
+/// Measures the time that the hypervisor took from this machine while a frame was on its way, for
+/// the thread that judges frames. Threads with a deadline do not ask, because the kernel may take a
+/// millisecond to answer (rt/measure/stolen_time.hpp). The time is read a few times a second and
+/// after a missed deadline, so a frame may be charged with time taken up to a quarter of a second
+/// around it. One thread; reads no clock.
 ///
-/// `Stolen`: like measure::StolenTime.
+/// `Stolen` is like measure::StolenTime.
 template <class Stolen>
 class StolenTimeShare {
  public:
   explicit StolenTimeShare(Stolen stolen) noexcept : stolen_(std::move(stolen)) {}
 
-  /// May be called at any rate.
+  /// Reads the stolen time if it is due; may be called at any rate.
   void work_round(std::int64_t now_ns) noexcept {
     const bool clock_was_set_back = now_ns < newest().at_ns;
     if (clock_was_set_back || now_ns - newest().at_ns >= kEvery_ns) read(now_ns);
   }
-  /// Returns the time taken from `begin_ns` to now.
+  /// Returns the time that was taken from `begin_ns` to now.
   [[nodiscard]] std::int64_t since(std::int64_t begin_ns, std::int64_t now_ns) noexcept {
     if (newest().at_ns < now_ns) read(now_ns);
     std::int64_t before_ns = newest().stolen_ns;

@@ -10,7 +10,7 @@
 
 namespace terracut::status {
 
-/// Returns the histograms among the figures that have a phrase as a table in milliseconds, a row
+/// Returns a table in milliseconds of the figures that are histograms and have a phrase, one row
 /// each:
 ///
 ///   ms                       p50       p90       p99     p99.9       max

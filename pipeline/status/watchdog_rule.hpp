@@ -9,12 +9,12 @@
 
 namespace terracut::status {
 
-/// Decides whether to feed a service manager's watchdog. Look several times within its time, and at
-/// least a few frames apart.
+/// Decides whether to feed a service manager's watchdog. Call it several times within the
+/// watchdog's time, and at least a few frames apart.
 ///
-/// It is fed if since the last look at least as many frames met their deadline as missed it; or if
-/// no packet came at all, or the sensor's head stands: restarting the program does not mend a
-/// sensor that is off.
+/// The watchdog is fed if, since the last call, at least as many frames met their deadline as
+/// missed it; or if no packet came at all, or the sensor's head stands: restarting the program does
+/// not mend a sensor that is off.
 class WatchdogRule {
  public:
   [[nodiscard]] bool may_feed(const MonitorSnapshot& figures) noexcept {

@@ -60,8 +60,7 @@ class GroundPatches {
     while (index >= per_row_) index -= per_row_;
     return index;
   }
-  /// The next two functions return the number of the adjacent patch, across the row's end if
-  /// needed.
+  /// The next two functions return the number of the adjacent patch, across a row's end, too.
   [[nodiscard]] int after(int index) const noexcept { return index + 1 < per_row_ ? index + 1 : 0; }
   [[nodiscard]] int before(int index) const noexcept {
     return index > 0 ? index - 1 : per_row_ - 1;

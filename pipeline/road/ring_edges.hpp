@@ -14,8 +14,7 @@
 namespace terracut::road {
 
 /// Finds kerbs and other edges of the ground: places where the ground rises or falls along a ring
-/// more steeply than the terrain at large, unless the ring is as steep on one side of the place (a
-/// bank).
+/// more steeply than the terrain at large, unless one side of the place is as steep (a bank).
 class RingEdges {
  public:
   struct Config {

@@ -40,8 +40,7 @@ class CdrWriter {
   }
   /// Adds the number of elements of a sequence. The caller then adds the elements.
   void add_length(std::size_t elements) { add(static_cast<std::uint32_t>(elements)); }
-  /// Adds a sequence<uint8> and returns its bytes for the caller to fill; valid until the next
-  /// call.
+  /// Adds a sequence<uint8> and returns its bytes for the caller to fill until the next call.
   [[nodiscard]] std::span<std::byte> add_byte_sequence(std::size_t count) {
     add_length(count);
     bytes_.resize(bytes_.size() + count);

@@ -42,8 +42,7 @@ class CloudPipeline {
   [[nodiscard]] Status label(const cloud::CloudView& cloud, status::FrameRecord& record,
                              const min_cut::CutBudget& budget = {});
 
-  /// Returns one label per point in the cloud's order, like all that follows for the cloud labelled
-  /// last.
+  /// Like all that follows, of the cloud labelled last: returns one label per point, in order.
   [[nodiscard]] const std::vector<frame::Label>& point_labels() const noexcept {
     return point_labels_;
   }
@@ -54,8 +53,7 @@ class CloudPipeline {
   [[nodiscard]] const scan::ScanToImage::Summary& placed() const noexcept {
     return placement_.placed();
   }
-  /// Returns the truth of each return, by return index. `truth` has one entry per point or is
-  /// empty; if it is empty, so is the result.
+  /// Returns the truth of each return, by return index; empty if `truth`, by point, is empty.
   [[nodiscard]] std::span<const std::uint32_t> truth_of_returns(
       std::span<const std::uint32_t> truth);
 

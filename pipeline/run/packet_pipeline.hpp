@@ -52,8 +52,7 @@ class PacketPipeline {
   /// Ends the stream; call it when the source ends or is about to jump (a replay loop).
   void end_stream() noexcept;
   /// Returns the frames completed by push() or end_stream(), one after the other, then null; a
-  /// frame is valid until the next call. Call next() until it returns null before any other
-  /// function.
+  /// frame is valid until the next call. Call no other function before next() has returned null.
   [[nodiscard]] Frame* next() noexcept;
   /// Returns why the last datagram was rejected; nothing if it was not rejected.
   [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept {

@@ -55,8 +55,7 @@ class ReturnLabels {
                                             std::size_t cell,
                                             const CellPlanes& planes) const noexcept;
   using TileLabels = frame::TileRow<std::uint8_t>;
-  /// Returns the labels of one laser's returns in the open tile; kNone where the laser has no
-  /// return.
+  /// Returns the labels of one laser's returns in the open tile; kNone for a missing return.
   [[nodiscard]] TileLabels labels_of_row(const frame::MeasuredReturns& returns, std::size_t tile,
                                          std::size_t laser, const frame::PointPlanes& points,
                                          frame::TileReader& reader,

@@ -8,10 +8,9 @@
 namespace terracut::stage {
 
 /// Steps over rows by angle. Rows may be unevenly spaced: those of an RS-Ruby128 are 0.1 degrees
-/// apart around the horizon and up to 5.4 degrees farther down, those of an HDL-64E a third or half
-/// a degree. A step goes to the next row, or over as many rows as it takes to cover `step_deg`; so
-/// k steps cover about the same angle on any sensor. If step_deg is 0, a step is a row, as in the
-/// paper.
+/// apart around the horizon and up to 5.4 degrees below, an HDL-64E's a third or half a degree. A
+/// step goes to the next row, or over as many rows as it takes to cover `step_deg`; so k steps
+/// cover about the same angle on any sensor. If step_deg is 0, a step is a row, as in the paper.
 ///
 /// For use in constructors: each answer is looked up in the profile, O(rows).
 class RowSteps {

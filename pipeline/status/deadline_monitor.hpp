@@ -17,8 +17,8 @@ namespace terracut::status {
 /// Judges every frame by its deadline, names the cause of a miss, and keeps the figures.
 ///
 /// A frame's latency runs from the kernel's stamp of its last packet to its labels. The frame
-/// missed its deadline if the latency is longer or if the frame was skipped. The latency is divided
-/// into shares in this order, each share at most what is left:
+/// missed its deadline if the latency is longer or if it was skipped. The latency is divided into
+/// shares in this order, each share at most what is left:
 /// this order, each share at most the rest:
 ///
 ///   late_input         last packet -> closing packet: the sensor or the network was late

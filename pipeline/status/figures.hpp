@@ -26,8 +26,7 @@ namespace terracut::status {
 /// any content.
 [[nodiscard]] bool are_possible(const MonitorSnapshot& snapshot);
 
-/// Explains to people how the mount is contradicted and what to do; empty if it is not
-/// contradicted.
+/// Explains to people how the mount is contradicted and what to do; empty if it is not.
 [[nodiscard]] std::string contradiction_text(const MountFigures& mount);
 /// Explains to people that the mount is guessed; empty if it is not.
 [[nodiscard]] std::string guess_text(const MountFigures& mount);

@@ -19,8 +19,8 @@ namespace terracut::stream {
 
 static_assert(std::endian::native == std::endian::little, "the records below are sent as they lie");
 
-/// One return on the wire. `label` is its SemanticKITTI class as in .label files (label_sink.hpp);
-/// the rest is as in points::LabelledPoint.
+/// One return on the wire. `label` is a SemanticKITTI class as in .label files (label_sink.hpp);
+/// the other fields are as in points::LabelledPoint.
 struct WirePoint {
   float x_m = 0, y_m = 0, z_m = 0;
   std::uint8_t intensity = 0;
@@ -47,29 +47,29 @@ static_assert(offsetof(WirePoint, intensity) == 12 && offsetof(WirePoint, label)
 /// Bits of FrameWireHeader::flags. Readers ignore bits they do not know.
 inline constexpr std::uint32_t kFrameComplete = 1U << 0;  ///< Every firing was seen, seam to seam.
 inline constexpr std::uint32_t kFrameLate = 1U << 1;      ///< Labelled after its deadline.
-/// Deskewed: points lie where they were at one instant of the frame.
+/// Deskewed: each point lies where it was at one common instant of the frame.
 inline constexpr std::uint32_t kFrameDeskewed = 1U << 2;
-/// To be deskewed, but without known motion: points lie where the sensor saw them.
+/// Deskewing was asked for but not done, for lack of motion: points lie where they were seen.
 inline constexpr std::uint32_t kFrameNoEgoMotion = 1U << 3;
 
 inline constexpr std::array<char, 4> kFrameMagic{'T', 'C', 'L', 'T'};
-/// Increases only if readers of the last version could no longer read. New fields go to the end of
-/// the header or of the point; readers skip as header_bytes and point_bytes say.
+/// Increases only if readers of the last version could no longer read. New fields are added at the
+/// end of the header or point; readers skip them by header_bytes and point_bytes.
 inline constexpr std::uint16_t kFrameWireVersion = 1;
-/// No frame has more points: six times a Ruby128's dual-return frame.
+/// The most points of a frame: six times a Ruby128's dual-return frame.
 inline constexpr std::uint32_t kMostFramePoints = 4'194'304;
 
 struct FrameWireHeader {
   std::array<char, 4> magic = kFrameMagic;
   std::uint16_t version = kFrameWireVersion;
   std::uint16_t header_bytes = 56;
-  std::uint32_t number = 0;  ///< Frame number since the start; gaps are frames without points.
+  std::uint32_t number = 0;  ///< Frame number; a gap means frames without points.
   std::uint32_t points = 0;
-  std::int64_t first_packet_ns = 0;  ///< CLOCK_REALTIME, the kernel's stamp.
+  std::int64_t first_packet_ns = 0;  ///< Kernel's stamp, CLOCK_REALTIME.
   std::int64_t last_packet_ns = 0;
   std::int64_t labels_ns = 0;  ///< CLOCK_REALTIME when the labels were ready. 0: unknown.
   std::uint16_t point_bytes = sizeof(WirePoint);
-  std::uint8_t sensor = 0;  ///< A StreamedSensor.
+  std::uint8_t sensor = 0;   ///< A value of StreamedSensor.
   std::uint8_t level = 0;    ///< status::Level: 0 full, 1 cut stopped, 2 coarse, 3 skipped.
   std::uint32_t flags = 0;   ///< Bits such as kFrameComplete.
   std::uint32_t missed = 0;  ///< Frames this reader missed since it connected.
@@ -86,7 +86,7 @@ static_assert(offsetof(FrameWireHeader, header_bytes) == 6 &&
               offsetof(FrameWireHeader, point_bytes) == 40 &&
               offsetof(FrameWireHeader, sensor) == 42 && offsetof(FrameWireHeader, level) == 43 &&
               offsetof(FrameWireHeader, flags) == 44 && offsetof(FrameWireHeader, missed) == 48);
-/// Makes the header of a frame for a reader that has missed none.
+/// Returns the header of a frame, with `missed` at 0.
 [[nodiscard]] constexpr FrameWireHeader header_of(const status::FrameRecord& record,
                                                   sensor::SensorModel sensor, bool late,
                                                   std::size_t points) noexcept {

@@ -10,13 +10,13 @@
 
 namespace terracut::stream {
 
-/// A non-blocking stream socket that listens. It removes the file of a Unix socket at the end.
+/// A non-blocking stream socket that listens. Its destructor removes the file of a Unix socket.
 class ListeningSocket {
  public:
-  /// Replaces a Unix socket's file on which nobody listens, as kill -9 leaves one; anything else at
-  /// that path is not touched. kNotFound: no such address on this machine, or no such folder.
-  /// kUnreadable: address or path taken, or another refusal of the system. `unix_mode` are the
-  /// rights of a Unix socket's file, whatever the umask; whoever may write to it may connect.
+  /// Replaces a Unix socket's file on which nobody listens, as kill -9 leaves one, but nothing else
+  /// at that path. Fails with kNotFound if this machine has no such address or folder, kUnreadable
+  /// if address or path is in use or the system refuses for another reason. `unix_mode` gives the
+  /// rights of a Unix socket's file, whatever the umask; whoever may write to the file may connect.
   [[nodiscard]] static Expected<ListeningSocket> open(const StreamAddress& address,
                                                       ::mode_t unix_mode = kOwnerAndGroup);
   static constexpr ::mode_t kOwnerAndGroup = 0660;
@@ -26,7 +26,7 @@ class ListeningSocket {
   ~ListeningSocket() { close(); }
 
   [[nodiscard]] int descriptor() const noexcept { return socket_.get(); }
-  /// Returns the address, with the port the system chose if asked to.
+  /// Returns the address; its port is the system's choice if port 0 was asked for.
   [[nodiscard]] const StreamAddress& address() const noexcept { return address_; }
 
  private:
@@ -36,7 +36,7 @@ class ListeningSocket {
 
   files::OwnedDescriptor socket_;
   StreamAddress address_;
-  ::dev_t device_ = 0;  ///< Identify the Unix socket's file, which may have been replaced since.
+  ::dev_t device_ = 0;  ///< With inode_, identifies the Unix socket's own file.
   ::ino_t inode_ = 0;
 };
 

@@ -15,8 +15,8 @@ namespace terracut::stream {
 
 inline constexpr std::uint32_t kLoopbackAddress = 0x7F00'0001;  ///< 127.0.0.1
 
-/// Parses an address to serve at, as parse_ipv4_endpoint() does, but a port alone is only for this
-/// machine's programs.
+/// Parses an address to serve at, as parse_ipv4_endpoint() does, except that a port alone means the
+/// loopback address, for this machine's programs only.
 [[nodiscard]] Expected<net::Ipv4Endpoint> parse_serving_endpoint(std::string_view text);
 
 /// The address of a stream of frames: TCP over IPv4, or a Unix socket.
@@ -28,14 +28,14 @@ struct StreamAddress {
   bool operator==(const StreamAddress&) const = default;
 };
 
-/// Parses "192.168.3.10:7447"; "7447" or ":7447" on the loopback address; "0.0.0.0:7447" on every
-/// address of this machine; a text with a slash, "/run/terracut/frames" or "./frames", as a Unix
-/// socket's path. kInvalidArgument, with what was expected, for anything else.
+/// Parses "192.168.3.10:7447"; "7447" or ":7447" as the loopback address; "0.0.0.0:7447" as every
+/// address of this machine; a text with a slash, "/run/terracut/frames" or "./frames", as the path
+/// of a Unix socket. Fails with kInvalidArgument for anything else, stating what was expected.
 [[nodiscard]] Expected<StreamAddress> parse_stream_address(std::string_view text);
 
 [[nodiscard]] std::string to_string(const StreamAddress& address);
 
-/// An address for the system's calls.
+/// An address in the form that system calls take.
 struct SocketAddress {
   ::sockaddr_storage storage{};
   ::socklen_t size = 0;
@@ -44,8 +44,7 @@ struct SocketAddress {
     return reinterpret_cast<const ::sockaddr*>(&storage);
   }
 };
-/// Converts an address. parse_stream_address() limits the length of paths; longer ones would be
-/// cut.
+/// Converts an address. A path longer than parse_stream_address() allows would be cut.
 [[nodiscard]] SocketAddress socket_address(const StreamAddress& address) noexcept;
 
 }  // namespace terracut::stream

@@ -10,13 +10,13 @@
 
 namespace terracut {
 
-/// Writes one little-endian uint32 a label, SemanticKITTI classes: 40 ground, 49 ground that is not
-/// road, 99 obstacle, 0 none. Whole or not at all (temporary name, then rename). kWriteFailed.
+/// Writes one little-endian uint32 per label, SemanticKITTI classes: 40 ground, 49 ground not road,
+/// 99 obstacle, 0 none; whole or not at all (by a rename). Fails with kWriteFailed.
 [[nodiscard]] Status write_labels(const std::filesystem::path& file, std::span<const Label> labels);
 
-/// Writes a binary PCD of x, y, z, intensity, ring and label (classes as above), one point a
-/// return. Whole or not at all. kWriteFailed; kInvalidArgument if there are not as many labels as
-/// points.
+/// Writes a binary PCD of x, y, z, intensity, ring and label (classes as above), one point per
+/// return. The file appears whole or not at all. Fails with kWriteFailed, or kInvalidArgument if
+/// there are not as many labels as points.
 [[nodiscard]] Status write_pcd(const std::filesystem::path& file, const Frame& frame);
 
 }  // namespace terracut

@@ -12,9 +12,9 @@
 
 namespace terracut {
 
-/// Turns packets into labelled frames on the caller's thread. Fixed memory: push() and next()
+/// Turns packets into labelled frames on the caller's thread. Memory is fixed: push() and next()
 /// allocate nothing, lock nothing and throw nothing. next() takes as long as the frame needs
-/// (LiveRun keeps deadlines). One thread.
+/// (LiveRun keeps deadlines). For one thread.
 ///
 ///   pipeline.push(packet);
 ///   while (const Frame* frame = pipeline.next()) use(frame->points, frame->labels);
@@ -26,18 +26,18 @@ class PacketPipeline {
     int reorder_packets = 2;  ///< See Decoder::Config::reorder_packets.
   };
 
-  /// Errors: kInvalidArgument on a setting out of range, kCapacityExceeded if memory is short.
+  /// Fails with kInvalidArgument for a setting out of range, kCapacityExceeded without memory.
   [[nodiscard]] static Expected<PacketPipeline> make(const Calibration& calibration,
                                                      const Config& config);
   PacketPipeline(PacketPipeline&&) noexcept;
   PacketPipeline& operator=(PacketPipeline&&) noexcept;
   ~PacketPipeline();
 
-  /// See Decoder.
+  /// Adds a packet; see Decoder.
   void push(const Packet& packet) noexcept;
   void end_stream() noexcept;
-  /// Returns the next labelled frame, or null. Call it until it returns null; a frame is valid
-  /// until the next call.
+  /// Returns the next labelled frame, or null. After each push(), call next() until it returns
+  /// null; a frame is valid until the next call.
   [[nodiscard]] const Frame* next() noexcept;
 
  private:

@@ -17,18 +17,18 @@
 
 namespace terracut {
 
-/// A named set of the method's parameters; docs/reference/method.md has their effect.
+/// A named set of the method's parameters; docs/reference/method.md describes its effect.
 enum class Profile : std::uint8_t {
-  kTerracut,  ///< The default.
+  kTerracut,  ///< The method with terracut's improvements, the default.
   kPaper,     ///< The method as published.
 };
 
-/// One revolution of a spinning LiDAR with 8 to 256 lasers, points in any order.
+/// One revolution of a spinning LiDAR with 8 to 256 lasers; points may be in any order.
 struct Cloud {
   std::span<const CloudPoint> points;
   /// The laser number of each point, in any numbering from 0 to 255; empty if unknown.
   std::span<const std::uint16_t> laser = {};
-  /// The number of rows of an organised cloud, all of equal length; 1 if not organised.
+  /// The number of rows of an organised cloud, which are of equal length; 1 if not organised.
   std::size_t rows = 1;
 };
 
@@ -44,7 +44,7 @@ enum class FieldType : std::uint8_t {
   kFloat64 = 8,
 };
 
-/// A field of a point.
+/// Describes one field of a point.
 struct PointField {
   std::string_view name;
   std::size_t offset = 0;  ///< Offset in the point, bytes.
@@ -53,38 +53,38 @@ struct PointField {
 };
 
 /// A cloud in a driver's memory, in the terms of sensor_msgs/PointCloud2: points with named fields.
-/// The fields used are x, y, z (metres); the laser in ring, channel, laser or row; and intensity,
-/// only for pictures. So layouts such as PointXYZIRC, PointXYZIRCAEDT, PointXYZIRT and Ouster's can
-/// be used as they are; azimuth, time and other fields are ignored.
+/// Used are x, y, z (metres), the laser number in ring, channel, laser or row, and intensity, only
+/// for pictures. So layouts such as PointXYZIRC, PointXYZIRCAEDT, PointXYZIRT and Ouster's work as
+/// they are; azimuth, time and other fields are ignored.
 struct PointBuffer {
   std::span<const std::byte> data;
   std::span<const PointField> fields;
   std::size_t point_step = 0;  ///< Bytes from one point to the next.
-  std::size_t width = 0;       ///< Points a row.
+  std::size_t width = 0;       ///< Points per row.
   std::size_t height = 1;      ///< Rows; above 1 the cloud is organised.
   std::size_t row_step = 0;    ///< Bytes from one row to the next; 0: width * point_step.
   bool big_endian = false;     ///< True if values are big-endian.
 };
 
-/// Labels clouds of one sensor. The laser of a point is found in one of these ways, in this order:
-/// its number; the rows of an organised cloud (its columns, if these are fewer); the order of
-/// KITTI's .bin files, 64 rings from the top, each counter-clockwise from straight ahead; the
-/// elevations of the points.
+/// Labels clouds of one sensor. The laser of a point is found in the first of these ways that
+/// works: the point's laser number; the rows of an organised cloud (or its columns, if fewer); the
+/// order of KITTI's .bin files, 64 rings from the top, each counter-clockwise from straight ahead;
+/// the elevations of the points.
 ///
 /// The first cloud decides which way is used, the elevation of each laser and the firings in a
-/// revolution. It allocates and takes some 100 ms; later ones do not, unless they are in KITTI's
-/// order with rings missing. One thread; not for threads with a deadline.
+/// revolution. The first label() allocates and takes some 100 ms; later ones do not, unless clouds
+/// in KITTI's order lack rings. For one thread without a deadline.
 class Segmenter {
  public:
   struct Config {
     Mount mount{};
     Profile profile = Profile::kTerracut;
     /// Finds the mount from the near ground of the first clouds, x ahead, instead of using `mount`:
-    /// from the first cloud that shows it, and from the tenth on from all ten, which allocates,
-    /// too. Until then label() fails with kMountNotFound, for example if no ground is seen 3 to 15
-    /// m before or behind the vehicle.
+    /// from the first cloud that shows the mount, or, from the tenth cloud on, from ten clouds
+    /// together, which allocates. Until then label() fails with kMountNotFound, for example if no
+    /// ground is seen 3 to 15 m before or behind the vehicle.
     bool find_mount = false;
-    /// With find_mount: labels by `mount` as long as no cloud shows it, instead of failing;
+    /// With find_mount: as long as no cloud shows the mount, labels by `mount` instead of failing;
     /// found_mount() is then empty.
     bool guess_mount = false;
     /// Parameters of the method that differ from the profile's, "KEY=VALUE";
@@ -92,28 +92,27 @@ class Segmenter {
     std::vector<std::string> parameters = {};
   };
 
-  /// Errors: kInvalidArgument for a mount out of range or a parameter unknown or out of range.
+  /// Fails with kInvalidArgument if the mount or a parameter is out of range or unknown.
   [[nodiscard]] static Expected<Segmenter> make(const Config& config);
   Segmenter(Segmenter&&) noexcept;
   Segmenter& operator=(Segmenter&&) noexcept;
   ~Segmenter();
 
-  /// Returns one label a point, in the cloud's order, valid until the next call; kNone for points
-  /// that are no return (not finite, null, beyond 10 km); kObstacle, the safe side, for points of a
-  /// laser missing in the first cloud. Errors leave the segmenter unchanged: kMountNotFound with
-  /// Config::find_mount, where the next cloud may show it; kUnsupported or kMalformed if nothing
-  /// tells the lasers apart, or not as in the first cloud; kCapacityExceeded for a cloud of more
-  /// than twice the first one's points and more than two for each direction of each laser.
+  /// Returns one label per point, in the cloud's order, valid until the next call; kNone for points
+  /// that are no return (not finite, null, beyond 10 km); kObstacle, for safety, for points of a
+  /// laser that the first cloud did not have. Errors leave the segmenter unchanged: kMountNotFound
+  /// with Config::find_mount, when the next cloud may show the mount; kUnsupported or kMalformed if
+  /// nothing tells the lasers apart, or not as in the first cloud; kCapacityExceeded for a cloud of
+  /// more than twice the first cloud's points and more than two per direction of each laser.
   [[nodiscard]] Expected<std::span<const Label>> label(const Cloud& cloud);
   [[nodiscard]] Expected<std::span<const Label>> label(std::span<const CloudPoint> points) {
     return label(Cloud{points});
   }
-  /// Labels points in a driver's memory. kMalformed also for a missing x, y or z, or too little
-  /// data for the stated sizes.
+  /// Labels points in a driver's memory. Also fails with kMalformed if x, y or z is missing or
+  /// there is less data than the sizes state.
   [[nodiscard]] Expected<std::span<const Label>> label(const PointBuffer& buffer);
 
-  /// Returns the mount that the last labels were made with, if it was found; nothing without
-  /// Config::find_mount.
+  /// Returns the mount used for the last labels, if it was found; empty without Config::find_mount.
   [[nodiscard]] std::optional<FoundMount> found_mount() const noexcept;
 
  private:

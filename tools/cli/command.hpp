@@ -39,7 +39,7 @@ struct CommandText {
   std::string_view name, about;
 };
 
-/// Names and help by Command.
+/// Name and help of each Command.
 inline constexpr std::array kCommands{
     CommandText{"replay", "Label every return of a capture, frame by frame"},
     CommandText{"view", "Show labelled frames in a browser, to play, step and seek"},
@@ -78,7 +78,7 @@ inline constexpr std::array kCommands{
   return kCommands[static_cast<std::size_t>(command)].name;
 }
 
-/// A set of commands: kReplay
+/// A set of commands, written as kReplay
 /// kLive.
 class CommandSet {
  public:

@@ -16,31 +16,31 @@
 /// Output for people: results go to stdout, all other messages to stderr.
 namespace terracut::cli {
 
-/// Prints one line on stderr, filtered by for_terminal(); clears a progress line first. From any
-/// thread. A line that cannot be written is lost: a message ends nothing.
+/// Prints one line on stderr, filtered by for_terminal(), after clearing any progress line. For any
+/// thread. A line that cannot be written is lost: messages never end the program.
 void say(std::string_view line);
 void warn(std::string_view line);
 
 /// Lets a thread of its own (MessageThread) write messages and results from now on, so that no
-/// caller waits for a reader. For runs that do not end by themselves. To be called once.
+/// caller waits for a reader; for runs that do not end by themselves. Call it once.
 void write_in_background();
-/// Returns the messages lost because nobody read them.
+/// Returns how many messages were lost because nobody read them.
 [[nodiscard]] std::uint64_t lost_messages();
 
-/// Prints a result on stdout. end_output() reports a failure.
+/// Prints a result on stdout. A failure is reported by end_output().
 void print_text(std::string_view text);
 template <class... Values>
 void print_out(fmt::format_string<Values...> format, Values&&... values) {
   print_text(fmt::format(format, std::forward<Values>(values)...));
 }
-/// Flushes results that somebody watches as they come; false if they cannot be written.
+/// Flushes results that somebody may be watching; returns false if they cannot be written.
 [[nodiscard]] bool flush_output();
-/// Ends a program's output: returns `code`, but kOutputFailed in place of kOk if a result could not
-/// be written. Ends the process at once if texts are not taken within three seconds.
+/// Ends a program's output: returns `code`, but kOutputFailed instead of kOk if a result could not
+/// be written. Ends the process at once if waiting texts are not taken within three seconds.
 [[nodiscard]] ExitCode end_output(ExitCode code);
 
-/// Collects what this thread says and warns of, instead of stderr, while it lives: for programs
-/// that report to their users in their own way. One a thread.
+/// While this object lives, collects what its thread says and warns of, instead of writing it to
+/// stderr: for programs that report to users in their own way. One object per thread.
 class HeardLines {
  public:
   HeardLines();
@@ -51,13 +51,13 @@ class HeardLines {
   std::vector<std::string> said, warned;
 };
 
-/// Prints "error: <message>" and returns its exit code.
+/// Prints "error: <message>" and returns the error's exit code.
 [[nodiscard]] ExitCode refuse(const Error& error);
 [[nodiscard]] ExitCode refuse(ExitCode code, std::string_view message);
 /// Returns kOk, or prints the error and returns its exit code.
 [[nodiscard]] ExitCode done_or_refused(const Status& status);
 
-/// The progress of long work: `done` of `total` (0: unknown) after `lasts_s` seconds.
+/// The progress of long work: `done` of `total` (0 if unknown) after `lasts_s` seconds.
 struct ProgressState {
   std::string_view task, unit;
   double done = 0, total = 0, lasts_s = 0;
@@ -69,7 +69,7 @@ struct ProgressState {
 /// Shows nothing for short work.
 class Progress {
  public:
-  /// `unit` is what is counted ("frames", "s"), `total` how many there will be, 0 if unknown.
+  /// `unit` is what is counted ("frames", "s"); `total` is the final count, 0 if unknown.
   Progress(std::string task, std::string unit, double total);
   ~Progress();
   Progress(const Progress&) = delete;

@@ -13,16 +13,17 @@
 
 namespace terracut::cli {
 
-/// The parsed request to the program.
+/// The program's arguments, parsed.
 struct Arguments {
-  std::optional<Command> command;  ///< Empty: print `text`, the help or the version.
+  std::optional<Command> command;  ///< Empty: print `text`, which is the help or the version.
   std::string text;
   Options options;  ///< Defaults, overridden by the file, overridden by the command line.
-  std::filesystem::path configuration;  ///< The file of --config; may be empty.
+  std::filesystem::path configuration;  ///< File given by --config; may be empty.
 };
 
-/// Reads the command line and the configuration file it names. kInvalidArgument, naming command and
-/// option, for a wrong command line; otherwise errors of read_configuration().
+/// Reads the command line and the configuration file that it names. Fails with kInvalidArgument,
+/// naming command and option, for a wrong command line; else with the errors of
+/// read_configuration().
 [[nodiscard]] Expected<Arguments> parse_arguments(const std::vector<std::string>& words);
 
 }  // namespace terracut::cli

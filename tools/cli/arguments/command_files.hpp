@@ -9,8 +9,8 @@
 
 namespace terracut::cli {
 
-/// Returns the files a command reads and writes: the paths marked so in the table of settings,
-/// related files beside or below them, and the input of its outputs, by absolute paths.
+/// Returns the files that a command reads and writes, by absolute path: those of the options marked
+/// so in the table of settings, related files beside or below them, and the inputs of the outputs.
 [[nodiscard]] RunFiles files_of(Command command, const Options& options);
 
 /// Returns the files of a command, including the configuration file.

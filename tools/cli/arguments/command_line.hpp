@@ -11,7 +11,7 @@
 
 namespace terracut::cli {
 
-/// A typed setting with its texts; an option without a value has its `bare` text.
+/// A setting with the texts typed for it; an option typed without a value has its `bare` text.
 struct TypedOption {
   const Setting* setting = nullptr;
   std::vector<std::string> texts;
@@ -19,13 +19,13 @@ struct TypedOption {
 
 /// The parsed command line.
 struct CommandLine {
-  std::optional<Command> command;  ///< Empty: print `text`, the help or the version.
+  std::optional<Command> command;  ///< Empty: print `text`, which is the help or the version.
   std::vector<TypedOption> typed;
   std::string text;
 };
 
-/// Parses words that passed check_names(). Help shows the values of `in_force` as defaults.
-/// kInvalidArgument: an option given twice, or too many arguments.
+/// Parses words that passed check_names(). Help shows the values of `in_force` as defaults. Fails
+/// with kInvalidArgument if an option is given twice or there are too many arguments.
 [[nodiscard]] Expected<CommandLine> read_command_line(const std::vector<std::string>& words,
                                                       const Options& in_force);
 

@@ -10,13 +10,13 @@
 
 namespace terracut::cli {
 
-/// Checks that a command is named, that it has every option given, and that these have the values
-/// they need. kInvalidArgument with the likely correction. Words after --help, and after --version
-/// before a command, are not checked.
+/// Checks that a command is named, that it has every option given, and that these options have the
+/// values they need. Fails with kInvalidArgument and the likely correction. Words after --help, and
+/// after --version before a command, are not checked.
 [[nodiscard]] Status check_names(const std::vector<std::string>& words);
 
-/// Returns the file of --config, before or after the command; the last one counts. Empty if there
-/// is none.
+/// Returns the file given by --config, before or after the command; the last one counts. Empty if
+/// the option is not given.
 [[nodiscard]] std::filesystem::path configuration_named_in(const std::vector<std::string>& words);
 
 }  // namespace terracut::cli

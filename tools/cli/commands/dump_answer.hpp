@@ -13,16 +13,16 @@
 
 namespace terracut::cli {
 
-/// The outcome of a dump that a running process was asked for.
+/// What became of a dump that a running process was asked for.
 struct DumpAnswer {
   int pid = 0;
-  std::uint64_t serial = 0;  ///< Number of the process's answer, from 1.
-  std::string capture;       ///< The file written; empty if it was refused.
-  std::string calibration;   ///< The unit's table beside it, if written.
+  std::uint64_t serial = 0;  ///< Sequence number of the process's answer, from 1.
+  std::string capture;       ///< The file written; empty if the dump was refused.
+  std::string calibration;   ///< The unit's table beside the file, if written.
   std::uint64_t datagrams = 0;
-  double seconds = 0;   ///< From its first to its last datagram.
+  double seconds = 0;   ///< Time from the first to the last datagram of the file.
   std::string refusal;  ///< Name of the DumpRefusal.
-  std::string message;  ///< Why it was refused.
+  std::string message;  ///< Why the dump was refused.
 };
 
 /// Publishes a process's last answer beside its status page as `NAME.terracut-dump`, for `terracut
@@ -34,7 +34,8 @@ class DumpAnswers {
   DumpAnswers& operator=(const DumpAnswers&) = delete;
   ~DumpAnswers();  ///< Removes the answer.
 
-  /// Errors: kWriteFailed; the dump itself is kept, but the asking process gets no answer.
+  /// Publishes an answer. Fails with kWriteFailed; the dump is kept, but `terracut dump` gets no
+  /// answer.
   [[nodiscard]] Status publish(
       const tl::expected<recorder::DumpReport, recorder::RefusedDump>& outcome);
 
@@ -43,8 +44,9 @@ class DumpAnswers {
   std::uint64_t serial_ = 0;
 };
 
-/// Returns the last answer of the process of this name, alive or not; nothing if there is none, or
-/// if anybody could have written it (rt/files/trusted_file.hpp). Its texts may have any bytes.
+/// Returns the last answer of the process of this name, alive or not; nothing if there is no
+/// answer, or if anybody could have written it (rt/files/trusted_file.hpp). Texts may have any
+/// bytes.
 [[nodiscard]] std::optional<DumpAnswer> read_dump_answer(const std::filesystem::path& folder,
                                                          const std::string& name);
 

@@ -10,7 +10,7 @@
 namespace terracut::cli {
 
 /// Sends the capture repeatedly in real time, as run_send() does but without faults and summary,
-/// until `enough` or stop_wanted(). Errors of opening capture and sockets.
+/// until `enough` or stop_wanted(). Fails if the capture or a socket cannot be opened.
 [[nodiscard]] Status send_until(const Options& options, const std::atomic<bool>& enough);
 
 }  // namespace terracut::cli

@@ -12,11 +12,11 @@
 
 namespace terracut::cli {
 
-/// Counts of returns with different labels.
+/// Counts the returns whose labels differ.
 struct ReturnChanges {
-  std::uint64_t returns = 0;  ///< Compared.
+  std::uint64_t returns = 0;  ///< Returns compared.
   std::uint64_t to_obstacle = 0, to_ground = 0;
-  std::uint64_t other = 0;  ///< Between kinds of ground, or from or to no label.
+  std::uint64_t other = 0;  ///< Changes between kinds of ground, or from or to no label.
 
   [[nodiscard]] std::uint64_t changed() const noexcept { return to_obstacle + to_ground + other; }
   [[nodiscard]] double share() const noexcept {
@@ -26,7 +26,7 @@ struct ReturnChanges {
 };
 
 struct FrameChange {
-  std::string drive, frame;  ///< The frame is "000012".
+  std::string drive, frame;  ///< Names; a frame's is like "000012".
   ReturnChanges changes;
 };
 
@@ -39,27 +39,27 @@ struct DriveChange {
 /// The differences between two labellings of recordings.
 struct LabelChanges {
   std::uint64_t drives_before_alone = 0, drives_after_alone = 0;
-  std::uint64_t frames_in_one_alone = 0;   ///< In drives of both.
-  std::uint64_t frames_of_other_size = 0;  ///< With different numbers of returns: not compared.
-  std::uint64_t frames_by_sum = 0;         ///< Not read, as both SHA256SUMS agree.
+  std::uint64_t frames_in_one_alone = 0;   ///< Frames in only one labelling of a drive in both.
+  std::uint64_t frames_of_other_size = 0;  ///< Frames not compared: numbers of returns differ.
+  std::uint64_t frames_by_sum = 0;         ///< Frames not read, as their sums agree.
   DriveChange all;
-  std::vector<DriveChange> drives;  ///< In both; those with the largest changed share first.
-  std::vector<FrameChange> most;    ///< Changed frames, those with the largest share first.
+  std::vector<DriveChange> drives;  ///< Drives in both, largest changed share first.
+  std::vector<FrameChange> most;    ///< Changed frames, largest share first.
 
-  /// Returns several lines for people with at most `shown` drives.
+  /// Returns several lines for people that list at most `shown` drives.
   [[nodiscard]] std::string text(std::size_t shown) const;
   [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
 /// Compares labels: ground is 40 and 49, obstacle 99; the upper 16 bits do not count. With
-/// `trust_sums`, files with equal sums in both SHA256SUMS are not read if they have the same size
-/// and were not written since; otherwise all are read, as a sum may be out of date. `most` is the
-/// number of frames to name. Errors of the label files; kNotFound if no drive is in both;
-/// kNothingCameOut when stop_wanted().
+/// `trust_sums`, files with equal sums in both SHA256SUMS are not read if their sizes are equal and
+/// they were not written since; otherwise all are read, as a sum may be out of date. `most` is the
+/// number of frames to name. Fails with the errors of reading label files, kNotFound if no drive is
+/// in both, kNothingCameOut when stop_wanted().
 [[nodiscard]] Expected<LabelChanges> compare_labels(const Labelling& before, const Labelling& after,
                                                     std::size_t most, bool trust_sums);
 
-/// How a return's label changed; kNone: not at all.
+/// How the label of a return changed; kNone if it did not.
 enum class LabelChange : std::uint8_t { kNone, kToObstacle, kToGround, kOther };
 [[nodiscard]] bool is_obstacle_id(std::uint32_t label) noexcept;
 [[nodiscard]] LabelChange change_between(std::uint32_t before, std::uint32_t after) noexcept;

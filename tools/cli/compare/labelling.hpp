@@ -10,16 +10,16 @@
 
 namespace terracut::cli {
 
-/// Label files of one origin.
+/// The label files of several drives, made in one way.
 struct Labelling {
   std::map<std::string, std::filesystem::path> drives;  ///< Where the label files of each are.
-  std::filesystem::path state;  ///< Of the job that made them (RelabelJob::state()); may be empty.
+  std::filesystem::path state;  ///< State of their job (RelabelJob::state()), or empty.
 };
 
-/// Finds the labels in a folder. A folder of `terracut relabel` has those of its newest job;
-/// FOLDER/.relabel/ID those of that job; in any other, each folder with .label files is a drive,
-/// named by its path below. kNotFound if there are no label files; kUnreadable if a folder cannot
-/// be listed; errors of read_job().
+/// Finds the labels in a folder. A folder of `terracut relabel` has those of its newest job,
+/// FOLDER/.relabel/ID those of that job; in any other folder, each subfolder with .label files is a
+/// drive, named by its path below. Fails with kNotFound if there are no label files, kUnreadable if
+/// a folder cannot be listed, or as read_job() does.
 [[nodiscard]] Expected<Labelling> find_labelling(const std::filesystem::path& folder);
 
 }  // namespace terracut::cli

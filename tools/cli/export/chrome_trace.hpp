@@ -11,15 +11,15 @@ namespace terracut::cli {
 
 /// Returns the path of frames through the threads in Chrome's trace event format, which Perfetto's
 /// UI and chrome://tracing open: a track each for receive, segment and publish, slices for frames
-/// and their stages, an instant event where a deadline was missed. Times are microseconds since the
-/// earliest stamp; its time of day is otherData.origin_ns.
+/// and their stages, an instant event for each missed deadline. Times are microseconds since the
+/// earliest stamp, whose time of day is otherData.origin_ns.
 ///
-/// Stages are measured in processor time, so their slices stand one after another from the start of
-/// their frame at the width of that time; the rest of the frame's slice is time off the core. A
-/// frame's slice begins at its first packet, but not before the previous frame was handed over,
-/// because two frames are open at once around the seam.
+/// Stages are measured in processor time, so their slices follow one another from the start of the
+/// frame, each as wide as that time; the rest of the frame's slice is time off the core. A frame's
+/// slice begins at its first packet, but not before the previous frame was handed over, because two
+/// frames are open at once around the seam.
 ///
-/// `figures` gives the stages' names and the deadline; `frames` in the order they were judged.
+/// `figures` gives the stages' names and the deadline; `frames` are in the order of judging.
 [[nodiscard]] nlohmann::ordered_json chrome_trace(const status::MonitorSnapshot& figures,
                                                   std::span<const status::FrameRecord> frames);
 

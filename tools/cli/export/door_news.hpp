@@ -11,7 +11,7 @@
 
 namespace terracut::cli {
 
-/// Reports that something is unavailable, or available again (publish::Reopened).
+/// Prints that something has become unavailable or available again (publish::Reopened).
 inline void tell_of_door(std::string_view what, const Status& now) {
   if (now) return say(fmt::format("{} again", what));
   warn(fmt::format("no {}, which is tried again every 10 s: {}", what, now.error().message));

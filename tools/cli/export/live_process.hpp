@@ -10,14 +10,14 @@
 
 namespace terracut::cli {
 
-/// Finds the running `terracut live` of this name, or the only one if `name` is empty. kNotFound:
-/// none runs, or not under this name; kInvalidArgument: several run, the message names them.
+/// Finds the running `terracut live` of this name, or the only one if `name` is empty. Fails with
+/// kNotFound if no such process runs, kInvalidArgument (naming them) if several run.
 [[nodiscard]] Expected<page::StatusPageEntry> find_live_process(const std::filesystem::path& folder,
                                                                 const std::string& name);
 
-/// Sends it SIGUSR1, unless that could end it: the process must hold its status page, belong to the
-/// page's user, and be prepared for the signal (live/dump_signal.hpp). kNotFound: it has ended;
-/// kUnsupported: it does not listen; kUnreadable: not permitted.
+/// Sends a process SIGUSR1, unless the signal could end it: the process must hold its status page,
+/// belong to the page's user, and be prepared for the signal (live/dump_signal.hpp). Fails with
+/// kNotFound if it has ended, kUnsupported if it does not listen, kUnreadable if not permitted.
 [[nodiscard]] Status ask_for_dump(const std::filesystem::path& folder,
                                   const page::StatusPageEntry& process);
 

@@ -14,8 +14,8 @@ namespace terracut::cli {
 using FiguresSource = std::function<void(status::MonitorSnapshot&)>;
 
 /// Answers GET /metrics with the figures for Prometheus (metrics_text.hpp), within HttpBounds.
-/// Listen on loopback unless the network is trusted. Requests from foreign web pages get 403.
-/// Errors of HttpServer::start().
+/// Listen on loopback unless the network is trusted. Requests from foreign web pages get 403. Fails
+/// with the errors of HttpServer::start().
 [[nodiscard]] Expected<HttpServer> serve_metrics(const net::Ipv4Endpoint& at, FiguresSource source,
                                                  const HttpBounds& bounds = {});
 

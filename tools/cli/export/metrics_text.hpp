@@ -10,7 +10,7 @@ namespace terracut::cli {
 
 /// Returns the figures in Prometheus' text exposition format 0.0.4. Every counter counts since the
 /// start of the process; times are seconds. A value within 1/128 below a bucket's limit may be
-/// counted in the next bucket, none above it in this one
+/// counted in the next bucket, but no value above the limit is counted in this bucket
 /// (measure::LogLinearHistogram::count_not_above).
 [[nodiscard]] std::string metrics_text(const status::MonitorSnapshot& figures);
 

@@ -11,8 +11,8 @@
 namespace terracut::cli {
 
 /// Returns the screen of `terracut top`: the figures for people as lines that end with '\n'.
-/// `now_ns` is the time of day, which shows if a process hangs. The output is printable ASCII (and
-/// escape sequences of colours), whatever the snapshot's texts hold: another process wrote them,
+/// `now_ns` is the time of day, which shows if the process hangs. Output is printable ASCII (and
+/// escape sequences of colours), whatever the snapshot's texts hold, as another process wrote them
 /// and they go to a terminal.
 [[nodiscard]] std::string dashboard(const status::MonitorSnapshot& figures, std::int64_t now_ns,
                                     const status::LineStyle& style);
@@ -20,7 +20,7 @@ namespace terracut::cli {
 /// Returns the final output of `terracut live`.
 [[nodiscard]] std::string closing_lines(const status::MonitorSnapshot& figures);
 
-/// Explains a run without frames: what happened to its datagrams instead.
+/// Explains why a run has no frames, by what happened to its datagrams.
 [[nodiscard]] std::string why_no_frames(const status::MonitorSnapshot& figures);
 
 }  // namespace terracut::cli

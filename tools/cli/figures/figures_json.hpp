@@ -10,12 +10,12 @@
 
 namespace terracut::cli {
 
-/// Adds the figures to `json`, each in its group under its key. Durations are milliseconds, times
-/// of day nanoseconds, histograms {count, mean, p50, p90, p99, p99.9, max} of milliseconds.
+/// Adds each figure to `json`, in its group under its key. Durations are milliseconds, times of day
+/// nanoseconds, histograms {count, mean, p50, p90, p99, p99.9, max} of milliseconds.
 void add_figures(std::span<const status::Figure> figures, nlohmann::ordered_json& json);
 
-/// Returns all figures of a live run for programs, as printed by `terracut top --print-json` and
-/// written at a run's end: those of status::figures_of(), under their keys. `motion` and `health`
+/// Returns all figures of a live run for programs, as `terracut top --print-json` prints them and a
+/// run's end writes them: those of status::figures_of(), under their keys. `motion` and `health`
 /// are present if used; `blind` is null if no blind sector is known.
 [[nodiscard]] nlohmann::ordered_json live_summary(const status::MonitorSnapshot& figures);
 

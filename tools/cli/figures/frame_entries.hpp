@@ -12,17 +12,17 @@
 
 namespace terracut::cli {
 
-/// Keeps a report's frames[] on the disk during the run: those of an hour, 36,000 frames, would
-/// take 200 MB of memory. The file has no name, so nothing of it is left. One thread.
+/// Keeps a report's frames[] on the disk during the run: an hour's 36,000 entries would take 200 MB
+/// of memory. The file has no name, so it vanishes with the process. One thread.
 class FrameEntries {
  public:
-  /// Keeps the entries beside `report`, the file they will be written to. write() reports errors.
+  /// Keeps the entries on the disk of `report`, their final file. Errors are reported by write().
   explicit FrameEntries(const std::filesystem::path& report);
 
   void add(const nlohmann::ordered_json& entry);
 
-  /// Writes `report`, whose "frames" must be an empty list, with these entries; whole or not at
-  /// all. kWriteFailed.
+  /// Writes `report`, whose "frames" must be an empty list, with these entries in the list; whole
+  /// or not at all. Fails with kWriteFailed.
   [[nodiscard]] Status write(const std::filesystem::path& path,
                              const nlohmann::ordered_json& report);
 
@@ -30,9 +30,9 @@ class FrameEntries {
   void flush();
 
   files::OwnedDescriptor file_;
-  std::string pending_;  ///< Not written to the file yet.
+  std::string pending_;  ///< Text not yet written to the file.
   std::uint64_t bytes_ = 0;
-  int error_number_ = 0;  ///< errno of the first error.
+  int error_number_ = 0;  ///< errno of the first error; 0: none.
 };
 
 }  // namespace terracut::cli

@@ -26,8 +26,8 @@
 
 namespace terracut::cli {
 
-/// Times over all frames: by stage, decoding, their sum, the part after the frame's end, and wall
-/// time.
+/// Times over all frames: of each stage, of decoding, their sum, the part after the end of the
+/// frame, and wall time.
 struct TimeSummary {
   std::array<measure::LogLinearHistogram, stage::kStages> stages;
   measure::LogLinearHistogram decode, total, after_frame, wall;
@@ -47,47 +47,47 @@ struct FrameTotals {
   void add(const status::FrameRecord& frame, bool has_motion);
 };
 
-/// Returns the method that ran: its name, or profile and stages.
+/// Returns figures that tell which method ran: its name, or profile and stages.
 [[nodiscard]] std::vector<status::Figure> method_figures(const MethodOptions& options);
 
 /// Returns the number of datagrams outside the requested part of a capture.
 [[nodiscard]] std::vector<status::Figure> outside_figures(std::uint64_t before_start,
                                                           std::uint64_t behind_end);
 
-/// Returns an entry of the report's frames[].
+/// Returns a frame's entry in the report's frames[].
 [[nodiscard]] nlohmann::ordered_json frame_json(const status::FrameRecord& frame);
 
 /// The report of a run: the frames' records and a summary.
 struct Report {
-  std::string command;  ///< "replay"
+  std::string command;  ///< The command that ran, such as "replay".
   std::string input;
   std::string sensor;       ///< Model, spin rate and return mode; empty for scans.
-  std::string calibration;  ///< Origin and fingerprint of the table in use.
+  std::string calibration;  ///< Origin and fingerprint of the calibration table in use.
   MethodOptions method;
 
-  std::optional<FrameEntries> entries{};  ///< Filled by add(), if the whole report is wanted.
+  std::optional<FrameEntries> entries{};  ///< Filled by add() if the whole report is wanted.
   FrameTotals totals{};                   ///< Filled by add().
   TimeSummary times{};
   quality::Quality scores{};  ///< Filled by score().
-  std::uint64_t scored = 0;   ///< Frames with fitting truth.
+  std::uint64_t scored = 0;   ///< Number of frames that had fitting truth.
 
-  /// All losses of the run, if more than the frames' sum (losses after the last frame).
+  /// All losses of the run, if there are more than the frames' sum (after the last frame).
   std::optional<frame::LossCounters> losses{};
   std::optional<capture::CaptureAccount> datagrams{};  ///< For a capture.
   frame::BlindAzimuths blind{};  ///< Where the sensor sends nothing, as known at the end.
   status::MountFigures mount{};
   /// Samples of the vehicle's motion; set before the first frame in runs that deskew.
   std::optional<std::uint64_t> motion_samples{};
-  /// Points of scan files without a return: null or not finite, labelled 0; and those without a
-  /// ring, labelled as obstacles.
+  /// Points of scan files: those without a return (null or not finite), labelled 0, and those
+  /// without a ring, labelled as obstacles.
   struct ScanPoints {
     std::uint64_t no_place = 0, no_ring = 0;
   };
   std::optional<ScanPoints> scan_points{};
   std::string device_clock{};    ///< State of the sensor's clock, for people.
-  std::string sensor_warning{};  ///< Why clouds may not be one sensor's in its own frame.
+  std::string sensor_warning{};  ///< Why clouds may be of several sensors or another frame.
   std::string input_warning{};   ///< Where the input broke off.
-  bool interrupted = false;      ///< Ended before all of its input was processed.
+  bool interrupted = false;      ///< True if the run ended before all input was processed.
 
   void add(const status::FrameRecord& frame);
   void score(std::span<const frame::Label> labels, std::span<const std::uint32_t> truth);
@@ -114,7 +114,7 @@ struct Report {
   ///                   motion{samples, deskewed_frames, newest_sample_after_frame_ms{min, median,
   ///                   max}}
   [[nodiscard]] Status write_json(const std::filesystem::path& path);
-  /// Returns the report with an empty list of frames.
+  /// Returns the report for programs, with an empty list of frames.
   [[nodiscard]] nlohmann::ordered_json json() const;
 
  private:

@@ -12,33 +12,33 @@
 
 namespace terracut::cli {
 
-/// The files and folders that a run reads and writes, as named on its command line.
+/// The files and folders that a run reads and writes, as named on the command line.
 struct RunFiles {
   struct Input {
-    std::string option;  ///< "--calibration", or "FILE" of an argument.
+    std::string option;  ///< Option that names it: "--calibration"; or "FILE".
     std::filesystem::path path;
-    std::string what;  ///< "the calibration"
+    std::string what;  ///< What it is for people: "the calibration".
   };
   enum class Kind : std::uint8_t {
     kFile,
-    kFrames,          ///< Folder with one file per frame, all with one ending (FrameFolder).
-    kFolder,          ///< Folder that this run's files share with others.
+    kFrames,          ///< Folder of one file per frame with one ending (FrameFolder).
+    kFolder,          ///< Folder shared with files of other runs.
     kReplacedFolder,  ///< Folder that is replaced as a whole.
-    kSharedFolder,    ///< Folder in which runs keep their own files apart.
+    kSharedFolder,    ///< Folder in which each run keeps files of its own.
   };
   struct Output {
     std::string option;
     std::filesystem::path path;
     Kind kind = Kind::kFile;
-    std::string ending{};  ///< For kFrames: ".label".
+    std::string ending{};  ///< Ending of files for kFrames: ".label".
   };
 
   std::vector<Input> inputs;
   std::vector<Output> outputs;
-  std::string made_of{};         ///< Input of the outputs; empty: unknown.
-  bool replaces_others = false;  ///< In folders of frames also files made of another input.
+  std::string made_of{};         ///< Input from which outputs are made; empty: unknown.
+  bool replaces_others = false;  ///< kFrames: also replaces files made from another input.
 
-  /// read() and write() ignore empty paths, which stand for options not given.
+  /// read() and write() add a path; they ignore empty paths, which mean an option not given.
   void read(std::string option, const std::filesystem::path& path, std::string what);
   void write(std::string option, const std::filesystem::path& path, Kind kind = Kind::kFile,
              std::string ending = {});
@@ -46,9 +46,9 @@ struct RunFiles {
 
 /// Checks the files of a command before any work: no output is, lies in or replaces an input, no
 /// two outputs are the same, and each can be of its kind. Files are compared by identity, not by
-/// name (files::FilePlace). Then reserves each output against other runs as long as its claim
-/// lives. Errors of files::OutputClaim and, for folders of frames, of FrameFolder::check(), naming
-/// options and files. Outputs that cannot be written now (kWriteFailed, and errors of
+/// name (files::FilePlace). Then each output is reserved against other runs as long as its claim
+/// lives. Errors, which name options and files, are those of files::OutputClaim and
+/// FrameFolder::check(). Outputs that cannot be written now (kWriteFailed, errors of
 /// FrameFolder::check()) are put into `unwritable` instead, if given.
 [[nodiscard]] Expected<std::vector<files::OutputClaim>> claim_outputs(
     const RunFiles& files, std::vector<Error>* unwritable = nullptr);

@@ -10,7 +10,7 @@
 
 namespace terracut::cli {
 
-/// A folder that is removed with its content at destruction, as are those of killed processes.
+/// A folder that the destructor removes with its content; removes those of killed processes, too.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -28,7 +28,7 @@ class TemporaryFolder {
     std::error_code gone_or_not;
     if (!path().empty()) std::filesystem::remove_all(path(), gone_or_not);
   }
-  /// Returns the folder; empty if none could be made.
+  /// Returns the folder's path; empty if none could be made.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return part_.path; }
 
  private:

@@ -15,15 +15,15 @@ struct evp_md_ctx_st;  // OpenSSL's EVP_MD_CTX
 
 namespace terracut::cli {
 
-/// Computes SHA-256 (FIPS 180-4) of data given piece by piece. One thread.
+/// Computes the SHA-256 (FIPS 180-4) of data added piece by piece. For one thread.
 class ContentHash {
  public:
-  /// Throws std::bad_alloc if the library cannot be used.
+  /// Throws std::bad_alloc if OpenSSL cannot be used.
   ContentHash();
 
   void add(std::span<const std::byte> bytes);
   void add(std::string_view text) { add(std::as_bytes(std::span(text.data(), text.size()))); }
-  /// Returns 64 digits, as sha256sum prints them. To be called once.
+  /// Returns the 64 digits that sha256sum prints. Call it once.
   [[nodiscard]] std::string digits();
 
  private:
@@ -33,11 +33,11 @@ class ContentHash {
   std::unique_ptr<evp_md_ctx_st, Free> context_;
 };
 
-/// Hashes a whole file. kNotFound, kUnreadable; kNothingCameOut when stop_wanted().
+/// Hashes a whole file. Fails with kNotFound, kUnreadable, or kNothingCameOut when stop_wanted().
 [[nodiscard]] Expected<std::string> sha256_of_file(const std::filesystem::path& path);
 
 [[nodiscard]] std::string sha256_of(std::string_view text);
-/// The digits of the first 64 bits.
+/// Number of digits for the first 64 bits of a hash.
 inline constexpr std::size_t kShortHashDigits = 16;
 [[nodiscard]] std::string short_hash(std::string_view text);
 

@@ -12,16 +12,16 @@ namespace terracut::cli {
 
 /// Labels a drive in a folder of its own among the job's parts, by `terracut replay` or `segment`,
 /// and moves the result to its place, "job.folder/record.output". Completes `record`: done, or the
-/// cause of the failure. Nothing incomplete ever gets that name, nor the result of inputs that have
-/// changed since `record.stamps`, taken before they were hashed. Returns the failure's exit code;
-/// kInterrupted leaves the record unchanged.
+/// cause of the failure. Nothing incomplete ever gets that name, nor does a result whose inputs
+/// have changed since `record.stamps`, taken before the inputs were hashed. Returns the failure's
+/// exit code; kInterrupted leaves the record unchanged.
 [[nodiscard]] ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive,
                                    const nlohmann::ordered_json& recipe, RelabelRecord& record);
 
-/// Takes the facts of a complete folder (labelled_drive.hpp) into its drive's record.
+/// Copies the facts of a complete folder (labelled_drive.hpp) into the record of its drive.
 void take_facts(const nlohmann::ordered_json& facts, RelabelRecord& record);
 
-/// Records an error before the labelling, such as a missing input. Returns its exit code.
+/// Records an error that came before labelling, such as a missing input. Returns its exit code.
 [[nodiscard]] ExitCode note_failure(const Error& error, RelabelRecord& record);
 
 }  // namespace terracut::cli

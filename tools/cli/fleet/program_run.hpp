@@ -11,7 +11,7 @@
 
 namespace terracut::cli {
 
-/// How a run of the program ended, and its costs.
+/// How a run of the program ended, and what it cost.
 struct ProgramRun {
   int exit_code = -1;  ///< -1: ended by a signal.
   int signal = 0;
@@ -20,13 +20,14 @@ struct ProgramRun {
 };
 
 /// Runs this very program, even if its file was replaced meanwhile, with other arguments, and waits
-/// for it. Its standard error goes to the file `log`, its standard output nowhere. It dies with
-/// this process, however that ends; with catch_stop_signals() and stop_program() it is asked to
-/// stop, too. kWriteFailed if it cannot be started. From one thread at a time.
+/// for it. The child's standard error goes to the file `log`, its standard output nowhere. The
+/// child dies with this process, however that ends; with catch_stop_signals() and stop_program() it
+/// is asked to stop, too. Fails with kWriteFailed if it cannot be started. For one thread at a
+/// time.
 [[nodiscard]] Expected<ProgramRun> run_program(const std::vector<std::string>& words,
                                                const std::filesystem::path& log);
 
-/// Passes a signal on to the running program; for catch_stop_signals().
+/// Passes a stop signal on to the child; for catch_stop_signals(). Safe in a signal handler.
 void stop_program() noexcept;
 
 }  // namespace terracut::cli

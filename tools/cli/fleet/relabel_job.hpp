@@ -16,7 +16,7 @@
 namespace terracut::cli {
 
 /// A manifest to be labelled by one program with one set of settings into one folder. Any number of
-/// processes may work on it. Their shared state lies in the folder's .relabel:
+/// processes may work on a job. Their shared state lies in the folder's .relabel:
 ///
 ///   ID/job.json           manifest, drives and their bytes, program, when it began
 ///   ID/terracut.yaml      the settings
@@ -24,28 +24,28 @@ namespace terracut::cli {
 ///   parts/                what is under way: a folder each, of a process alone
 ///   broken/               drives' folders that were not whole, and what else was in them
 struct RelabelJob {
-  std::filesystem::path folder;    ///< The folder of the drives' folders.
+  std::filesystem::path folder;    ///< Folder that holds the drives' folders.
   std::filesystem::path manifest;  ///< Absolute path.
   std::string id;                  ///< A hash of manifest, program and settings.
   std::string program;             ///< SHA-256 of the executable.
-  std::string settings;            ///< As text of a configuration file.
+  std::string settings;            ///< Settings, as text of a configuration file.
   FleetFormat format = FleetFormat::kLabels;
   std::string host;
 
   [[nodiscard]] std::filesystem::path parts() const { return folder / ".relabel" / "parts"; }
   [[nodiscard]] std::filesystem::path broken() const { return folder / ".relabel" / "broken"; }
   [[nodiscard]] std::filesystem::path state() const { return folder / ".relabel" / id; }
-  /// Returns the beginning of a drive's part names, "HASH@ID@", on any host.
+  /// Returns the beginning "HASH@ID@" of the names of a drive's parts, the same on any host.
   [[nodiscard]] std::string part_prefix(const FleetDrive& drive) const;
 };
 
-/// Writes job.json and terracut.yaml unless the job exists. Errors of reading this program's file
-/// and of writing.
+/// Writes job.json and terracut.yaml unless the job exists. Fails if this program's file cannot be
+/// read or a file cannot be written.
 [[nodiscard]] Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest);
 
 inline constexpr std::string_view kJobSettings = "terracut.yaml";
 
-/// A job as described in its folder.
+/// A job as its folder describes it.
 struct KnownJob {
   struct Drive {
     std::string name;
@@ -57,24 +57,24 @@ struct KnownJob {
   std::int64_t began_ns = 0;
   std::vector<Drive> drives;
 };
-/// Errors: kNotFound, kUnreadable; kMalformed for an invalid job.json.
+/// Reads a job. Fails with kNotFound, kUnreadable, or kMalformed for an invalid job.json.
 [[nodiscard]] Expected<KnownJob> read_job(const std::filesystem::path& state);
-/// Returns the jobs in a folder for drives, ordered by start; invalid ones are left out. kNotFound
-/// if there is none.
+/// Returns the jobs in a folder for drives, ordered by start; invalid jobs are left out. Fails with
+/// kNotFound if there is no job.
 [[nodiscard]] Expected<std::vector<KnownJob>> jobs_in(const std::filesystem::path& folder);
 
-/// Returns the arguments with which `terracut replay` or `segment` labels a drive with the settings
-/// of that file, without outputs. kMalformed if an argument in the manifest is not about reading
-/// and labelling; errors of the settings.
+/// Returns the arguments with which `terracut replay` or `segment` labels a drive by the settings
+/// in that file, without outputs. Fails with kMalformed if an argument in the manifest is not about
+/// reading and labelling, or with the errors of the settings.
 [[nodiscard]] Expected<std::vector<std::string>> words_for(const FleetDrive& drive,
                                                            const std::filesystem::path& settings);
 
-/// Returns all that a drive's labels depend on, from which its folder's name is hashed. Errors of
-/// content_of().
+/// Returns all that a drive's labels depend on; the hash of this is in the name of the drive's
+/// folder. Fails with the errors of content_of().
 [[nodiscard]] Expected<nlohmann::ordered_json> recipe_of(const RelabelJob& job,
                                                          const FleetDrive& drive);
 
-/// Returns "NAME-0123456789abcdef", below the job's folder.
+/// Returns the name of a drive's folder, "NAME-0123456789abcdef", below the job's folder.
 [[nodiscard]] std::string output_name_of(const FleetDrive& drive,
                                          const nlohmann::ordered_json& recipe);
 

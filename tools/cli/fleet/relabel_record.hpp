@@ -13,24 +13,24 @@
 
 namespace terracut::cli {
 
-/// The state of a drive as recorded by the last process that tried.
+/// The state of a drive as recorded by the last process that tried to label it.
 struct RelabelRecord {
   std::string drive;
   bool done = false;
-  std::string output{};   ///< If done: its folder below the job's.
-  std::string cause{};    ///< If not: a few words, equal for similar failures.
-  std::string message{};  ///< If not: the full message.
+  std::string output{};   ///< If done: the drive's folder below the job's folder.
+  std::string cause{};    ///< If failed: a few words, equal for similar failures.
+  std::string message{};  ///< If failed: the full message.
   std::string shard{}, host{};
   std::int64_t pid = 0, started_ns = 0, ended_ns = 0;  ///< Since 1970.
-  ProgramRun run{};                                    ///< All zero if its labels existed already.
+  ProgramRun run{};                                    ///< All zero if the labels existed already.
   std::uint64_t frames = 0, returns = 0, label_bytes = 0;
   nlohmann::ordered_json losses = nlohmann::ordered_json::object();  ///< {cause: count}
-  nlohmann::ordered_json stamps = nlohmann::ordered_json::object();  ///< stamps_of() its inputs.
-  bool ends_shard = false;  ///< Not stored. Its failure would be every other drive's, too.
+  nlohmann::ordered_json stamps = nlohmann::ordered_json::object();  ///< stamps_of() of inputs.
+  bool ends_shard = false;  ///< Not stored; every other drive would fail likewise.
 };
 
-/// Returns a drive's newest record; an empty one if there is none, or if it belongs to another
-/// drive or is impossible.
+/// Returns a drive's newest record; an empty record if there is none, or if it belongs to another
+/// drive or has impossible values.
 [[nodiscard]] RelabelRecord read_record(const std::filesystem::path& state,
                                         const std::string& drive);
 

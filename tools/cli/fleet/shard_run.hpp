@@ -13,24 +13,24 @@
 namespace terracut::cli {
 
 /// Labels the drives of a shard whose labels do not exist yet. Drives that other processes are
-/// labelling come last; those of this host are waited for. Those that other hosts have not finished
-/// by then are labelled again, as the hosts may be gone: whoever finishes second drops its result.
-/// One thread.
+/// labelling come last; processes of this host are waited for. Drives that other hosts have not
+/// finished by then are labelled again, as these hosts may be gone: the process that finishes
+/// second drops its result. One thread.
 class ShardRun {
  public:
-  /// `shard` is "3/12", for records.
+  /// `shard` is a text such as "3/12", for records.
   ShardRun(const RelabelJob& job, std::string shard);
 
-  /// Prints what was done. kInterrupted; kOutputFailed at the first output error that every other
-  /// drive would get, too, such as a full disk; else the exit code of the last failed drive, or
-  /// kOk.
+  /// Labels the drives and prints what was done. Returns kInterrupted; kOutputFailed at the first
+  /// output error that would also hit every other drive, such as a full disk; else the exit code of
+  /// the last drive that failed, or kOk.
   [[nodiscard]] ExitCode run(const std::vector<FleetDrive>& drives);
 
  private:
   enum class Attention : unsigned char { kIfFree, kFinally };
-  /// False if another process seems to be labelling it.
+  /// Attends to one drive. Returns false if another process seems to be labelling that drive.
   bool attend(const FleetDrive& drive, Attention attention);
-  /// True if an earlier record has the same inputs and its labels still exist.
+  /// True if `before` has the same inputs as `now` and its labels still exist.
   [[nodiscard]] bool is_there(const RelabelRecord& before, const RelabelRecord& now) const;
   void label(const FleetDrive& drive, RelabelRecord record);
   void failed(const RelabelRecord& record, ExitCode code);
@@ -43,7 +43,7 @@ class ShardRun {
   std::uint64_t labelled_ = 0, there_ = 0, failed_ = 0, frames_ = 0;
   std::map<std::string, std::vector<std::string>> failures_;  ///< Drives by cause.
   ExitCode worst_ = kOk;
-  bool ended_ = false;  ///< The cause would stop the next drive, too.
+  bool ended_ = false;  ///< True if the last failure would stop the next drive, too.
 };
 
 }  // namespace terracut::cli

@@ -14,21 +14,21 @@
 
 namespace terracut::cli {
 
-/// Returns `json` as the text of a file. Bytes that are not UTF-8 (others write status pages)
-/// become U+FFFD instead of throwing.
+/// Returns `json` as text for a file. Bytes that are not UTF-8, as in status pages of other
+/// programs, become U+FFFD instead of throwing.
 [[nodiscard]] inline std::string json_text(const nlohmann::ordered_json& json) {
   return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Writes that text to a file, whole or not at all; no file if `path` is empty.
+/// Writes `json` as text to a file, whole or not at all; writes no file if `path` is empty.
 [[nodiscard]] inline Status write_json(const std::filesystem::path& path,
                                        const nlohmann::ordered_json& json) {
   return path.empty() ? Status{} : files::write_whole_file(path, json_text(json));
 }
 
 /// Reads a JSON file that others may have written: a plain file of at most `most_bytes`; values
-/// nested deeper than 16 levels are left out. The caller checks the values' types. kNotFound,
-/// kUnreadable, kMalformed.
+/// nested deeper than 16 levels are left out. The caller checks the values' types. Fails with
+/// kNotFound, kUnreadable or kMalformed.
 [[nodiscard]] inline Expected<nlohmann::ordered_json> read_json(const std::filesystem::path& path,
                                                                 std::size_t most_bytes) {
   using Ordered = nlohmann::ordered_json;
@@ -43,8 +43,8 @@ namespace terracut::cli {
   }
 }
 
-/// True if each of these members of an object is missing or a whole number. Other numbers would be
-/// cast to arbitrary ones.
+/// True if each of these members of an object is missing or a whole number, since other numbers
+/// would be cast to arbitrary ones.
 [[nodiscard]] inline bool are_counts(const nlohmann::ordered_json& object,
                                      std::initializer_list<const char*> names) {
   return object.is_object() && std::ranges::all_of(names, [&](const char* name) {

@@ -15,13 +15,13 @@
 namespace terracut::cli {
 
 /// Writes texts to descriptors on a thread of its own, so that no caller waits for an unread pipe
-/// or a slow disk. A text that finds kMostWaiting others waiting is lost and counted; when texts
-/// are taken again, the number of missing ones is written. Any thread without a deadline.
+/// or a slow disk. A text is lost and counted if kMostWaiting others wait; when texts are taken
+/// again, the number of lost texts is written. For any thread without a deadline.
 class MessageThread {
  public:
   static constexpr std::size_t kMostWaiting = 256;
 
-  /// Called on the thread with the errno of a descriptor that cannot be written to.
+  /// Called on the writing thread with the errno of a descriptor that cannot be written to.
   using OnError = void (*)(int descriptor, int error_number);
   explicit MessageThread(OnError on_error);
   MessageThread(const MessageThread&) = delete;
@@ -30,7 +30,7 @@ class MessageThread {
   ~MessageThread();
 
   void put(int descriptor, std::string text);
-  /// False if the waiting texts are not taken within that time.
+  /// Returns false if the waiting texts are not taken within `patience`.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
 
@@ -46,10 +46,10 @@ class MessageThread {
   std::mutex mutex_;  ///< Shared by threads without a deadline.
   std::condition_variable came_, went_;
   std::deque<Text> waiting_;
-  std::uint64_t lost_since_ = 0;  ///< Since the newest waiting text.
+  std::uint64_t lost_since_ = 0;  ///< Texts lost since the newest waiting text.
   bool is_writing_ = false, over_ = false;
   std::atomic<std::uint64_t> lost_{0};
-  std::jthread thread_;  ///< Last: it uses all members above.
+  std::jthread thread_;  ///< Declared last: uses all members above.
 };
 
 }  // namespace terracut::cli

@@ -21,9 +21,8 @@ struct Arguments {
   std::filesystem::path configuration;  ///< File given by --config; may be empty.
 };
 
-/// Reads the command line and the configuration file that it names. Fails with kInvalidArgument,
-/// naming command and option, for a wrong command line; else with the errors of
-/// read_configuration().
+/// Reads the command line and the configuration file that it names. A wrong command line gives
+/// kInvalidArgument, naming command and option, a wrong file read_configuration()'s errors.
 [[nodiscard]] Expected<Arguments> parse_arguments(const std::vector<std::string>& words);
 
 }  // namespace terracut::cli

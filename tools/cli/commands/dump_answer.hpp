@@ -34,8 +34,7 @@ class DumpAnswers {
   DumpAnswers& operator=(const DumpAnswers&) = delete;
   ~DumpAnswers();  ///< Removes the answer.
 
-  /// Publishes an answer. Fails with kWriteFailed; the dump is kept, but `terracut dump` gets no
-  /// answer.
+  /// Publishes an answer. Fails with kWriteFailed; the dump is kept, but nobody gets the answer.
   [[nodiscard]] Status publish(
       const tl::expected<recorder::DumpReport, recorder::RefusedDump>& outcome);
 
@@ -44,9 +43,8 @@ class DumpAnswers {
   std::uint64_t serial_ = 0;
 };
 
-/// Returns the last answer of the process of this name, alive or not; nothing if there is no
-/// answer, or if anybody could have written it (rt/files/trusted_file.hpp). Texts may have any
-/// bytes.
+/// Returns the last answer of the process of this name, alive or not; nothing if there is none or
+/// anybody could have written it (rt/files/trusted_file.hpp). Its texts may have any bytes.
 [[nodiscard]] std::optional<DumpAnswer> read_dump_answer(const std::filesystem::path& folder,
                                                          const std::string& name);
 

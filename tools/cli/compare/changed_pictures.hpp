@@ -13,10 +13,9 @@ namespace terracut::cli {
 
 /// Draws, from above, frames whose labels differ between two labellings, to
 /// "DRIVE.NNNNNN.changes.png" in output.png (slashes of the drive's name become underscores):
-/// returns that became obstacle, returns that became ground, other changes; unchanged returns are
-/// dim. Reads points from the recordings again, as `after` did; a capture up to the frame. Fails
-/// with kInvalidArgument if `after` has no job, so that its recordings are unknown, or if reading
-/// or writing fails.
+/// returns that became obstacle or ground, other changes, and the rest dim. Reads points from the
+/// recordings again, as `after` did; a capture up to the frame. Fails with kInvalidArgument if
+/// `after` has no job, so that its recordings are unknown, or if reading or writing fails.
 /// writing.
 [[nodiscard]] Status draw_changes(const Labelling& before, const Labelling& after,
                                   std::span<const FrameChange> frames, const OutputOptions& output);

@@ -12,8 +12,8 @@
 
 namespace terracut::cli {
 
-/// Sends labelled frames, diagnostics and the mount's transform to viewers as they come. Messages
-/// without subscribers are not made.
+/// Sends labelled frames, diagnostics and the mount's transform to viewers as they come. A message
+/// that no viewer has subscribed to is not made.
 class FoxgloveSink final : public publish::FrameSink {
  public:
   FoxgloveSink(FoxgloveServer server, publish::RunFacts facts);

@@ -18,28 +18,29 @@ namespace terracut::cli {
 
 /// Serves ROS 2 messages to Foxglove, Lichtblick and others with their WebSocket protocol
 /// (protocol.hpp), on a thread of its own. A client that has not taken a channel's last message
-/// misses the next: at most one message a channel waits for a slow client, and it delays nobody.
+/// misses the next one: at most one message per channel waits for a slow client, and a slow client
+/// delays nobody.
 ///
-/// Input is bounded: by HttpBounds, then by texts of 16 KiB and one subscription a channel. A
-/// client that stops reading holds a message a channel until it is disconnected. Host and Origin of
-/// a request are checked; there is neither encryption nor a password.
+/// Input is bounded by HttpBounds, by texts of 16 KiB and by one subscription per channel. For a
+/// client that stops reading, one message per channel is held until it is disconnected. Host and
+/// Origin of a request are checked; there is neither encryption nor a password.
 class FoxgloveServer {
  public:
   struct Config {
-    net::Ipv4Endpoint at;  ///< Port 0: chosen by the system.
-    std::string name;      ///< For people.
+    net::Ipv4Endpoint at;  ///< Port 0: the system chooses the port.
+    std::string name;      ///< Name of the server, for people.
     std::vector<bool> topics;
-    std::vector<std::string> origins{};  ///< Pages that may connect besides this machine's.
-    ViewedCapture* capture = nullptr;  ///< A capture that clients may play; outlives the server.
+    std::vector<std::string> origins{};  ///< Foreign pages that may connect.
+    ViewedCapture* capture = nullptr;  ///< Capture that clients may play; must outlive the server.
     HttpBounds bounds{};
   };
-  /// Counts since the start. From any thread.
+  /// Counts since the start. For any thread.
   struct Figures {
     std::atomic<std::uint64_t> skipped{0};       ///< Messages that a slow client missed.
     std::atomic<std::uint64_t> bad_requests{0};  ///< Messages that were not understood.
   };
 
-  /// Errors of HttpServer::start().
+  /// Starts the server. Fails with the errors of HttpServer::start().
   [[nodiscard]] static Expected<FoxgloveServer> start(const Config& config);
   FoxgloveServer(FoxgloveServer&&) noexcept;
   FoxgloveServer& operator=(FoxgloveServer&&) = delete;
@@ -51,12 +52,12 @@ class FoxgloveServer {
 
   using Message = std::shared_ptr<const std::vector<std::byte>>;
 
-  // For one other thread:
+  // The following functions are for one other thread.
 
-  /// True if a client has subscribed, so that a message is worth making.
+  /// True if a client has subscribed to the topic, so that a message is worth making.
   [[nodiscard]] bool is_wanted(std::size_t topic) const noexcept;
   void publish(std::size_t topic, std::int64_t time_ns, Message message);
-  /// Keeps a message to be sent once to each subscriber, present and later ones.
+  /// Keeps a message, to be sent once to each present and later subscriber of the topic.
   void keep(std::size_t topic, std::int64_t time_ns, Message message);
 
  private:

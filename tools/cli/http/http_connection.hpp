@@ -16,7 +16,7 @@
 
 namespace terracut::cli {
 
-/// Limits how fast a client is read, and notes since when it takes nothing: Beast's RatePolicy.
+/// Limits how fast a client is read and notes since when it takes nothing; a RatePolicy of Beast.
 class HttpPace {
  public:
   using Clock = std::chrono::steady_clock;
@@ -24,7 +24,7 @@ class HttpPace {
   explicit HttpPace(std::size_t read_bytes_a_second) noexcept
       : read_limit_(read_bytes_a_second), readable_(read_bytes_a_second) {}
 
-  /// Returns since when the present write has not moved; nothing if nothing is being written.
+  /// Returns since when the present write has not progressed; nothing if no write is under way.
   [[nodiscard]] std::optional<Clock::time_point> stands_since() const noexcept {
     return stands_since_;
   }
@@ -35,7 +35,7 @@ class HttpPace {
   [[nodiscard]] std::size_t available_read_bytes() const noexcept { return readable_; }
   void transfer_read_bytes(std::size_t count) noexcept { readable_ -= std::min(count, readable_); }
   void on_timer() noexcept { readable_ = read_limit_; }
-  /// Called as each part of a write begins.
+  /// Called by Beast as each part of a write begins.
   [[nodiscard]] std::size_t available_write_bytes() noexcept {
     stands_since_ = Clock::now();
     return SIZE_MAX;
@@ -50,13 +50,14 @@ using HttpStream =
     boost::beast::basic_stream<boost::asio::ip::tcp, boost::asio::ip::tcp::socket::executor_type,
                                HttpPace>;
 
-/// A connection whose request was read, for its new owner.
+/// A connection and the request read from it, for the connection's new owner.
 struct HttpConnection {
   HttpStream stream;
   boost::beast::http::request<boost::beast::http::string_body> request;
 };
 
-/// A connection that stays after its request: a stream of frames, a WebSocket. Its own handlers
+/// A connection that stays after its request: a stream of frames or a WebSocket. Pending handlers
+/// of the guest keep it alive. For the server's thread.
 /// keep it alive. On the server's thread.
 class HttpGuest {
  public:
@@ -66,7 +67,7 @@ class HttpGuest {
   virtual ~HttpGuest() = default;
 
   [[nodiscard]] virtual HttpStream& stream() noexcept = 0;
-  /// Called some ten times a second.
+  /// Does what is due. Called some ten times a second.
   virtual void work_round() {}
 };
 

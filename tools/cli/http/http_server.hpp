@@ -18,59 +18,60 @@ namespace terracut::cli {
 
 /// Limits of what all clients of a server together may use.
 struct HttpBounds {
-  /// Most unanswered connections at once. One more ends the oldest: a client that sends its request
-  /// is answered before that, a silent one makes room.
+  /// Most unanswered connections at once. One more connection ends the oldest: clients that send a
+  /// request are answered before that, so only silent ones make room.
   std::size_t visits = 32;
-  /// From connecting to having taken the answer.
+  /// Longest time from a client's connecting to its having received the answer.
   std::chrono::milliseconds visit_time{5'000};
-  /// Most lasting connections at once: streams of frames, viewers.
+  /// Most lasting connections at once: streams of frames and viewers.
   std::size_t guests = 8;
-  /// A guest that takes nothing of what is being written for so long is disconnected.
+  /// A guest that takes nothing for this long while something is written to it is disconnected.
   std::chrono::milliseconds stall_time{10'000};
-  /// Faster ones wait in the system's queue of 64, or outside it.
+  /// Most new connections per second; others wait in the system's queue of 64 or beyond it.
   int connections_a_second = 250;
-  /// Read from one connection; more waits.
+  /// Most bytes read from one connection per second; the rest waits.
   std::size_t bytes_a_second = 8 << 10;
 
   static constexpr std::size_t kHeaderBytes = 8 << 10, kBodyBytes = 4 << 10;
 };
 
-/// Answers HTTP/1.1, one request a connection, from one thread of its own and of the caller's
+/// Answers HTTP/1.1, one request per connection, on a thread of its own with the caller's
 /// scheduling class: start it from a normal thread. There is neither encryption nor a password.
 ///
-/// Clients take no more than HttpBounds, whatever they send: a request is headers of 8 KiB and a
-/// body of 4 KiB whose length is said before. Requests for another machine's name (http_host.hpp)
-/// get 403; a duplicate of a header that decides something (Host, Origin and the like) gets 400. An
-/// exception on the thread, for lack of memory for example, costs only the connection being served.
+/// Clients use no more than HttpBounds, whatever they send: a request has headers of at most 8 KiB
+/// and a body of at most 4 KiB with a stated length. Requests for another machine's name
+/// (http_host.hpp) get 403; a repeated header that decides something (Host, Origin and the like)
+/// gets 400. An exception on the thread, such as for lack of memory, costs only the connection
+/// being served.
 class HttpServer {
  public:
   struct Config {
-    net::Ipv4Endpoint at;  ///< Port 0: chosen by the system.
-    std::string what;      ///< For people: "the page".
+    net::Ipv4Endpoint at;  ///< Port 0: the system chooses the port.
+    std::string what;      ///< What is served, for people: "the page".
     HttpBounds bounds{};
   };
-  /// Counts since the start. From any thread.
+  /// Counts since the start. For any thread.
   struct Figures {
-    /// Requests not answered, or with 400 and above except 404.
+    /// Requests that got no answer, or a status of 400 and above except 404.
     std::atomic<std::uint64_t> refused{0};
     std::atomic<std::uint64_t> stalled{
         0};  ///< Guests that took nothing for HttpBounds::stall_time.
     std::atomic<std::uint64_t> failures{0};  ///< Times the system had no descriptor or memory.
   };
 
-  /// Errors: kInvalidArgument with the system's reason, such as a port in use; kCapacityExceeded:
-  /// no descriptor or thread is left.
+  /// Starts the server. Fails with kInvalidArgument and the system's reason, such as a port in use;
+  /// kCapacityExceeded if no descriptor or thread is left.
   [[nodiscard]] static Expected<HttpServer> start(const Config& config, HttpResponder respond);
 
   HttpServer(HttpServer&&) noexcept;
   HttpServer& operator=(HttpServer&&) = delete;
-  /// Ends all connections. Waits for no client.
+  /// Ends all connections without waiting for any client.
   ~HttpServer();
 
   [[nodiscard]] std::uint16_t port() const noexcept;
   [[nodiscard]] const Figures& figures() const noexcept;
 
-  // From any thread; executed on the server's thread, soon and in order.
+  // For any thread; the work is done on the server's thread, soon and in order.
 
   void post(std::function<void()> work);
   void for_each_guest(std::function<void(HttpGuest&)> work);

@@ -19,7 +19,7 @@ namespace terracut::cli {
 /// Reads the clouds of a folder, or a single cloud, one by one.
 class CloudReader {
  public:
-  /// Errors of scan::list_scan_folder().
+  /// Opens a folder or a file. Fails with the errors of scan::list_scan_folder().
   [[nodiscard]] static Expected<CloudReader> open(const std::filesystem::path& clouds);
 
   /// Returns the path given to open().
@@ -27,14 +27,14 @@ class CloudReader {
   [[nodiscard]] std::size_t size() const { return files_.size(); }
   [[nodiscard]] const scan::ScanFile& file(std::size_t index) const { return files_[index]; }
 
-  /// Sets where the sensor stands among the points of clouds read from now on.
+  /// Sets where the sensor stands relative to the points of clouds that are read from now on.
   void take_sensor_at(cloud::SensorPlace place) { place_ = place; }
   /// True if a file read so far states a VIEWPOINT.
   [[nodiscard]] bool has_viewpoint() const { return has_viewpoint_; }
 
-  /// Reads a cloud, valid until the next one is read.
+  /// Reads one cloud, valid until the next cloud is read.
   [[nodiscard]] Expected<cloud::CloudView> read(std::size_t index);
-  /// Reads the truth of a cloud of so many points; leaves it empty if there is none.
+  /// Reads the truth of a cloud of `points` points into `labels`, empty if there is no truth.
   [[nodiscard]] Status read_labels(std::size_t index, std::size_t points,
                                    std::vector<std::uint32_t>& labels) const;
 
@@ -52,11 +52,11 @@ class CloudReader {
 /// Tells clouds from captures by name: true for a folder or a file with a cloud's name.
 [[nodiscard]] bool holds_clouds(const std::filesystem::path& input);
 
-/// Returns how the clouds tell their lasers, and the lasers' elevations: those of `calibration`,
-/// whose unit's scans are in KITTI's order, or, if that is empty, learnt from the clouds. Prints
-/// which, with a warning if it is doubtful (cloud::doubt_of()). If the points fit only with the
-/// files' VIEWPOINT as the sensor's place, or fit better, that is used from then on. Errors name
-/// the file or the folder.
+/// Returns how the clouds tell their lasers apart, and the lasers' elevations: those of
+/// `calibration`, whose unit's scans are in KITTI's order, or, if it is empty, learnt from the
+/// clouds. Prints which, with a warning if it is doubtful (cloud::doubt_of()). If the points fit
+/// only, or better, with the files' VIEWPOINT as the sensor's place, that place is used from then
+/// on. Errors name the file or the folder.
 [[nodiscard]] Expected<cloud::SensorRows> rows_of(CloudReader& clouds,
                                                   const std::filesystem::path& calibration);
 

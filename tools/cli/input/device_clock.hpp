@@ -9,13 +9,13 @@
 
 namespace terracut::cli {
 
-/// Compares an RS-Ruby128's clock with that of the capture, for the end of a run.
+/// Compares an RS-Ruby128's clock with the capture's clock, for a message at the end of a run.
 class DeviceClock {
  public:
   /// `offset_s` is added to the device's stamps (--clock-offset).
   explicit DeviceClock(double offset_s) : offset_ns_(static_cast<std::int64_t>(offset_s * 1e9)) {}
 
-  /// To be called after each decoded packet; ignores other sensors.
+  /// Notes a decoded packet; call it after each. Ignores other sensors.
   void note(const decode::Decoder& decoder, std::int64_t host_stamp_ns) noexcept {
     const ruby128::RubyTimestampDetector* timestamp = decoder.ruby_timestamp();
     if (timestamp == nullptr) return;
@@ -28,14 +28,14 @@ class DeviceClock {
   [[nodiscard]] bool noted() const noexcept { return noted_; }
   /// Returns "UTC seconds and microseconds (proven), 0.3 ms behind the capture".
   [[nodiscard]] std::string text() const;
-  /// Tells what to do about a clock that is 37 s off, as sensors under PTP may be; else empty.
+  /// Returns what to do about a clock that is 37 s off, as sensors under PTP may be; else empty.
   [[nodiscard]] std::string warning() const;
 
  private:
   std::int64_t offset_ns_;
   bool noted_ = false, proven_ = false;
   ruby128::RubyTimestamp encoding_{};
-  std::int64_t ahead_ns_ = 0;  ///< Device minus host.
+  std::int64_t ahead_ns_ = 0;  ///< Device time minus host time.
 };
 
 }  // namespace terracut::cli

@@ -7,8 +7,8 @@
 
 namespace terracut::cli {
 
-/// Checks that a live run's files can be read, before it waits for its sensor: calibration, setup
-/// and DBC file. If the model is not known yet, some model must accept the calibration. Errors name
+/// Checks that the files of a live run can be read before it waits for its sensor: calibration,
+/// setup and DBC file. If the model is unknown, one model must accept the calibration. Errors name
 /// the file.
 [[nodiscard]] Status check_inputs(const Options& options);
 

@@ -24,54 +24,54 @@
 
 namespace terracut::cli {
 
-/// Labels a capture on one thread, a frame at a time: source, vehicle's motion, decoder and method
-/// by the options, the mount found unless stated, and the report.
+/// Labels a capture on one thread, a frame at a time. It holds the source, the vehicle's motion,
+/// decoder and method by the options, the mount (found unless stated), and the report.
 class LabelledCapture {
  public:
-  /// Finds sensor, calibration and mount, which reads the capture's beginning. Errors of
-  /// open_capture(), choose_mount(), ring_profile_of() and RecordedMotion::open().
+  /// Finds sensor, calibration and mount, for which the capture's beginning is read. Fails with the
+  /// errors of open_capture(), choose_mount(), ring_profile_of() and RecordedMotion::open().
   [[nodiscard]] static Expected<std::unique_ptr<LabelledCapture>> open(const Options& options,
                                                                        FramesAreFor purpose);
   LabelledCapture(const LabelledCapture&) = delete;
   LabelledCapture& operator=(const LabelledCapture&) = delete;
 
   /// Returns the next labelled frame, valid until the next call; null at the end, where the capture
-  /// breaks off (report().input_warning says where), and when stop_wanted().
+  /// breaks off (as report().input_warning then says), and when stop_wanted().
   [[nodiscard]] const run::Frame* next();
-  /// Returns the labels of that frame, by return index.
+  /// Returns the labels of the frame returned last, by return index.
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
     return pipeline_->labels();
   }
-  /// Returns when its returns were measured.
+  /// Returns when the returns of `frame` were measured.
   [[nodiscard]] points::FrameTiming timing(const run::Frame& frame) const noexcept {
     return points::FrameTiming::of(frame.record.info, decoder().beam_turns());
   }
 
-  /// Goes back to the beginning, or to so many seconds after it, where the first frame lacks its
-  /// earlier packets. Errors of the sources.
+  /// Goes back to the beginning, or to `start_s` seconds after it, where the first frame lacks its
+  /// earlier packets. Fails with the errors of the sources.
   [[nodiscard]] Status rewind(std::optional<double> start_s = {});
-  /// Sets a function that is called with the stamp of each datagram before it is decoded, to keep
-  /// pace.
+  /// Sets a function that is called with the stamp of each datagram before it is decoded, so that
+  /// it can wait.
   void before_each(std::function<void(std::int64_t stamp_ns)> wait) { wait_ = std::move(wait); }
 
-  /// Ends the run after the last frame: completes the report and prints warnings. kNothingCameOut
-  /// if there was no frame; kMalformed if there was motion for deskewing but it fitted no frame.
+  /// Ends the run after the last frame: completes the report and prints warnings. Fails with
+  /// kNothingCameOut if there was no frame, kMalformed if the motion for deskewing fitted no frame.
   [[nodiscard]] Status conclude();
   [[nodiscard]] Report& report() noexcept { return report_; }
-  /// Returns the datagrams given to the decoder.
+  /// Returns the number of datagrams given to the decoder.
   [[nodiscard]] std::uint64_t offered() const noexcept { return offered_; }
-  /// Accounts for all that was read in all passes; balances once next() has returned null.
+  /// Returns what became of all datagrams read in all passes; complete once next() returned null.
   [[nodiscard]] capture::CaptureAccount account() const;
-  /// Returns the capture's running time at a stamp near the newest datagram's.
+  /// Returns the running time of the capture at a stamp near that of the newest datagram.
   [[nodiscard]] std::int64_t since_begin_ns(std::int64_t stamp_ns) const noexcept {
     return part_->clock().since_begin_ns(stamp_ns);
   }
 
   [[nodiscard]] const OpenCapture& capture() const noexcept { return *capture_; }
   [[nodiscard]] const decode::Decoder& decoder() const noexcept { return pipeline_->decoder(); }
-  /// Returns the run's mount.
+  /// Returns the mount in use.
   [[nodiscard]] const mount::Mount& sensor_mount() const noexcept { return sensor_mount_; }
-  /// Returns the mount as stated and as found.
+  /// Returns which figures of the mount were stated and which were found.
   [[nodiscard]] const MountChoice& mount() const noexcept { return *mount_choice_; }
 
  private:
@@ -96,8 +96,8 @@ class LabelledCapture {
   std::function<void(std::int64_t)> wait_;
   const packet::Datagram* pushed_ = nullptr;  ///< The datagram whose frames are being handed out.
   std::uint64_t offered_ = 0;
-  capture::CaptureAccount account_;  ///< Counts of earlier passes that are kept only here.
-  bool gives_frames_ = false;        ///< Frames of the last datagram may remain.
+  capture::CaptureAccount account_;  ///< Kept counts of earlier passes.
+  bool gives_frames_ = false;        ///< True if the last datagram may give more frames.
   bool ended_ = false;
   bool warned_of_part_ = false;
 };

@@ -16,28 +16,28 @@ namespace terracut::cli {
 
 /// The mount of a run.
 struct MountChoice {
-  MountOptions options;  ///< Stated figures, and the others as found or guessed.
-  /// The result of the search; stated figures have no uncertainty. Empty if all were stated, or if
-  /// the mount is a guess.
+  MountOptions options;  ///< All figures: stated, found or guessed.
+  /// The result of the search, in which stated figures have no uncertainty. Empty if all figures
+  /// were stated or the mount is a guess.
   std::optional<mount::FoundMount> found{};
-  bool is_guess = false;  ///< The ground does not show the figures that were not stated.
+  bool is_guess = false;  ///< Figures not stated were not seen in the ground.
 };
 
-/// Fills in figures that were not stated from those found.
+/// Returns the stated figures, with those not stated taken from the mount found.
 [[nodiscard]] MountChoice filled_in(const MountOptions& stated, const mount::FoundMount& found);
 
-/// Fills in figures that were not stated from `finder`, and prints them. If they are not certain
-/// enough for labels: kMountNotFound, or, with MountOptions::may_guess, level at 1.73 m except for
-/// certain figures, with a warning.
+/// Takes figures that were not stated from `finder`, and prints them. If they are too uncertain for
+/// labels, fails with kMountNotFound, or, with MountOptions::may_guess, warns and assumes a level
+/// mount at 1.73 m except for certain figures.
 [[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
                                                  const mount::MountFinder& finder);
-/// Chooses the mount with frames of the recording, if anything is not stated. Also errors of
-/// each_frame().
+/// If a figure is not stated, finds the mount in frames of the recording. May also fail with the
+/// errors of each_frame().
 [[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
                                                  RecordedFrames& frames);
 
-/// Returns options that allow a guess, for a command whose labels nobody relies on, or that cannot
-/// wait.
+/// Returns `stated` with guessing allowed, for a command whose labels nobody relies on or that
+/// cannot wait.
 [[nodiscard]] MountOptions guessing(MountOptions stated);
 
 }  // namespace terracut::cli

@@ -9,11 +9,11 @@
 
 namespace terracut::cli {
 
-/// Reports once if the near ground of a run contradicts its mount, and keeps the figures about it.
-/// One thread without a deadline: checking a frame takes milliseconds.
+/// Reports once if near ground contradicts the mount of a run, and keeps figures about it. For one
+/// thread without a deadline: checking a frame takes milliseconds.
 class MountWatch {
  public:
-  /// `mount` is the run's; `choice` tells which figures were found.
+  /// `mount` is the mount in use; `choice` tells which of its figures were found.
   MountWatch(const mount::Mount& mount, const MountChoice& choice);
 
   void add_frame(const ground::NearGround& ground);

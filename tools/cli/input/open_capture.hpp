@@ -16,55 +16,55 @@
 
 namespace terracut::cli {
 
-/// A capture to be read from its beginning, with what is needed to decode its packets.
+/// A capture about to be read from its beginning, and what is needed to decode its packets.
 struct OpenCapture {
   capture::PcapSource source;
   SensorChoice sensor;
   calib::SensorCalibration calibration;
   std::string sensor_line;       ///< Model, spin rate, return mode, for logs and reports.
-  std::string calibration_line;  ///< Origin and fingerprint; a warning where it is not the unit's.
+  std::string calibration_line;  ///< Origin, fingerprint; warns if not the unit's.
 };
 
-/// Opens the capture, with the datagrams of one unit only, and chooses sensor and calibration
+/// Opens the capture, filtered to the datagrams of one unit, and chooses sensor and calibration
 /// (sensor_choice.hpp, unit_calibration.hpp, calibration_beside()).
 [[nodiscard]] Expected<OpenCapture> open_capture(const CaptureOptions& options);
 
-/// Prints these lines on stderr, for commands without a report that has them.
+/// Prints the sensor and calibration lines on stderr, for commands without a report.
 void say_what_is_read(const OpenCapture& capture);
 
-/// Opens the unit's datagrams again, from the beginning and with counters of their own.
+/// Opens the same unit's datagrams again, from the beginning and with separate counters.
 [[nodiscard]] Expected<capture::PcapSource> open_again(const OpenCapture& capture,
                                                        const CaptureOptions& options);
 
-/// Reports how many datagrams of a pass were left out because of another sender or destination,
+/// Reports how many datagrams of a pass were left out because of their sender or destination,
 /// unless an option asked for that.
 void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounters& pass,
                            const CaptureOptions& options);
 
 /// The datagrams of a capture between --start and --duration, by the capture's running time
-/// (CaptureClock). Without these options all datagrams belong to it, whatever their stamps. Those
-/// outside are counted, except for the rest of the file after the end.
+/// (CaptureClock). Without these options all datagrams belong to the part, whatever their stamps.
+/// Datagrams outside are counted, except for the rest of the file after the part's end.
 class CapturePart {
  public:
-  /// Reads `source` from its present position, its beginning; `source` must outlive this.
+  /// Reads `source`, which must be at its beginning and outlive this object.
   CapturePart(capture::PcapSource& source, const CaptureOptions& options);
 
-  /// Returns the next datagram, valid until the next call. Null at the end, where the capture
-  /// breaks off, and when stop_wanted().
+  /// Returns the next datagram, valid until the next call. Returns null at the end, where the
+  /// capture breaks off, and when stop_wanted().
   [[nodiscard]] const packet::Datagram* next();
 
   [[nodiscard]] const capture::CaptureClock& clock() const noexcept { return clock_; }
   [[nodiscard]] std::uint64_t before_start() const noexcept { return before_start_; }
   [[nodiscard]] std::uint64_t behind_end() const noexcept { return behind_end_; }
-  /// Says where it broke off; empty if it did not.
+  /// Returns where the capture broke off; empty if it did not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
   /// True if reading ended because of stop_wanted().
   [[nodiscard]] bool stopped() const noexcept { return stopped_; }
-  /// Warns of oddities in the input: where it broke off, and stamps that step back.
+  /// Warns if the capture broke off or its stamps step back.
   void warn_of_oddities() const;
 
  private:
-  /// So many successive datagrams after the end confirm it: a few may have odd stamps.
+  /// The part has ended after this many successive datagrams beyond it: a few may have odd stamps.
   static constexpr int kSurelyPast_packets = 32;
 
   [[nodiscard]] bool is_inside(std::int64_t since_begin_ns) noexcept;
@@ -72,16 +72,16 @@ class CapturePart {
   capture::PcapSource& source_;
   std::int64_t start_ns_, end_ns_;
   capture::CaptureClock clock_;
-  bool has_begun_ = false;  ///< The part has begun, not only the capture.
-  int past_end_ = 0;        ///< Successive ones.
+  bool has_begun_ = false;  ///< True once the part, not only the capture, has begun.
+  int past_end_ = 0;        ///< Successive datagrams beyond the end.
   std::uint64_t before_start_ = 0, behind_end_ = 0;
   std::optional<packet::Datagram> datagram_;
   std::string fault_;
   bool stopped_ = false;
 };
 
-/// Returns kNothingCameOut for a part of `source` without frames, naming the checks its packets
-/// failed. `offered` is the number of datagrams given to the decoder.
+/// Returns kNothingCameOut for a part of `source` that gave no frame, naming the checks that its
+/// packets failed. `offered` is the number of datagrams given to the decoder.
 [[nodiscard]] Error nothing_came_out(const capture::PcapSource& source, const CapturePart& part,
                                      std::uint64_t offered, const decode::Decoder& decoder);
 

@@ -17,7 +17,7 @@
 
 namespace terracut::cli {
 
-/// The frames of any recording, for work that looks at them in advance.
+/// The frames of any recording, for work that examines frames before the run.
 class RecordedFrames {
  public:
   RecordedFrames() = default;
@@ -27,40 +27,40 @@ class RecordedFrames {
 
   using OnFrame = std::function<Status(const frame::RangeImage&)>;
 
-  /// Shows at most so many frames, decoded with `mount`. Ends with and returns the first error of
-  /// `on_frame` or go_on(). kNothingCameOut if there is no frame.
+  /// Calls `on_frame` for at most `most` frames, decoded with `mount`. Stops at the first error of
+  /// `on_frame` or go_on() and returns it. Fails with kNothingCameOut if there is no frame.
   [[nodiscard]] virtual Status each_frame(const mount::Mount& mount, std::size_t most,
                                           const OnFrame& on_frame) = 0;
   [[nodiscard]] virtual mount::RingProfile ring_profile(const mount::Mount& mount) const = 0;
 
-  /// Shows `finder` the near ground of at most so many frames. Errors of each_frame().
+  /// Shows `finder` the near ground of at most `most` frames. Fails as each_frame() does.
   [[nodiscard]] virtual Status look_for_mount(std::size_t most, mount::MountFinder& finder);
 };
 
-/// The first frames of a capture between --start and --duration, without the vehicle's motion. The
-/// position of the capture itself does not change.
+/// The first frames of a capture between --start and --duration, without the vehicle's motion.
+/// Reading them leaves the position of the capture unchanged.
 class CaptureFrames : public RecordedFrames {
  public:
-  /// Both arguments must outlive this.
+  /// Both arguments must outlive this object.
   CaptureFrames(const OpenCapture& capture, const Options& options)
       : capture_(capture), options_(options) {}
 
   [[nodiscard]] Status each_frame(const mount::Mount& mount, std::size_t most,
                                   const OnFrame& on_frame) override;
   [[nodiscard]] mount::RingProfile ring_profile(const mount::Mount& mount) const override;
-  /// Looks first with the objects that label the capture, so that it takes no more memory than the
-  /// run. Only a sensor that is not upright needs frames of points, three times as large.
+  /// First uses the objects that label the capture, so that it takes no more memory than the run.
+  /// Only a sensor that is not upright needs frames with points, which are three times as large.
   [[nodiscard]] Status look_for_mount(std::size_t most, mount::MountFinder& finder) override;
 
-  /// Returns the last pass's counters.
+  /// Returns the counters of the last pass.
   [[nodiscard]] const capture::PcapCounters& counters() const noexcept { return counters_; }
-  /// Says where it broke off; empty if it did not.
+  /// Returns where the capture broke off; empty if it did not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
 
  private:
   [[nodiscard]] Status look_for_standing_mount(std::size_t most, mount::MountFinder& finder);
-  /// Pushes the capture's datagrams into `frames`, a Decoder or the like, until `take` has had so
-  /// many of the frames.
+  /// Pushes the capture's datagrams into `frames`, a Decoder or the like, until `take` has had the
+  /// wanted number of frames.
   template <class Frames, class Take>
   Status pass(Frames& frames, std::size_t most, Take take);
 
@@ -70,11 +70,11 @@ class CaptureFrames : public RecordedFrames {
   std::string fault_;
 };
 
-/// Evenly spaced clouds of a folder. Skips clouds that cannot be read, or have no place because the
-/// sensor is covered.
+/// Evenly spaced clouds of a folder. Skips clouds that cannot be read or have no point with a valid
+/// position because the sensor is covered.
 class CloudFrames : public RecordedFrames {
  public:
-  /// Both arguments must outlive this.
+  /// Both arguments must outlive this object.
   CloudFrames(CloudReader& clouds, const cloud::SensorRows& rows) : clouds_(clouds), rows_(rows) {}
 
   [[nodiscard]] Status each_frame(const mount::Mount& mount, std::size_t most,

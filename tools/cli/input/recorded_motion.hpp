@@ -20,34 +20,34 @@ namespace terracut::cli {
 
 /// Reads the vehicle's motion from a recording of its CAN bus along with the packets of a capture,
 /// as if live: by their stamps, on one clock.
-///
-/// If that clock was set back, both recordings step back at one time. The first to do so waits for
-/// the other, so that frames and packets from before the step stay together, as do those from after
-/// it; but at most for a second of stamps, because only one clock may have stepped. One thread.
+/// If that clock was set back, both recordings step back at one time. The first recording to do so
+/// waits for the other, so that frames and packets from before the step stay together, as do those
+/// from after it; but it waits at most for a second of stamps, because only one clock may have
+/// stepped. One thread.
 class RecordedMotion {
  public:
-  /// Errors of CanRecording::open() and motion_signals_of(); also kMalformed if no frame of the
-  /// whole recording has the signals.
+  /// Opens the recording. Fails with the errors of CanRecording::open() and motion_signals_of(), or
+  /// kMalformed if no frame of the whole recording has the signals.
   [[nodiscard]] static Expected<RecordedMotion> open(const Options& options,
                                                      memory::FixedMemory& memory);
 
-  /// Starts the recording again. Errors of CanRecording.
+  /// Starts the recording again. Fails with the errors of CanRecording.
   [[nodiscard]] Status restart();
-  /// Takes the frames up to the stamp of the capture's next packet. A recording that breaks off
-  /// counts as ended; the fault is kept.
+  /// Takes the CAN frames up to `stamp_ns`, the stamp of the capture's next packet. A recording
+  /// that breaks off counts as ended; the fault is kept.
   void hear_until(std::int64_t stamp_ns);
 
   [[nodiscard]] vehicle::EgoMotion& motion() noexcept { return *motion_; }
   [[nodiscard]] std::uint64_t samples() const noexcept { return motion_->counters().accepted; }
-  /// Lists what was not understood in the recording, one line a kind; empty if nothing.
+  /// Lists what in the recording was not understood, one line per kind; empty if there is nothing.
   [[nodiscard]] std::string warnings() const;
 
  private:
   RecordedMotion(std::filesystem::path path, can::CanRecording recording,
                  vehicle::MotionSignals signals, const vehicle::EgoMotion::Config& config,
                  memory::FixedMemory& memory);
-  /// For one of the two recordings: how often its stamps stepped back, and from where they last
-  /// did.
+  /// For one of the two recordings: how often its stamps stepped back, and the stamp from which
+  /// they last did.
   struct Steps {
     std::uint64_t count = 0;
     std::int64_t newest_ns = kNone, left_off_ns = kNone;
@@ -56,7 +56,7 @@ class RecordedMotion {
   static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
 
   void read_on();
-  /// True if the next frame came before the newest packet.
+  /// True if the next CAN frame came before the newest packet.
   [[nodiscard]] bool next_is_due() noexcept;
 
   std::filesystem::path path_;

@@ -11,16 +11,16 @@
 
 namespace terracut::cli {
 
-/// A path that looks like a recording, or might hold some, but is not to be labelled.
+/// A path that looks like a recording, or might hold recordings, but is not to be labelled.
 struct LeftOut {
   std::filesystem::path path;
-  std::string why;  ///< Reason and remedy; the same text for all of a kind.
+  std::string why;  ///< Reason and remedy; same text for all of a kind.
 };
 
 /// The recordings in a tree of folders.
 struct RecordingTree {
   std::set<std::filesystem::path> captures;
-  std::map<std::filesystem::path, std::uint64_t> clouds;  ///< Folders, bytes of their clouds.
+  std::map<std::filesystem::path, std::uint64_t> clouds;  ///< Folder: bytes of its clouds.
   std::vector<LeftOut> left_out;                          ///< Ordered by path.
 };
 

@@ -9,14 +9,14 @@ namespace terracut::cli {
 /// Takes SIGUSR1, which asks a running process for a dump, without a handler: the signal is blocked
 /// and read from a descriptor, so it interrupts no thread and no system call.
 ///
-/// Construct it in main() before any other thread: threads inherit the block, and one without it
-/// would let the signal end the process.
+/// Construct it in main() before any other thread starts: threads inherit the block, and a thread
+/// without the block would let the signal end the process.
 class DumpSignal {
  public:
   /// Throws std::system_error if the system has no descriptor left.
   DumpSignal();
 
-  /// True if the signal came since the last call. Never waits; any one thread.
+  /// True if the signal came since the last call. Never waits. For any one thread.
   [[nodiscard]] bool take() noexcept;
 
   /// Returns a descriptor for poll(), readable when take() would return true.

@@ -20,15 +20,15 @@
 
 namespace terracut::cli {
 
-/// Returns the folder and limits of a run's dumps, under the run's name.
+/// Returns the folder and limits for a run's dumps, which bear the run's name.
 [[nodiscard]] recorder::DumpFolderLimits dump_folder_of(const Options& options);
 
 /// Writes the flight recorder's dumps on a thread of its own, so that no other thread waits for the
-/// disk. A dump requested while one is being written follows it, once.
+/// disk. Dumps requested while one is being written lead to one more dump after it.
 class DumpWriter {
  public:
   /// `recorder`, `stage_names` and `answers` are used by this object alone and must outlive it.
-  /// `calibration`, the one in use, is written beside each dump.
+  /// `calibration` is the table in use, which is written beside each dump.
   DumpWriter(const Options& options, calib::SensorCalibration calibration,
              recorder::FlightRecorder& recorder, std::span<const std::string_view> stage_names,
              DumpAnswers& answers);
@@ -37,7 +37,7 @@ class DumpWriter {
   /// Requests a dump; `frames` are the times of the newest frames.
   void want(recorder::DumpReason reason, std::vector<status::FrameRecord> frames);
 
-  /// False if the disk does not answer; then the process must end without destroying this object.
+  /// False if the disk does not answer; the process must then end without destroying this object.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
  private:
@@ -58,7 +58,7 @@ class DumpWriter {
   std::vector<status::FrameRecord> frames_;
   bool finish_ = false;
 
-  threads::BackgroundThread thread_;  ///< Last: it uses all members above.
+  threads::BackgroundThread thread_;  ///< Declared last: uses all members above.
 };
 
 }  // namespace terracut::cli

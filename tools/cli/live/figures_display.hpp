@@ -19,11 +19,11 @@ namespace terracut::cli {
 /// waits for its sensor is visible too. One thread; touches no disk.
 class FiguresDisplay {
  public:
-  /// An output that cannot be opened is warned of and tried again; the run goes on without it.
+  /// Warns of an output that cannot be opened and tries it again; the run goes on without it.
   explicit FiguresDisplay(const WatchOptions& options);
 
   void show(const status::MonitorSnapshot& figures);
-  /// Adds the number of requests that /metrics refused.
+  /// Adds the number of requests that /metrics has refused to the losses in `figures`.
   void add_losses(status::MonitorSnapshot& figures);
 
  private:
@@ -34,7 +34,7 @@ class FiguresDisplay {
   std::mutex
       shown_mutex_;  ///< Shared by this thread and the metrics server's; neither has a deadline.
   std::unique_ptr<status::MonitorSnapshot> shown_ = std::make_unique<status::MonitorSnapshot>();
-  /// Last: it reads shown_ until its end.
+  /// Declared last, because its thread reads shown_ until it ends.
   std::optional<publish::Reopened<HttpServer>> metrics_;
 };
 

@@ -9,18 +9,18 @@
 
 namespace terracut::cli {
 
-/// Remembers the sensor that runs of a name heard last, so that another one at the port does not
-/// keep the next run from starting. The file NAME.terracut-sensor has its numeric address and lies
-/// in the state folder of the systemd service ($STATE_DIRECTORY), which survives a restart of the
-/// machine, otherwise beside the status page, which does not. Files that others could have written
-/// are ignored (files::check_trusted).
+/// Remembers the sensor that runs of a name heard last, so that another sensor at the port does not
+/// keep the next run from starting. The file NAME.terracut-sensor has the sensor's numeric address
+/// and lies in the state folder of the systemd service ($STATE_DIRECTORY), which survives a restart
+/// of the machine, otherwise beside the status page, which does not. Files that others could have
+/// written are ignored (files::check_trusted).
 class KnownSensor {
  public:
   explicit KnownSensor(std::string name);
 
-  /// Returns the remembered sensor, with its port if several were at its address; none if unknown.
+  /// Returns the remembered sensor, with a port if several were at its address; none if unknown.
   [[nodiscard]] std::optional<net::Sender> sender() const;
-  /// Writes the file if the sensor has changed. Warns if it cannot.
+  /// Writes the file if the sensor has changed. Warns if the file cannot be written.
   void remember(const net::Sender& sender) const;
 
  private:

@@ -17,19 +17,19 @@
 namespace terracut::cli {
 
 /// Writes the labels of every frame to a folder on a thread of its own, so that no other thread
-/// waits for the disk. If it cannot write, or others need the remaining room
+/// waits for the disk. If it cannot write, or other programs need the remaining space
 /// (files::check_room_left), it warns and tries again every second. FramePool counts the frames not
 /// written.
 class LabelWriter {
  public:
   using Slots = live::FramePool<frame::Label>;
 
-  /// `slots` must outlive this.
+  /// `slots` must outlive this object.
   LabelWriter(const OutputOptions& options, Slots& slots);
   ~LabelWriter() { finish_ = true; }
 
-  /// Writes the remaining frames, after LiveThreads::stop(). False if the disk does not answer;
-  /// then the process must end without destroying this object.
+  /// Writes the remaining frames; call it after LiveThreads::stop(). Returns false if the disk does
+  /// not answer; the process must then end without destroying this object.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
   /// Returns the error of the first file that could not be written, after finish().
   [[nodiscard]] const Status& outcome() const noexcept { return outcome_; }
@@ -45,7 +45,7 @@ class LabelWriter {
   std::atomic<bool> finish_{false};
   Status outcome_;
   std::int64_t try_again_ns_ = 0;     ///< 0 if the newest frame was written.
-  threads::BackgroundThread thread_;  ///< Last: it uses all members above.
+  threads::BackgroundThread thread_;  ///< Declared last: uses all members above.
 };
 
 }  // namespace terracut::cli

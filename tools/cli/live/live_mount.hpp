@@ -11,8 +11,9 @@
 namespace terracut::cli {
 
 /// Returns the mount of a sensor on air, with the missing figures estimated from the first frames.
-/// Listens for a second, for ten if these do not show enough ground (three with --mount-guess), and
-/// until stop_wanted(). Prints the result, or that it goes on with a guess: a vehicle needs labels.
+/// Listens for a second, for up to ten if frames do not show enough ground (three with
+/// --mount-guess), or until stop_wanted(). Prints the mount, or that the run goes on with a guess,
+/// as a vehicle needs labels.
 [[nodiscard]] MountChoice mount_on_air(net::LiveSource& source, const streams::SensorOnAir& sensor,
                                        const Options& options, const OnWaiting& on_waiting);
 

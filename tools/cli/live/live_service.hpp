@@ -14,17 +14,17 @@ namespace terracut::cli {
 /// frames are in time. Outside a service it does nothing. One thread, the main one; never blocks.
 class LiveService {
  public:
-  /// Reads the environment; a service manager that cannot be reached is warned of, and the run goes
-  /// on without it.
+  /// Reads the environment. If a service manager cannot be reached, warns, and the run goes on
+  /// without it.
   [[nodiscard]] static LiveService from_environment();
   explicit LiveService(ServiceNotify notify) noexcept;
 
-  /// Call once when listening. `now_ns` is measure::monotonic_ns(), here and below.
+  /// Call it once when listening. `now_ns` is measure::monotonic_ns(), here and below.
   void ready(const status::MonitorSnapshot& figures, std::int64_t now_ns);
-  /// Call at any rate: the figures are looked at four times within the watchdog's time, or every
+  /// Call it at any rate: it examines the figures four times within the watchdog's time, or every
   /// five seconds without a watchdog.
   void work_round(const status::MonitorSnapshot& figures, std::int64_t now_ns);
-  /// Call once before the threads end.
+  /// Call it once before the threads end.
   void stopping() const noexcept { notify_.stopping(); }
 
  private:

@@ -30,20 +30,20 @@ class LiveWatch {
             live::LiveParts& parts, FiguresDisplay& display);
 
   /// Opens health reports on a CAN bus; if that fails it warns, and the run goes on without them.
-  /// `outlet`, which may be null, and `publisher` have their losses shown and get the figures for
-  /// their outputs every second; both must outlive this object.
+  /// Shows the losses of `outlet`, which may be null, and of `publisher`, and hands both the
+  /// figures every second; both must outlive this object.
   void open(const std::string& sensor, const std::string& input, const live::FrameOutlet* outlet,
             publish::Publisher& publisher);
 
   struct Round {
-    int frames = 0;  ///< Judged frames.
-    int missed = 0;  ///< Missed deadlines among them.
+    int frames = 0;  ///< Frames judged.
+    int missed = 0;  ///< Judged frames that missed the deadline.
   };
   /// Processes the results since the last round.
   Round work_round();
   /// Notes that the run ended before the requested time.
   void note_interruption() { parts_.monitor.snapshot().interrupted = 1; }
-  /// After all threads that take results have ended, or will not end.
+  /// Processes the last results; call it when all threads that take results have ended or hang.
   void last_round();
 
   [[nodiscard]] const status::MonitorSnapshot& figures() const noexcept {

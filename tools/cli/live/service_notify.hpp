@@ -15,17 +15,18 @@ namespace terracut::cli {
 /// sd_notify(3)). Outside a service it does nothing. From normal threads only; never blocks.
 class ServiceNotify {
  public:
-  /// Reads $NOTIFY_SOCKET, $WATCHDOG_USEC and $WATCHDOG_PID. kInvalidArgument if the socket address
-  /// is neither a path nor an abstract name, or is too long; kNotFound if nobody listens.
+  /// Reads $NOTIFY_SOCKET, $WATCHDOG_USEC and $WATCHDOG_PID. Fails with kInvalidArgument if the
+  /// socket's address is neither a path nor an abstract name, or is too long; kNotFound if nobody
+  /// listens.
   [[nodiscard]] static Expected<ServiceNotify> from_environment();
 
   [[nodiscard]] bool connected() const noexcept { return static_cast<bool>(socket_); }
   /// Returns the time within which the watchdog has to be fed; none without a watchdog.
   [[nodiscard]] std::optional<std::int64_t> watchdog_ns() const noexcept { return watchdog_ns_; }
 
-  /// Reports the end of the start-up: the unit counts as started. `status` is shown by `systemctl
-  /// status`, cut after 200 bytes. This and the following return true if the message was taken; a
-  /// refused one is no reason to stop.
+  /// Reports the end of the start-up: the unit counts as started. `systemctl status` shows
+  /// `status`, cut after 200 bytes. This and the following functions return true if systemd took
+  /// the message; a refused message is no reason to stop.
   bool ready(std::string_view status) const noexcept;
   bool status(std::string_view status) const noexcept;
   bool feed_watchdog() const noexcept;

@@ -16,7 +16,7 @@ struct VehicleBus {
   vehicle::MotionSignals signals;
   can::SocketCanSource source;
 
-  /// A missing interface is warned of and waited for. Other errors are those of
+  /// Opens the bus; warns of a missing interface and waits for it. Other errors are those of
   /// SocketCanSource::open().
   [[nodiscard]] static Expected<VehicleBus> open(const std::string& interface,
                                                  vehicle::MotionSignals signals,

@@ -17,18 +17,18 @@
 
 namespace terracut::cli {
 
-/// Clouds in by DDS, their answers out, on three threads with bounded queues between them:
+/// Takes clouds from DDS and writes answers, on three threads with bounded queues between them:
 ///
 ///   takes  --->  labels, before the deadline  --->  writes
 ///
-/// Of clouds that wait to be labelled the oldest are pushed out; where answers are not written in
-/// time, the newest is left out. Both are counted.
+/// If clouds wait to be labelled, the oldest are pushed out; if answers are not written in time,
+/// the newest answer is left out. Both are counted.
 class CloudNode {
  public:
   CloudNode(const Options& options, dds::CloudReader reader, NodeAnswers answers, NodeNews& news);
   ~CloudNode();
 
-  /// Returns the number of lost clouds, by DDS or by gaps in stamps. From any thread.
+  /// Returns how many clouds DDS reported as lost or gaps in stamps show. For any thread.
   [[nodiscard]] std::uint64_t lost_clouds() const {
     return std::max(reader_.lost(), missing_.load(std::memory_order_relaxed));
   }
@@ -46,9 +46,9 @@ class CloudNode {
   void label_clouds();
   void write_answers();
 
-  /// False if the cloud is refused, which is counted.
+  /// Returns false if the cloud is refused, which is then counted.
   [[nodiscard]] bool read(const dds::RosCloud& cloud);
-  /// Keeps a first cloud to learn from; it is answered once there is a labeller, without deadline.
+  /// Keeps a first cloud to learn from; it is answered, without deadline, once a labeller exists.
   void learn_from(Job job);
   void set_up();
   void label(Job job);
@@ -56,7 +56,7 @@ class CloudNode {
   void say_once(const std::string& what);
 
   NodeNews& news_;
-  dds::CloudReader reader_;  ///< Before the queues, whose clouds lie in its memory.
+  dds::CloudReader reader_;  ///< Declared before queues of clouds in its memory.
   NodeAnswers answers_;
   NodeLabeller labeller_;
   std::vector<PointField> fields_;
@@ -66,7 +66,7 @@ class CloudNode {
   StampGaps gaps_;
   std::atomic<std::uint64_t> missing_{0};
   std::atomic<bool> finish_{false};
-  std::jthread taker_, labelling_, writer_;  ///< Last: they use all members above.
+  std::jthread taker_, labelling_, writer_;  ///< Declared last: use all members.
 };
 
 }  // namespace terracut::cli

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "firmware_io/cloud/cloud.hpp"
+#include "pipeline/api/point_buffer.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/live/degradation_policy.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
-#include "pipeline/api/point_buffer.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/mount_watch.hpp"
@@ -20,8 +20,8 @@
 
 namespace terracut::cli {
 
-/// Labels the clouds of an unknown sensor before a deadline. The first clouds show its rows and,
-/// unless that is stated, its mount. One thread, which allocates.
+/// Labels the clouds of an unknown sensor before a deadline. The first clouds show the sensor's
+/// rows and, unless stated, its mount. For one thread, which allocates.
 class NodeLabeller {
  public:
   explicit NodeLabeller(const Options& options);
@@ -33,19 +33,19 @@ class NodeLabeller {
   /// True if the cloud read last has a point with valid coordinates.
   [[nodiscard]] bool has_places() const noexcept;
 
-  /// True if rows and mount are known, as label() needs them.
+  /// True if rows and mount are known, which label() requires.
   [[nodiscard]] bool is_ready() const noexcept { return pipeline_.has_value(); }
-  /// Keeps a copy of the cloud read last. True once set_up() has as many as it can use.
+  /// Keeps a copy of the cloud read last. Returns true once set_up() has enough clouds.
   [[nodiscard]] bool learn_from_cloud();
-  /// Learns rows and mount from the kept clouds, which are then dropped. Errors of
+  /// Learns rows and mount from the kept clouds, which are then dropped. Fails with the errors of
   /// cloud::learn_rows() and of a setup file.
   [[nodiscard]] Status set_up();
 
-  /// True if a cloud's deadline passed before its labelling began; marks the record as skipped.
+  /// True if the cloud's deadline passed before labelling began; then marks the record as skipped.
   [[nodiscard]] bool skip_if_late(status::FrameRecord& record) const noexcept;
   /// Labels the cloud read last within the time until `record.info.last_packet_ns` plus the
-  /// deadline, or completely if that stamp is 0. Fills in the record. The labels are
-  /// point_labels(), unless the record's level says that it was skipped. Errors of
+  /// deadline, or completely if that stamp is 0. Fills in the record. The labels are in
+  /// point_labels(), unless the record's level is kSkipped. Fails with the errors of
   /// cloud::RowFinder::find().
   [[nodiscard]] Status label(status::FrameRecord& record);
   /// Returns one label per point, in the cloud's order.

@@ -11,24 +11,24 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/api/point_buffer.hpp"
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/mount_figures.hpp"
 #include "pipeline/status/named_count.hpp"
-#include "pipeline/api/point_buffer.hpp"
 
 namespace terracut::cli {
 
 /// Why a cloud has no answer, beyond the reasons of BufferFault.
 enum class NoAnswer : std::uint8_t {
-  kNoPlace,     ///< None of its points has valid coordinates: NaN, null, beyond 10 km.
-  kNoRows,      ///< No field tells its lasers, or not the one of the first clouds.
-  kPushedOut,   ///< Newer ones came before it was processed.
-  kUnanswered,  ///< Labelled, but earlier answers were not written yet.
+  kNoPlace,     ///< No point has a valid position: NaN, null, beyond 10 km.
+  kNoRows,      ///< No field tells lasers apart as in the first clouds.
+  kPushedOut,   ///< Newer clouds came before this one was processed.
+  kUnanswered,  ///< Labelled, but earlier answers were still being written.
   kUnwritten,   ///< DDS refused an answer.
   kCount,
 };
 
-/// Carries news from a node's threads to the one that displays it. From any thread; locks.
+/// Carries news from a node's threads to the thread that shows it. For any thread; locks.
 class NodeNews {
  public:
   void count(BufferFault fault) { count(static_cast<std::size_t>(fault)); }
@@ -38,7 +38,7 @@ class NodeNews {
     ++clouds_;
     last_cloud_ns_ = arrived_ns;
   }
-  /// Adds a cloud that was labelled, or skipped because of its deadline.
+  /// Adds a cloud that was labelled, or that was skipped because of its deadline.
   void add(const status::FrameRecord& record) {
     const std::scoped_lock lock(mutex_);
     records_.push_back(record);
@@ -54,10 +54,10 @@ class NodeNews {
 
   struct State {
     std::uint64_t clouds = 0;        ///< Received clouds.
-    std::int64_t last_cloud_ns = 0;  ///< Time of day; 0 before the first.
-    std::string sensor;              ///< Empty until known.
+    std::int64_t last_cloud_ns = 0;  ///< Time of day of the newest; 0 before the first.
+    std::string sensor;              ///< Description of the sensor; empty until known.
     status::MountFigures mount;
-    std::vector<status::FrameRecord> records;  ///< Since the previous call.
+    std::vector<status::FrameRecord> records;  ///< Records since the previous call.
     std::vector<status::NamedCount> losses;    ///< All reasons by name, also those with 0.
   };
   [[nodiscard]] State look() {

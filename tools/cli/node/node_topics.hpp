@@ -15,7 +15,7 @@
 
 namespace terracut::cli {
 
-/// The topics for the answers to clouds. One thread.
+/// The topics to which answers are written. For one thread.
 class NodeAnswers {
  public:
   [[nodiscard]] static Expected<NodeAnswers> open(const dds::Participant& participant,
@@ -23,8 +23,8 @@ class NodeAnswers {
 
   /// The times of the answer to one cloud.
   struct Times {
-    double processing_ms = 0;  ///< From the cloud's arrival to its labels.
-    double cyclic_ms = 0;      ///< From the previous labels to these.
+    double processing_ms = 0;  ///< Time from the cloud's arrival to its labels.
+    double cyclic_ms = 0;      ///< Time from the previous labels to these.
   };
   /// Writes an answer; skips topics without readers. Returns the first error.
   [[nodiscard]] Status write(const dds::RosCloud& cloud, std::span<const frame::Label> labels,
@@ -41,7 +41,7 @@ class NodeAnswers {
   dds::DerivedCloud derived_;
 };
 
-/// Returns a topic's writer; none if its name is empty.
+/// Returns a writer for the topic; none if the topic's name is empty.
 [[nodiscard]] Expected<std::optional<dds::TopicWriter>> open_writer(
     const dds::Participant& participant, const std::string& name, const dds::MessageType& type,
     const DdsOptions& options);

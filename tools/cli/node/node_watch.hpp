@@ -15,16 +15,16 @@
 
 namespace terracut::cli {
 
-/// Judges the clouds of a node and shows its figures. One thread, the main one.
+/// Judges the clouds of a node and shows the node's figures. For the main thread.
 class NodeWatch {
  public:
   /// `news` must outlive this object.
   NodeWatch(const Options& options, const std::string& input, NodeNews& news);
 
-  /// `lost` is the number of clouds that were sent but not received.
+  /// Shows what is new. `lost` is the number of clouds that were sent but not received.
   void work_round(std::uint64_t lost);
   void note_interruption() { monitor_.snapshot().interrupted = 1; }
-  /// After the node's threads have ended.
+  /// Shows the last figures; call it after the node's threads have ended.
   void last_round() { work_round(lost_); }
 
   [[nodiscard]] const status::MonitorSnapshot& figures() const noexcept {
@@ -34,7 +34,7 @@ class NodeWatch {
   [[nodiscard]] std::string why_no_frames() const;
 
  private:
-  /// Reports once how many clouds a second it can answer.
+  /// Reports once how many clouds per second the node can answer.
   void look_at_pace(const status::FrameRecord& record);
   void show_input(const NodeNews::State& state, status::MonitorSnapshot& figures);
 
@@ -44,7 +44,7 @@ class NodeWatch {
   FiguresDisplay display_;
   LiveService service_;
   std::uint64_t lost_ = 0;
-  std::vector<std::int64_t> paces_ns_;  ///< Of the first clouds, from the queue to their labels.
+  std::vector<std::int64_t> paces_ns_;  ///< For the first clouds: time from queue to labels.
 };
 
 }  // namespace terracut::cli

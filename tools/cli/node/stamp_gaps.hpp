@@ -8,9 +8,9 @@
 
 namespace terracut::cli {
 
-/// Counts clouds missing between received ones by their stamps: DDS does not report what a
-/// best-effort writer sent and the network, or a full buffer, lost. For a single writer with evenly
-/// spaced clouds. One thread.
+/// Counts the clouds missing between received ones by their stamps, as DDS does not report what a
+/// best-effort writer sent and the network, or a full buffer, lost. Needs a single writer with
+/// evenly spaced clouds. One thread.
 class StampGaps {
  public:
   /// Takes the next cloud's stamp and returns how many are missing before it. That is 0 while the
@@ -23,7 +23,7 @@ class StampGaps {
  private:
   static constexpr std::size_t kIntervals = 16, kFewest = 4;
 
-  /// Estimates the period by a short one of the latest intervals, since some span missing clouds.
+  /// Estimates the period as a short one of the latest intervals, since some intervals are gaps.
   [[nodiscard]] std::int64_t period_ns() const noexcept;
 
   std::array<std::int64_t, kIntervals> intervals_ns_{};

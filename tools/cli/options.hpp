@@ -29,18 +29,18 @@ namespace terracut::cli {
 struct CaptureOptions {
   std::filesystem::path file;
   std::optional<std::uint16_t> port;
-  std::string from;                           ///< Dotted IPv4, with or without port.
-  std::string to;                             ///< Dotted IPv4.
+  std::string from;                           ///< Dotted IPv4 of the sender, with or without port.
+  std::string to;                             ///< Dotted IPv4 of the destination.
   std::string vlan, mac;                      ///< As in firmware_io/streams/stream_text.hpp.
-  std::optional<sensor::SensorModel> sensor;  ///< None: detected from the packets.
+  std::optional<sensor::SensorModel> sensor;  ///< If empty, detected from the packets.
   std::filesystem::path calibration;
   bool nominal_calibration = false;
-  std::optional<int> columns;  ///< None: chosen by the spin rate.
+  std::optional<int> columns;  ///< If empty, chosen by the spin rate.
   frame::CellOwner cell_owner = frame::CellOwner::kStrongest;
-  std::optional<ruby128::RubyTimestamp> timestamp;  ///< None: detected.
+  std::optional<ruby128::RubyTimestamp> timestamp;  ///< If empty, detected.
   double clock_offset_s = 0;
   hdl64e::GeometryModel geometry = hdl64e::GeometryModel::kManual;
-  std::optional<int> reorder_packets;  ///< None: 2, in live runs 0.
+  std::optional<int> reorder_packets;  ///< If empty, 2, or 0 in live runs.
   double start_s = 0;
   std::optional<double> duration_s;
 };
@@ -48,7 +48,7 @@ struct CaptureOptions {
 /// The mount of the sensor on the vehicle.
 struct MountOptions {
   std::filesystem::path setup;
-  std::optional<double> height_m, roll_deg, pitch_deg;  ///< They override the setup.
+  std::optional<double> height_m, roll_deg, pitch_deg;  ///< Override the setup's figures.
   bool may_guess = false;  ///< Assume a level mount at 1.73 m if the ground shows nothing better.
 };
 
@@ -81,23 +81,23 @@ struct DdsOptions {
   std::string in = "/points_raw";  ///< Clouds to be labelled.
   bool in_reliable = false;
   DdsPreset preset = DdsPreset::kRos;
-  std::string points, ground, obstacles, road;  ///< Empty: the preset's topic; "off": none.
-  std::string diagnostics = "/diagnostics";     ///< "off": none.
+  std::string points, ground, obstacles, road;  ///< Topics; empty: the preset's; "off": none.
+  std::string diagnostics = "/diagnostics";     ///< Topic; "off": none.
   std::string raw;  ///< Topic of unlabelled clouds, as a driver sends them; empty: labelled.
   bool reliable = true;
   int depth = 5;
-  std::optional<int> domain;  ///< None: ROS_DOMAIN_ID, else 0.
-  std::string interface;      ///< Empty: Cyclone's choice.
+  std::optional<int> domain;  ///< If empty, ROS_DOMAIN_ID or 0.
+  std::string interface;      ///< Network interface; empty: Cyclone's choice.
   int fragment_bytes = 63000;
   int receive_buffer_kib = 8192;
 };
 
 /// The outputs of a run.
 struct OutputOptions {
-  std::filesystem::path labels, pcd, png;  ///< Folders.
-  bool overwrite = false;                  ///< Replace also files made of another input.
-  std::string made_of;                     ///< RunFiles::made_of
-  std::filesystem::path json;              ///< File.
+  std::filesystem::path labels, pcd, png;  ///< Folders to write to; empty: none.
+  bool overwrite = false;                  ///< Also replace files made of another input.
+  std::string made_of;                     ///< Name of the input; see RunFiles::made_of.
+  std::filesystem::path json;              ///< File of the report; empty: none.
   std::vector<std::string> metadata;       ///< KEY=VALUE, for the MCAP file.
   McapOptions mcap;
   std::string foxglove;                       ///< ADDRESS:PORT or PORT; empty: not served.
@@ -137,25 +137,25 @@ enum class ListenVia : std::uint8_t { kSocket, kLibpcap };
 struct ListenOptions {
   std::string address = "0.0.0.0:2368";  ///< ADDRESS:PORT or PORT, IPv4.
   ListenVia via = ListenVia::kSocket;
-  std::string interface;  ///< Empty: any. libpcap needs one.
-  std::string multicast;  ///< Group to join; empty: none.
+  std::string interface;  ///< Network interface; empty: any. libpcap needs one.
+  std::string multicast;  ///< Multicast group to join; empty: none.
   bool share_port = false;
-  std::uint16_t device_port = 7788;  ///< Of a Ruby128's DIFOP; 0: not received.
+  std::uint16_t device_port = 7788;  ///< Port of a Ruby128's DIFOP packets; 0: not received.
   double gather_ms = 20;             ///< Time for which packets may be collected.
 };
 
 /// Scheduling of the threads with a deadline and of the vehicle's CAN thread.
 struct RealtimeOptions {
   int receive_priority = 80, segment_priority = 70;  ///< SCHED_FIFO; 0: shared scheduling.
-  std::optional<int> receive_core, segment_core;     ///< None: any.
+  std::optional<int> receive_core, segment_core;     ///< Cores to run on; empty: any.
   int can_priority = 60;                             ///< SCHED_FIFO; 0: shared scheduling.
   bool lock_memory = true;
 };
 
 /// The last seconds of packets, kept and written on events.
 struct RecorderOptions {
-  double seconds = 10;           ///< 0: none are kept.
-  std::filesystem::path folder;  ///< Empty: nothing is written.
+  double seconds = 10;           ///< Seconds kept; 0: no packets are kept.
+  std::filesystem::path folder;  ///< Folder of dumps; empty: none are written.
 };
 
 /// How the process can be watched.
@@ -167,16 +167,16 @@ struct WatchOptions {
 
 /// How often and how fast packets are played.
 struct PlayOptions {
-  double rate = 0;  ///< 0 as fast as possible, 1 as recorded.
-  int loops = 1;    ///< Passes; 0: until interrupted.
+  double rate = 0;  ///< 0: as fast as possible; 1: as recorded.
+  int loops = 1;    ///< Number of passes; 0: until interrupted.
 };
 
 /// The destination of datagrams, and injected faults.
 struct SendOptions {
   std::string to;         ///< ADDRESS[:PORT]
-  std::string interface;  ///< Empty: chosen by routing.
+  std::string interface;  ///< Network interface; empty: chosen by routing.
   PlayOptions play{.rate = 1};
-  std::string faults;        ///< tools/lab/send/fault_script.hpp
+  std::string faults;        ///< Faults to inject, as in tools/lab/send/fault_script.hpp
   std::string foreign_from;  ///< Dotted IPv4.
 };
 
@@ -189,25 +189,25 @@ struct SimulateOptions {
   packets::ReturnMode returns = packets::ReturnMode::kSingle;
   ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
   double noise_m = 0.015;
-  double speed_mps = -1;    ///< < 0: the scene's usual speed.
+  double speed_mps = -1;    ///< Speed; below 0: the scene's usual speed.
   double yaw_rate_dps = 0;  ///< Not 0: the vehicle drives an arc.
 };
 
 /// Recorded scans to be turned into packets.
 struct EncodeOptions {
-  bool keep_compensation = false;  ///< Do not restore the sensor's motion.
+  bool keep_compensation = false;  ///< True: does not restore the sensor's motion.
 };
 
 struct EvalOptions {
   std::string dataset;                  ///< A built-in class table, "own" or "simulated".
   std::filesystem::path root;           ///< For simulated: scenes, separated by commas.
-  std::vector<std::string> sequences;   ///< Empty: all that have labels.
+  std::vector<std::string> sequences;   ///< Sequences; empty: all with labels.
   std::string frames;                   ///< FIRST-LAST[:STEP]; empty: all.
   std::vector<std::string> methods;     ///< Empty: the profile's.
   std::vector<std::string> variants;    ///< NAME=METHOD,KEY=VALUE,...
-  std::optional<bool> through_packets;  ///< None: directly into the image.
-  bool find_mount = false;              ///< For each sequence.
-  int jobs = 0;                         ///< 0: one per core.
+  std::optional<bool> through_packets;  ///< If empty, directly into the image.
+  bool find_mount = false;              ///< True: finds the mount of each sequence.
+  int jobs = 0;                         ///< Parallel jobs; 0: one per core.
   std::filesystem::path classes;        ///< Empty: the dataset's own table.
   std::filesystem::path predictions, report;
   std::filesystem::path changes;  ///< Given: no journal is kept.
@@ -219,7 +219,7 @@ enum class FleetFormat : std::uint8_t { kLabels, kMcap };
 struct FleetOptions {
   std::filesystem::path root;      ///< Folder searched for drives.
   std::filesystem::path manifest;  ///< tools/cli/fleet/manifest.hpp
-  std::string shard = "1/1";       ///< Its part to label, I/N.
+  std::string shard = "1/1";       ///< Part I of N to label, as I/N.
   FleetFormat format = FleetFormat::kLabels;
   std::filesystem::path status;  ///< Folder to report on instead of labelling.
 };

@@ -7,8 +7,8 @@
 
 namespace terracut::cli {
 
-/// Makes Ctrl-C and SIGTERM only set stop_wanted() and call `also`, unless null, which must be safe
-/// in a signal handler; a second signal kills.
+/// Makes Ctrl-C and SIGTERM only set stop_wanted() and call `also`, which may be null and must be
+/// safe in a signal handler; a second signal kills the process.
 void catch_stop_signals(void (*also)() noexcept = nullptr);
 
 [[nodiscard]] bool stop_wanted() noexcept;

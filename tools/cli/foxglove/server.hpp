@@ -18,8 +18,7 @@ namespace terracut::cli {
 
 /// Serves ROS 2 messages to Foxglove, Lichtblick and others with their WebSocket protocol
 /// (protocol.hpp), on a thread of its own. A client that has not taken a channel's last message
-/// misses the next one: at most one message per channel waits for a slow client, and a slow client
-/// delays nobody.
+/// misses the next: at most one message per channel waits for a slow client, which delays nobody.
 ///
 /// Input is bounded by HttpBounds, by texts of 16 KiB and by one subscription per channel. For a
 /// client that stops reading, one message per channel is held until it is disconnected. Host and

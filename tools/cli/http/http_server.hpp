@@ -41,8 +41,7 @@ struct HttpBounds {
 /// Clients use no more than HttpBounds, whatever they send: a request has headers of at most 8 KiB
 /// and a body of at most 4 KiB with a stated length. Requests for another machine's name
 /// (http_host.hpp) get 403; a repeated header that decides something (Host, Origin and the like)
-/// gets 400. An exception on the thread, such as for lack of memory, costs only the connection
-/// being served.
+/// gets 400. An exception on the thread (no memory, say) costs only the connection being served.
 class HttpServer {
  public:
   struct Config {

@@ -11,9 +11,8 @@
 namespace terracut::cli {
 
 /// Returns the mount of a sensor on air, with the missing figures estimated from the first frames.
-/// Listens for a second, for up to ten if frames do not show enough ground (three with
-/// --mount-guess), or until stop_wanted(). Prints the mount, or that the run goes on with a guess,
-/// as a vehicle needs labels.
+/// Listens for a second, for ten if frames do not show enough ground (three with --mount-guess), or
+/// until stop_wanted(). Prints the mount, or that the run goes on with a guess.
 [[nodiscard]] MountChoice mount_on_air(net::LiveSource& source, const streams::SensorOnAir& sensor,
                                        const Options& options, const OnWaiting& on_waiting);
 

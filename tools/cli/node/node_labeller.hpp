@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "firmware_io/cloud/cloud.hpp"
-#include "pipeline/api/point_buffer.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/live/degradation_policy.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
+#include "pipeline/api/point_buffer.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/mount_watch.hpp"

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/api/point_buffer.hpp"
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/mount_figures.hpp"
 #include "pipeline/status/named_count.hpp"
+#include "pipeline/api/point_buffer.hpp"
 
 namespace terracut::cli {
 

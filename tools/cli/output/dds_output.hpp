@@ -12,13 +12,13 @@
 
 namespace terracut::cli {
 
-/// Names of topics, as stated or by the preset; empty: not published.
+/// Names of the topics, as stated or by the preset; a topic with an empty name is not published.
 struct DdsTopics {
   std::string points{}, ground{}, obstacles{}, road{}, diagnostics{}, raw{};
 };
 [[nodiscard]] DdsTopics dds_topics_of(const DdsOptions& options);
 
-/// Errors: kUnsupported if the program was built without DDS, with what to install.
+/// Fails with kUnsupported, and what to install, if the program was built without DDS.
 [[nodiscard]] Status check_dds();
 /// Opens the output of --dds and prints its topics. Errors of check_dds() and of
 /// dds::DdsSink::open().

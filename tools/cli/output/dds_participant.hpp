@@ -11,7 +11,7 @@ namespace terracut::cli {
 
 [[nodiscard]] dds::Participant::Config participant_config_of(const DdsOptions& options);
 
-/// Returns the DDS topic of a name checked as a setting; empty for an empty name.
+/// Returns the DDS topic of a ROS name that was checked as a setting; empty for an empty name.
 [[nodiscard]] std::string dds_topic_of(const std::string& name, const DdsOptions& options);
 
 /// Lists the topics of clouds for people: "/terracut/points, /terracut/ground".

@@ -32,7 +32,7 @@ class FrameOutputs {
         pcd_(frame_folder_of(options, options.pcd, ".pcd")),
         png_(frame_folder_of(options, options.png, ".png")) {}
 
-  /// True if any of them needs points, not only labels.
+  /// True if an output needs points, not only labels.
   [[nodiscard]] static bool need_points(const OutputOptions& options) {
     return !options.pcd.empty() || !options.png.empty() || wants_sinks(options);
   }
@@ -57,7 +57,7 @@ class FrameOutputs {
                                std::span<const frame::Label> labels,
                                const points::FrameTiming& timing = {});
 
-  /// Completes the outputs that open() opened, after the last frame.
+  /// Completes the outputs that open() opened; call it after the last frame.
   [[nodiscard]] Status finish();
 
  private:
@@ -66,7 +66,7 @@ class FrameOutputs {
   OutputOptions options_;
   output::FrameFolder labels_, pcd_, png_;
   std::vector<pictures::Mistake> mistakes_;
-  std::optional<publish::Publisher> publisher_;  ///< Set if any of its outputs is requested.
+  std::optional<publish::Publisher> publisher_;  ///< Exists if open() opened an output.
 };
 
 }  // namespace terracut::cli

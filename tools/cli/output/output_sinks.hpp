@@ -25,7 +25,7 @@ namespace terracut::cli {
 /// after a failure, with a message (publish::RetriedSink).
 [[nodiscard]] publish::Publisher::Sinks retried_sinks(const OutputOptions& options,
                                                       publish::RunFacts facts);
-/// Checks their options, whatever the state of ports and disks: kInvalidArgument, kUnsupported.
+/// Checks the options of outputs, not ports and disks. Fails with kInvalidArgument or kUnsupported.
 [[nodiscard]] Status check_sinks(const OutputOptions& options);
 
 /// Opens only Foxglove's output, of a capture that viewers may play (null: they cannot); same

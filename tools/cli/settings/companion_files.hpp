@@ -13,13 +13,14 @@ namespace terracut::cli {
 /// otherwise by a usual name there and in the folders above, up to the root.
 struct Beside {
   std::filesystem::path folder, root;
-  std::string stem;  ///< The name without its ending.
+  std::string stem;  ///< The recording's name without its ending.
 };
 
 /// Returns a capture's name without its ending; the whole name if that is not one of a capture.
 [[nodiscard]] std::string stem_of(const std::filesystem::path& capture);
 
-/// Returns the file of that kind; empty if there is none. kMalformed if two would do.
+/// Returns the setup file beside a recording; empty if none. Fails with kMalformed if there are
+/// two.
 [[nodiscard]] Expected<std::filesystem::path> setup_beside(const Beside& recording);
 [[nodiscard]] Expected<std::filesystem::path> calibration_beside(const Beside& recording);
 /// Returns the calibration in a capture's own folder, used if its packets hold none.

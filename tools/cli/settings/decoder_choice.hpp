@@ -9,7 +9,7 @@
 
 namespace terracut::cli {
 
-/// The use of the frames. For labels alone they may keep their returns as measured.
+/// What the frames are used for. For labels alone they may keep their returns as measured.
 enum class FramesAreFor : std::uint8_t { kLabels, kPoints };
 
 /// Returns the decoder for the options. `columns` is the range image's width, 0 for the sensor's

@@ -25,7 +25,7 @@ struct ChoiceField {
   std::function<void(std::size_t)> choose;
 };
 
-/// The place of a setting's value in Options.
+/// Where in Options the value of a setting is stored.
 using SettingField =
     std::variant<double*, std::optional<double>*, int*, std::optional<int>*, std::uint64_t*,
                  std::uint16_t*, std::optional<std::uint16_t>*, bool*, std::string*,
@@ -54,9 +54,9 @@ enum class TextForm : std::uint8_t {
 /// parameters are further keys, with "method." before their name in
 /// pipeline/ground/parameter_table.hpp.
 struct Setting {
-  std::string_view key{};     ///< In the file, "section.name_unit"; empty: none.
+  std::string_view key{};     ///< Key in the file, "section.name_unit"; empty: none.
   std::string_view option{};  ///< "--mount-height", "-o,--output", "FILE"; empty: none.
-  CommandSet commands{};      ///< Commands that read it.
+  CommandSet commands{};      ///< Commands that read this setting.
   CommandSet required_by{};
   std::string_view unit{};  ///< "m", "ms", ... or empty
   std::string_view help{};
@@ -69,7 +69,7 @@ struct Setting {
   std::optional<RunFiles::Kind> writes{};  ///< For a path to be written: its kind.
   std::string_view ending{};               ///< Ending of files in a folder of frames.
   CommandSet denied_to{};                  ///< Commands that refuse it with `denial`.
-  std::string_view denial{};               ///< Reason and alternative.
+  std::string_view denial{};               ///< Why these commands refuse it, and the alternative.
   SettingField (*field)(Options&) = nullptr;
 
   /// Returns the option as people name it: "--output", "FILE".

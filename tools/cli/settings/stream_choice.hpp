@@ -7,7 +7,7 @@
 
 namespace terracut::cli {
 
-/// --from, --port, --to, --vlan and --mac.
+/// Returns the filter that --from, --port, --to, --vlan and --mac describe.
 [[nodiscard]] capture::PcapFilter filter_of(const CaptureOptions& options);
 
 }  // namespace terracut::cli

@@ -9,7 +9,7 @@
 
 #include "tools/cli/options.hpp"
 
-/// The words for values of settings that have a few.
+/// The words for the values of settings that allow only a few values.
 namespace terracut::cli {
 
 template <class Value>
@@ -18,7 +18,7 @@ struct Word {
   Value value;
 };
 
-/// "auto", and the words of the sensors that have one.
+/// "auto", and a word for each sensor that has one.
 inline constexpr auto kSensorWords = [] {
   constexpr auto kHasWord = [](const sensor::SensorRow& row) { return !row.word.empty(); };
   std::array<Word<std::optional<sensor::SensorModel>>,
@@ -68,7 +68,7 @@ inline constexpr std::array kDdsPresetWords{Word{"ros", DdsPreset::kRos},
 inline constexpr std::array kThroughWords{Word<std::optional<bool>>{"image", false},
                                           Word<std::optional<bool>>{"packets", true}};
 
-// Words that stay texts in Options.
+// Words whose settings stay texts in Options.
 using TextWord = Word<std::string_view>;
 inline constexpr std::array kSpeedUnitWords{TextWord{"file", ""}, TextWord{"m/s", "m/s"},
                                             TextWord{"km/h", "km/h"}, TextWord{"mph", "mph"}};

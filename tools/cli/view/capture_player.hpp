@@ -46,9 +46,9 @@ class CapturePlayer : public ViewedCapture {
   PlayedRecording& recording_;
   mutable std::mutex mutex_;
   std::condition_variable told_;
-  PlayerState state_;             ///< Guarded by mutex_, with the following.
-  std::optional<double> seek_s_;  ///< Target of a seek.
-  int steps_ = 0;                 ///< Frames to show while paused.
+  PlayerState state_;             ///< Guarded by mutex_, as are the next members.
+  std::optional<double> seek_s_;  ///< Time to seek to.
+  int steps_ = 0;                 ///< Frames still to be shown while paused.
   std::uint64_t commands_ = 0;
   bool is_measured_ = false;
 
@@ -57,9 +57,9 @@ class CapturePlayer : public ViewedCapture {
   std::int64_t skip_to_ns_ = std::numeric_limits<std::int64_t>::min();
   /// When a frame was due, with its time in the capture.
   std::optional<std::pair<Clock::time_point, std::int64_t>> pace_;
-  std::int64_t shown_ns_ = 0;  ///< Time of the frame waited for last.
+  std::int64_t shown_ns_ = 0;  ///< Time of the last frame waited for.
   std::atomic<bool> stop_measuring_{false};
-  std::jthread measuring_;  ///< Last: it uses all members above.
+  std::jthread measuring_;  ///< Declared last: uses all members above.
 };
 
 }  // namespace terracut::cli

@@ -19,7 +19,7 @@ class FrameStream final : public HttpGuest, public std::enable_shared_from_this<
   ~FrameStream() override;
 
   void begin();
-  /// Sends the newest frame, if the browser has not got it and is ready.
+  /// Sends the newest frame if the browser does not have it yet and is ready.
   void send_newest();
 
   [[nodiscard]] HttpStream& stream() noexcept override { return stream_; }

@@ -16,7 +16,7 @@ namespace terracut::cli {
 /// are found by decoding the part before it, once.
 class PlayedCapture : public PlayedRecording {
  public:
-  /// Both must outlive this object.
+  /// Both arguments must outlive this object.
   PlayedCapture(LabelledCapture& capture, const Options& options);
   ~PlayedCapture() override;
 
@@ -38,9 +38,9 @@ class PlayedCapture : public PlayedRecording {
   Span span_{};
   /// The decoder's frame number, which never restarts, less that of its files.
   std::optional<std::uint32_t> ahead_;
-  bool begins_ = false;                ///< The next frame is the capture's first.
+  bool begins_ = false;                ///< True if the next frame is the first.
   std::vector<std::int64_t> ends_ns_;  ///< Ends of the first frames, by number.
-  std::unique_ptr<Counter> counter_;   ///< If those did not suffice.
+  std::unique_ptr<Counter> counter_;   ///< Set if ends_ns_ did not suffice.
 };
 
 }  // namespace terracut::cli

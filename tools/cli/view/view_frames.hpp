@@ -28,8 +28,8 @@ class ViewFrames {
     std::vector<stream::WirePoint> points;
   };
   struct Turn {
-    std::uint64_t number = 0;           ///< Counts frames that were put, from 1; 0: none yet.
-    std::shared_ptr<const Kept> frame;  ///< Null: none yet.
+    std::uint64_t number = 0;           ///< Sequence number of the frame, from 1; 0: none yet.
+    std::shared_ptr<const Kept> frame;  ///< The frame; null: none yet.
   };
   static constexpr std::size_t kFramesShown = 300;
 
@@ -54,10 +54,10 @@ class ViewFrames {
   [[nodiscard]] Shown shown(const status::FrameRecord& record) const noexcept;
 
   publish::RunFacts facts_;
-  /// One per browser, one for the newest frame and one for the next.
+  /// One room per browser, one for the newest frame and one for the next frame.
   memory::UsedAgain<Kept> rooms_;
   mutable std::mutex mutex_;
-  std::shared_ptr<const Kept> newest_;  ///< Guarded by mutex_, with the following.
+  std::shared_ptr<const Kept> newest_;  ///< Guarded by mutex_, as are the next members.
   std::uint64_t turns_ = 0;
   std::deque<Shown> shown_;
   frame::LossCounters losses_;

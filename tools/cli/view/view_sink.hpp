@@ -42,7 +42,7 @@ class ViewSink : public publish::FrameSink {
   ViewFrames frames_;
   ViewSource source_;
   std::string url_;
-  std::optional<HttpServer> server_;  ///< Last: it uses all members above.
+  std::optional<HttpServer> server_;  ///< Declared last: uses all members above.
 };
 
 }  // namespace terracut::cli

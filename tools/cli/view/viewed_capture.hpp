@@ -6,7 +6,7 @@
 
 namespace terracut::cli {
 
-/// The controls of a played recording, for its viewers. Any thread.
+/// The controls by which viewers play a recording. For any thread.
 class ViewedCapture {
  public:
   ViewedCapture() = default;

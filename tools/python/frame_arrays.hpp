@@ -16,7 +16,7 @@ namespace terracut::python {
 /// One labelled frame, whose numpy arrays are views of `points` and keep it alive.
 struct FrameData {
   frame::FrameInfo info;
-  std::optional<status::FrameRecord> record;  ///< None for a live run.
+  std::optional<status::FrameRecord> record;  ///< Record of the frame; none for a live run.
   std::vector<stream::WirePoint> points;
 };
 

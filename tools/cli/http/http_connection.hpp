@@ -56,8 +56,8 @@ struct HttpConnection {
   boost::beast::http::request<boost::beast::http::string_body> request;
 };
 
-/// A connection that stays after its request: a stream of frames or a WebSocket. Handlers of the
-/// guest keep it alive. For the server's thread.
+/// A connection that stays after its request: a stream of frames, a WebSocket. Its handlers keep
+/// the guest alive. For the server's thread.
 /// keep it alive. On the server's thread.
 class HttpGuest {
  public:

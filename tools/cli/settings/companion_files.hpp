@@ -19,8 +19,7 @@ struct Beside {
 /// Returns a capture's name without its ending; the whole name if that is not one of a capture.
 [[nodiscard]] std::string stem_of(const std::filesystem::path& capture);
 
-/// Returns the setup file beside a recording; empty if none. Fails with kMalformed if there are
-/// two.
+/// Returns the setup beside a recording; empty if none. Fails with kMalformed if two exist.
 [[nodiscard]] Expected<std::filesystem::path> setup_beside(const Beside& recording);
 [[nodiscard]] Expected<std::filesystem::path> calibration_beside(const Beside& recording);
 /// Returns the calibration in a capture's own folder, used if its packets hold none.

@@ -12,9 +12,9 @@ namespace terracut::drive {
 /// One firing of all lasers.
 struct Firing {
   std::int64_t index = 0;
-  std::int64_t azimuth_cdeg = 0;  ///< Of the head as sent, unwrapped.
+  std::int64_t azimuth_cdeg = 0;  ///< Azimuth of the head as sent, unwrapped.
   std::int32_t step_ticks = 0;    ///< The step with which a decoder computes its beams.
-  double time_s = 0;              ///< 0 when the head first points straight ahead.
+  double time_s = 0;              ///< Time since the head first pointed straight ahead.
 };
 
 /// The times and azimuths of the head's firings in a drive of whole frames, with a run-up and

@@ -48,7 +48,7 @@ class RecordedSpin {
  private:
   static constexpr double kFiring_s = hdl64e::kFiringTimesSingle48.column_ns * 1e-9;
 
-  std::int64_t longest_ring_ = 0;  ///< Number of points.
+  std::int64_t longest_ring_ = 0;  ///< Number of points in the longest ring.
 };
 
 }  // namespace terracut::encode

@@ -37,8 +37,8 @@ struct ScanDriveOptions {
 struct ScanDriveReport {
   drive::DriveSummary drive;
   EncodeSummary encoded;
-  double spin_hz = 0;                       ///< Of the head, estimated from the recording.
-  std::string why_as_recorded;              ///< Empty if the motion was restored.
+  double spin_hz = 0;                       ///< Spin rate of the head, estimated.
+  std::string why_as_recorded;              ///< Why motion was not restored; empty if it was.
   std::optional<scan::FittedRings> fitted;  ///< If no calibration was given.
   hdl64e::Hdl64eCalibration calibration;    ///< The one used.
 };

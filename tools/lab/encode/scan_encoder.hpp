@@ -62,7 +62,7 @@ struct EncodeSummary {
 struct EncodedFiring {
   packets::FiringColumn column;
   struct Source {
-    std::int32_t frame = -1;  ///< Number of the add_frame() call, from 0; -1 without a return.
+    std::int32_t frame = -1;  ///< Index of its add_frame() call; -1 without a return.
     std::uint32_t point = 0;  ///< Index in that scan.
   };
   std::array<Source, hdl64e::kHdl64eLasers> sources{};
@@ -88,7 +88,7 @@ class ScanEncoder {
   struct Config {
     std::int64_t frames = 1;          ///< Number of future add_frame() calls.
     double spin_hz = 10;              ///< [5, 20].
-    std::int64_t first_stamp_ns = 0;  ///< Of the first firing.
+    std::int64_t first_stamp_ns = 0;  ///< Stamp of the first firing.
   };
 
   /// Receives the firings in order, whole packets of six in all; an error ends the encoding and is
@@ -133,7 +133,7 @@ class ScanEncoder {
   std::int64_t first_stamp_ns_, farthest_ticks_;
   Sink sink_;
   std::deque<Planned> planned_;  ///< Prepared firings that are not sent yet.
-  std::int64_t sent_ = 0;        ///< Number of sent firings.
+  std::int64_t sent_ = 0;        ///< Number of firings sent.
   /// First firing after the added frames, for each laser.
   std::array<std::int64_t, hdl64e::kHdl64eLasers> next_firing_{};
   std::array<std::vector<Wanted>, hdl64e::kHdl64eLasers> wanted_;

@@ -55,7 +55,7 @@ class ScanReader {
                             scan::RingRecovery& rings) const;
 
   scan::ScanFolder folder_;
-  std::optional<SensorMotion> motion_;  ///< Empty unless it is put back.
+  std::optional<SensorMotion> motion_;  ///< The motion to put back; empty: none.
   std::string why_as_recorded_;
   std::optional<scan::RingTable> table_;
 };

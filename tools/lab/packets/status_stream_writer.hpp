@@ -36,7 +36,7 @@ class StatusStreamWriter {
   std::array<std::uint8_t, hdl64e::kStreamTableBytes> table_;
   hdl64e::StatusFlavour flavour_;
   StatusValues values_;
-  std::uint32_t packet_ = 0;            ///< 0 .. kStatusRoundPackets - 1
+  std::uint32_t packet_ = 0;            ///< Index of the packet, 0 .. kStatusRoundPackets - 1
   std::array<std::uint8_t, 6> time_{};  ///< Hour, minute, second, day, month, year since 2000.
 };
 

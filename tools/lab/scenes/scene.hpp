@@ -19,7 +19,7 @@ namespace terracut::scenes {
 /// An arc that is tangent to the road at one moment of a drive.
 struct EgoArc {
   double yaw_rate_radps = 0;  ///< Positive to the left.
-  double touches_s = 0;       ///< Since the start of the drive.
+  double touches_s = 0;       ///< Time of the touch since the drive's start.
 };
 
 /// A world and the path of the sensor's vehicle: from s = 0 at time 0 along the road, or along an

@@ -88,10 +88,10 @@ class FaultInjector {
   std::optional<std::int64_t> first_ns_;
   bool has_clock_fault_ = false;
   std::uint64_t fed_ = 0, unshifted_ = 0;
-  std::uint64_t index_ = 0;  ///< Of the current packet.
+  std::uint64_t index_ = 0;  ///< Index of the current packet.
   std::vector<std::uint8_t> edited_;
   std::vector<Held> moved_;
-  std::vector<Held> bursts_;  ///< In order of release, by the datagrams' stamps.
+  std::vector<Held> bursts_;  ///< Held packets in order of release.
 };
 
 }  // namespace terracut::send

@@ -21,7 +21,7 @@ namespace terracut::send {
 struct UdpSenderConfig {
   net::Ipv4Endpoint to{};  ///< An address, a broadcast address or a multicast group.
   std::optional<net::Ipv4Endpoint> from{};  ///< Source; none: chosen by the system.
-  std::string interface{};  ///< For multicast and broadcast; empty: chosen by routing.
+  std::string interface{};  ///< Interface for multicast and broadcast; empty: by routing.
 };
 
 /// Counts of datagrams; `failed` ones were refused by the system (no route, interface down).

@@ -25,10 +25,10 @@ namespace terracut::simulator {
 /// range by a count.
 struct DriveConfig {
   std::string scene = "street";  ///< One of scene_names().
-  std::uint64_t seed = 1;        ///< For all random values: world, noise, drop-outs.
+  std::uint64_t seed = 1;        ///< Seed of all random values: world, noise, drop-outs.
   double duration_s = 5.0;       ///< Rounded to whole frames, at least one; (0, 3600].
   double spin_hz = 10.0;         ///< [5, 20]
-  double speed_mps = -1;         ///< Of the vehicle; < 0: the scene's usual speed; at most 60.
+  double speed_mps = -1;         ///< Speed of the vehicle, at most 60; < 0: the scene's usual.
   /// Not 0: the vehicle turns at this constant rate, on an arc that follows the road in the middle
   /// of the drive and leaves it towards both ends; [-1, 1], positive to the left.
   double yaw_rate_radps = 0;
@@ -37,7 +37,7 @@ struct DriveConfig {
   /// True: vehicle and objects move while the head rotates. False: they stand still during each
   /// frame and jump between frames, as if motion were compensated.
   bool motion_within_frame = true;
-  std::int64_t start_ns = 1'767'225'600'000'000'000;  ///< Of the first firing; 2026-01-01 UTC.
+  std::int64_t start_ns = 1'767'225'600'000'000'000;  ///< 2026-01-01 UTC, the first firing.
   int threads = 1;  ///< Threads that cast rays, without influence on results; [1, 64].
 };
 
@@ -52,7 +52,7 @@ struct SimulationConfig : DriveConfig {
 template <class EncoderTraits>
 struct SimulatedColumn {
   typename EncoderTraits::Column wire;
-  double time_s = 0;  ///< Since the head first pointed straight ahead.
+  double time_s = 0;  ///< Time since the head first pointed straight ahead.
   /// The place of each return in the sensor frame, noise included, before rounding to the wire's
   /// counts. Meaningless where by_laser[i].raw == 0.
   std::array<beams::Point, static_cast<std::size_t>(EncoderTraits::kLasers)> exact{};

@@ -36,7 +36,7 @@ class ObjectIndex {
     Eigen::Isometry3d T_world_object;
     Eigen::Isometry3d T_object_world;
     Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
-    world::BoundingSphere sphere;  ///< In the world's frame.
+    world::BoundingSphere sphere;  ///< Sphere in the world's frame.
   };
   struct Candidate {
     std::uint32_t object = 0;
@@ -47,7 +47,7 @@ class ObjectIndex {
   void sort_in(std::size_t object, const Eigen::Vector3d& viewpoint, double reach_m);
 
   const scenes::Scene* scene_;
-  std::vector<world::BoundingSphere> spheres_;  ///< In the objects' frames.
+  std::vector<world::BoundingSphere> spheres_;  ///< Spheres in the objects' frames.
   std::vector<Placed> placed_;
   std::vector<std::vector<Candidate>> sectors_;
 };

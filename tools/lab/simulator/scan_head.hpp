@@ -48,7 +48,7 @@ class ScanHead {
     int laser = 0;
     double azimuth_rad = 0;
     std::uint64_t ray_key = 0;
-    Eigen::Vector3d origin, direction;  ///< In the sensor's frame.
+    Eigen::Vector3d origin, direction;  ///< Ray in the sensor's frame.
   };
   /// The surface that a beam meets in one direction.
   struct Sighting {
@@ -69,7 +69,7 @@ class ScanHead {
   /// Returns the echo on the wire. The sensor takes all light as coming along the beam's axis.
   [[nodiscard]] std::optional<Measured> measure(const Beam& beam, const Moment& moment,
                                                 const Sighting& sighting) const;
-  /// As measure(), without the beam's bend: only the depth counts.
+  /// Does the same as measure() without the beam's bend, where only the depth counts.
   [[nodiscard]] std::optional<Measured> measure_along(const Beam& beam, const Sighting& sighting,
                                                       const Eigen::Vector3d& normal) const;
   void cast_single(const Beam& beam, const Moment& moment, Column& column) const;

@@ -20,7 +20,7 @@ struct SightLine {
 
 /// Where a line of sight ends.
 struct Hit {
-  double way_m = 0;                                   ///< From the line's origin.
+  double way_m = 0;                                   ///< Distance from the line's origin.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Of the surface, length 1, to the line.
   Truth truth = Truth::kRoad;
   Material material = Material::kAsphalt;

@@ -25,7 +25,7 @@ struct Strip {
   Material material = Material::kAsphalt;
 };
 
-/// All strips on one side of the centre line.
+/// The strips on one side of the centre line.
 struct RoadSide {
   std::vector<Strip> strips;   ///< At least one.
   double dropped_every_m = 0;  ///< Distance between dropped kerbs; 0 = none.

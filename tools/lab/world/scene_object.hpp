@@ -27,7 +27,7 @@ struct SceneObject {
   double half_track_m = 0.5;
   RoadPoint place;         ///< At time 0, or until moves_from_s.
   std::uint64_t key = 0;   ///< Key of its random numbers (which leaf is hit).
-  double heading_rad = 0;  ///< From the road's direction at its place to the left.
+  double heading_rad = 0;  ///< Angle to the left of the road's direction at that place.
   double along_mps = 0;    ///< Speed along the road and to its left, while it moves.
   double across_mps = 0;
   double moves_from_s = -std::numeric_limits<double>::infinity();  ///< Still before and after.

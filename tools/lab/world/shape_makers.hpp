@@ -10,7 +10,7 @@ namespace terracut::world {
 struct Substance {
   Truth truth = Truth::kBuilding;
   Material material = Material::kFacade;
-  double density_per_m = 0;  ///< As in Shape.
+  double density_per_m = 0;  ///< See Shape::density_per_m.
 };
 
 /// Make shapes by their bottom: `bottom` is the middle of the foot.

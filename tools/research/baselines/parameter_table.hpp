@@ -16,7 +16,7 @@ using Parameter = ground::ParameterOf<MethodConfig>;
 /// Returns all parameters of the baselines, by method: "pfaff.cell_m".
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
 
-/// Does ground::apply_setting() for a parameter of a baseline or of our method.
+/// Sets a parameter of a baseline or of our method, as ground::apply_setting() does for ours.
 [[nodiscard]] Status apply_setting(MethodConfig& config, std::string_view setting);
 
 /// Returns the kind of method that uses a parameter, a baseline's or ours; it has no effect on the

@@ -32,7 +32,7 @@ inline constexpr std::size_t kGroundDefinitions = 2;
 using Role = quality::TruthClass;
 
 struct ClassEntry {
-  std::uint16_t id = 0;  ///< In label files.
+  std::uint16_t id = 0;  ///< Number of the class in label files.
   std::string name;
   std::array<Role, kGroundDefinitions> roles{};  ///< Indexed by GroundDefinition.
   bool vegetation = false;

@@ -16,7 +16,7 @@ namespace terracut::datasets {
 /// Labelled clouds on disk, in their layout.
 class Dataset {
  public:
-  /// Errors: kUnsupported if rings follow from the order and the sensor has not 64 of them.
+  /// Fails with kUnsupported if rings follow from the order and the sensor lacks 64 of them.
   [[nodiscard]] static Expected<Dataset> at(const CloudLayout& layout, std::filesystem::path root);
 
   /// Returns the names of the sequences with labels, sorted. kNotFound if there is none.

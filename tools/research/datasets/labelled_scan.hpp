@@ -15,7 +15,7 @@ namespace terracut::datasets {
 
 /// One labelled frame. Buffers are reused for the next frame.
 struct LabelledScan {
-  scan::KittiScan scan;                       ///< In the sensor frame; as many labels as points.
+  scan::KittiScan scan;  ///< Points in the sensor frame, and one label per point.
   std::vector<std::uint16_t> laser_of_point;  ///< Empty unless the layout's rings are a field.
   scan::RingRecovery rings;                   ///< The ring of every point.
 };

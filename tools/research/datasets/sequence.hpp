@@ -35,7 +35,7 @@ class Sequence {
   }
   /// Reads a frame, on any thread. Errors name the file.
   [[nodiscard]] Status read(std::size_t index, LabelledScan& scan) const;
-  /// Errors: kMalformed, naming them, if labels exist for missing frames.
+  /// Fails with kMalformed, naming the frames, if labels exist for missing frames.
   [[nodiscard]] Status check_whole() const;
   /// Returns the unit's rings, as far as the frames show them.
   [[nodiscard]] const scan::RingTable& rings() const { return table_; }

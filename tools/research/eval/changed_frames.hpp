@@ -24,7 +24,7 @@ struct LabelledByAll {
   const std::string& sequence;
   const std::string& frame;
   const frame::RangeImage& image;
-  std::span<const std::uint32_t> truth;                                 ///< As in label files.
+  std::span<const std::uint32_t> truth;  ///< Classes as in label files.
   std::function<std::span<const frame::Label>(std::size_t)> labels_of;  ///< By index of the method.
 };
 
@@ -51,7 +51,7 @@ class ChangedFrames {
     std::string sequence, frame;
     std::uint64_t returns = 0;
     std::uint64_t right = 0, wrong = 0;  ///< Of the first method; ignored classes do not count.
-    double side_m = 0;                   ///< Of the picture.
+    double side_m = 0;                   ///< Length of the picture's side.
     pictures::Picture picture{1, 1, {}};
   };
   [[nodiscard]] Change change_of(const LabelledByAll& frame, std::size_t method) const;

@@ -29,12 +29,12 @@ struct FrameRange {
 
 struct EvaluationConfig {
   datasets::CloudLayout layout;
-  std::filesystem::path root;          ///< Of the dataset.
-  std::vector<std::string> sequences;  ///< Empty: all with labels.
+  std::filesystem::path root;          ///< Folder of the dataset.
+  std::vector<std::string> sequences;  ///< Names of sequences; empty: all with labels.
   FrameRange frames;
   std::vector<MethodChoice> methods;
   mount::Mount mount;
-  bool find_mount = false;  ///< For every sequence, as a run would; otherwise use `mount`.
+  bool find_mount = false;  ///< Finds the mount of each sequence; else uses `mount`.
   bool through_packets = false;
   int jobs = 0;  ///< Threads, each on its own core; 0: one per core.
   /// Tells tall and immobile classes; null: neither is counted. Must outlive the run.
@@ -51,8 +51,8 @@ struct Fault {
 };
 
 struct EvaluationOutcome {
-  FrameResults results;                                   ///< Without faulty frames.
-  std::vector<Fault> faults;                              ///< In order of sequence and frame.
+  FrameResults results;       ///< Without faulty frames.
+  std::vector<Fault> faults;  ///< Faults in order of sequence and frame.
   std::map<std::string, mount::FoundMount> found_mounts;  ///< Keyed by sequence.
   bool interrupted = false;
 };

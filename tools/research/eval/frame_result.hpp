@@ -24,7 +24,7 @@ struct FrameKey {
 /// Processor time in nanoseconds of the working thread.
 struct FrameTimes {
   std::array<std::int64_t, stage::kStages> stage_ns{};  ///< All 0 for methods without stages.
-  std::int64_t decode_ns = 0;                           ///< 0 without packets.
+  std::int64_t decode_ns = 0;                           ///< Time of decoding; 0 without packets.
   std::int64_t segment_ns = 0;  ///< All stages, from the range image to the labels.
 };
 
@@ -34,9 +34,9 @@ struct FrameResult {
   statistics::TallCounts tall;
   statistics::FlipCounts flips;  ///< Zero if the previous frame or the motion is unknown.
   std::uint64_t points = 0;      ///< Points of the file.
-  std::uint64_t non_finite = 0;  ///< Of them invalid: not labelled, not counted.
-  std::uint64_t no_ring = 0;     ///< Of them without a known laser: called obstacle.
-  std::uint64_t not_placed = 0;  ///< Of them lost otherwise: called obstacle.
+  std::uint64_t non_finite = 0;  ///< Invalid points: not labelled, not counted.
+  std::uint64_t no_ring = 0;     ///< Points without a known laser: called obstacle.
+  std::uint64_t not_placed = 0;  ///< Points lost otherwise: called obstacle.
   bool rings_realigned = false;  ///< The file did not have 64 rings.
   FrameTimes times;
 };

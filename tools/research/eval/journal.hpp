@@ -44,7 +44,7 @@ class Journal {
 
 /// Returns one line of the journal, without its end; also used by reports.
 [[nodiscard]] std::string journal_line(const FrameKey& key, const FrameResult& result);
-/// Errors: kMalformed for an invalid line.
+/// Fails with kMalformed if a line is invalid.
 [[nodiscard]] Expected<std::pair<FrameKey, FrameResult>> parse_journal_line(
     const std::string& line);
 

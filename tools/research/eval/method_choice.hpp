@@ -14,7 +14,7 @@ namespace terracut::eval {
 /// A method that can be chosen by name.
 struct MethodChoice {
   std::string name;   ///< "terracut"; a variant has its own name.
-  std::string about;  ///< For reports: "Ring-based elevation map"
+  std::string about;  ///< Description for reports: "Ring-based elevation map"
   std::string base;   ///< The name among baselines::method_names(); equal without a variant.
   baselines::MethodConfig config;
 };

@@ -31,7 +31,7 @@ struct SimulatedConfig {
   SimulatedDrives drives;
   FrameRange frames;
   std::vector<MethodChoice> methods;
-  mount::Mount mount;       ///< Of the simulated sensor.
+  mount::Mount mount;       ///< Mount of the simulated sensor.
   bool find_mount = false;  ///< Labels with the mount estimated from the drive's first frames.
   std::filesystem::path predictions;  ///< As EvaluationConfig::predictions: one label per return.
   eval::ChangedFrames* changed_frames = nullptr;  ///< As EvaluationConfig::changed_frames.

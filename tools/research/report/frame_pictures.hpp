@@ -22,14 +22,14 @@ enum class Verdict : std::uint8_t {
   kMissedKey,       ///< Key obstacle, called ground.
   kMissedOrdinary,  ///< Ordinary obstacle, called ground.
   kFalseObstacle,   ///< Ground, called obstacle.
-  kIgnored,         ///< Of an ignored class.
+  kIgnored,         ///< The return's class is ignored.
 };
 
 [[nodiscard]] Verdict verdict_of(datasets::Role truth, frame::Label label) noexcept;
 [[nodiscard]] pictures::Colour colour_of(Verdict verdict) noexcept;
 /// Returns the colour of the truth alone: ground, ordinary obstacle, key obstacle.
 [[nodiscard]] pictures::Colour colour_of(datasets::Role truth) noexcept;
-/// For ground that is road, in pictures of methods that tell it.
+/// Colour of ground that is road, in pictures of methods that tell road.
 inline constexpr pictures::Colour kTrueRoadColour{150, 92, 158};
 
 /// Pictures of single frames: the truth, and the results of methods.

@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, kRangeBands> kRangeBandNames{"<20m
 /// The number of points of one class and range band by label.
 struct LabelCounts {
   std::uint64_t ground = 0, obstacle = 0;
-  std::uint64_t other_ground = 0;  ///< Of `ground`: labelled as no road surface.
+  std::uint64_t other_ground = 0;  ///< Returns of `ground` that are not road surface.
 
   LabelCounts& operator+=(const LabelCounts& other) noexcept {
     ground += other.ground;

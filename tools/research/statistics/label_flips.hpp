@@ -47,7 +47,7 @@ class LabelFlips {
   std::vector<Place> places_, places_before_;
   std::vector<Truth> truth_, truth_before_;
   std::vector<std::vector<frame::Label>> labels_;  ///< Per method, of the latest counted frame.
-  std::vector<std::uint32_t> partners_;            ///< In the previous frame, by point.
+  std::vector<std::uint32_t> partners_;            ///< By point: partner in the previous frame.
 
   // Points of the previous frame by voxel: linked lists, starting at their voxel's hash.
   std::vector<std::uint32_t> first_in_voxel_, next_in_voxel_;

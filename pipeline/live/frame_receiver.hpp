@@ -27,14 +27,14 @@ namespace terracut::live {
 
 /// The receiving half of a live run: takes datagrams and hands over frames with most of their
 /// coarse stages done. One thread with a deadline, which calls work_round() repeatedly.
+///
 /// The cost of one packet does not depend on its content (docs/design.md, "Work per packet"):
 /// decoding, one block of the coarse stages, and the hand-over of frames that it ends, of which at
 /// most one still needs its last sectors labelled. A frame with less than three quarters labelled
 /// ahead (deskewed, packets lost, or stream broken off) is left to the segmenting thread.
-/// labelled ahead (deskewed, packets lost, or stream broken off) is left to the segmenting thread.
+///
 /// `Source` is a DatagramSource with refresh_drops(), `Clock` is like measure::SystemClock, and
 /// `Wait` is like measure::RunQueueWait.
-/// like measure::RunQueueWait.
 template <class Source, class Clock, class Wait>
 class FrameReceiver {
  public:

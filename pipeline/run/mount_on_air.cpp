@@ -17,7 +17,7 @@ mount::MountFinder mount_on_air(net::LiveSource& source, const streams::SensorOn
   memory::FixedMemory memory;
   decode::Decoder decoder(sensor.calibration, mount::kAtTheSensor, config, memory);
   ground::MountSearch search;
-  mount::MountFinder last;  // of the last whole second
+  mount::MountFinder last;  // result of the last whole second
   std::string waits_for = "finding the mount";
   const auto gives_up = std::chrono::steady_clock::now() + patience;
   while (!stop_wanted() && std::chrono::steady_clock::now() < gives_up) {

@@ -19,7 +19,6 @@ namespace terracut::status {
 /// A frame's latency runs from the kernel's stamp of its last packet to its labels. The frame
 /// missed its deadline if the latency is longer or if it was skipped. The latency is divided into
 /// shares in this order, each share at most what is left:
-/// this order, each share at most the rest:
 ///
 ///   late_input         last packet -> closing packet: the sensor or the network was late
 ///   stolen_time        steal_ns

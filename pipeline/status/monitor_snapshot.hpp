@@ -47,6 +47,7 @@ struct ThreadStatus {
 /// whole into the status page, and all displays (terracut top, /metrics, the final summary) read
 /// only this. Counts come with their names, so that another build can read them. About 350 KiB,
 /// mostly histogram buckets.
+///
 /// A plain value. If it comes from another process it may have any bytes; the accessors below and
 /// to_string are safe even then.
 struct MonitorSnapshot {

@@ -19,7 +19,7 @@
 namespace terracut::cli {
 namespace {
 
-/// Of this process, 0 where the system does not say.
+/// Returns this process's resident bytes; 0 if the system does not tell.
 std::size_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
   std::size_t pages = 0, resident = 0;

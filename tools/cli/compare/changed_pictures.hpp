@@ -16,7 +16,6 @@ namespace terracut::cli {
 /// returns that became obstacle or ground, other changes, and the rest dim. Reads points from the
 /// recordings again, as `after` did; a capture up to the frame. Fails with kInvalidArgument if
 /// `after` has no job, so that its recordings are unknown, or if reading or writing fails.
-/// writing.
 [[nodiscard]] Status draw_changes(const Labelling& before, const Labelling& after,
                                   std::span<const FrameChange> frames, const OutputOptions& output);
 

@@ -173,7 +173,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
   void subscribe(const FoxgloveRequest::Subscription& wish) {
     const std::size_t topic = wish.channel_id - kFirstChannelId;  // wraps to a large number for 0
     if (topic >= kTopics || !shared_.config.topics[topic]) return complain("no such channel");
-    // As in the protocol: a client that stops reading holds one message per topic.
+    // Following the protocol: a client that stops reading holds one message per topic.
     const auto has = [&](const auto& each) {
       return each.first == wish.id || each.second == topic;
     };
@@ -187,7 +187,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
 
   void complain(const std::string& what) {
     ++shared_.figures.bad_requests;
-    // A client that does not read answers gets no more of them.
+    // A client that does not read answers gets no more answers.
     if (outgoing_.size() < kMostWaitingTexts) say(warning_text(what));
   }
 
@@ -229,7 +229,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
 
   websocket::stream<HttpStream> stream_;
   Shared& shared_;
-  PlayerState seen_;  ///< As last sent.
+  PlayerState seen_;  ///< State that was sent last.
   beast::flat_buffer buffer_{kMostTextBytes};
   std::map<std::uint32_t, std::size_t> topics_;  ///< By id of the subscription.
   std::deque<Outgoing> outgoing_;                ///< The first one is being written.

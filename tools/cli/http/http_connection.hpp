@@ -58,7 +58,6 @@ struct HttpConnection {
 
 /// A connection that stays after its request: a stream of frames, a WebSocket. Its handlers keep
 /// the guest alive. For the server's thread.
-/// keep it alive. On the server's thread.
 class HttpGuest {
  public:
   HttpGuest() = default;

@@ -20,6 +20,7 @@ namespace terracut::cli {
 
 /// Reads the vehicle's motion from a recording of its CAN bus along with the packets of a capture,
 /// as if live: by their stamps, on one clock.
+///
 /// If that clock was set back, both recordings step back at one time. The first recording to do so
 /// waits for the other, so that frames and packets from before the step stay together, as do those
 /// from after it; but it waits at most for a second of stamps, because only one clock may have

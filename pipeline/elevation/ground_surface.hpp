@@ -50,8 +50,8 @@ class GroundSurface {
     float regain_slope = 0.55F;  ///< Steepest slope from the last ground to the start of that path.
     float regain_gap_m = 1e9F;   ///< Longest step between two returns on that path.
     float unconnected_gap_m =
-        3.5F;  ///< Longest step on a path that starts steeper than that. A longer step, as over a
-               ///< car's roof, ends the path; another path begins behind it.
+        3.5F;  ///< Longest step on a path steeper than regain_slope at its start. A longer step, as
+               ///< over a car's roof, ends the path; another path begins behind it.
     float regain_width_m = 4.0F;   ///< Least width of a strip of ground that is found again.
     int interpolate_sectors = 14;  ///< Sectors to each side from which a cell is interpolated.
     float traced_weight = 0.30F;   ///< Weight of the prediction against a neighbour's 1/distance.

@@ -49,14 +49,14 @@ class GroundSurface {
     float regain_length_m = 3.5F;    ///< Length of passable path on which lost ground is regained.
     float regain_slope = 0.55F;  ///< Steepest slope from the last ground to the start of that path.
     float regain_gap_m = 1e9F;   ///< Longest step between two returns on that path.
-    float unconnected_gap_m =
-        3.5F;  ///< Longest step on a path steeper than regain_slope at its start. A longer step, as
-               ///< over a car's roof, ends the path; another path begins behind it.
-    float regain_width_m = 4.0F;   ///< Least width of a strip of ground that is found again.
-    int interpolate_sectors = 14;  ///< Sectors to each side from which a cell is interpolated.
-    float traced_weight = 0.30F;   ///< Weight of the prediction against a neighbour's 1/distance.
-    float max_cross_slope = 0.5F;  ///< Steepest ground across a sector, rise over width, where
-                                   ///< nothing tall stands; 0: ground is level across a sector.
+    float unconnected_gap_m = 3.5F;  ///< Longest step on a path steeper than regain_slope at its
+                                     ///< start. A longer step, as over a car's roof, ends the
+                                     ///< path; another path begins behind it.
+    float regain_width_m = 4.0F;     ///< Least width of a strip of ground that is found again.
+    int interpolate_sectors = 14;    ///< Sectors to each side from which a cell is interpolated.
+    float traced_weight = 0.30F;     ///< Weight of the prediction against a neighbour's 1/distance.
+    float max_cross_slope = 0.5F;    ///< Steepest ground across a sector, rise over width, where
+                                     ///< nothing tall stands; 0: ground is level across a sector.
   };
 
   /// Heights of the ground above the mount's plane at the first and the last edge of a sector.

@@ -38,8 +38,7 @@ class RoughGround {
 
   /// Counts the heights of a row in a sector that bend from column to column.
   struct Bends {
-    std::int16_t known,
-        rough;  ///< Heights compared; those that bend.
+    std::int16_t known, rough;  ///< Heights compared; those that bend.
   };
 
   RoughGround(const Config& config, float obstacle_height_m, const RingGrid& grid,

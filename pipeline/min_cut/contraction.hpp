@@ -125,17 +125,18 @@ template <RegionCosts Costs, EdgeWeights Weights>
     const bool has_rows_around = row > 0 && row + 1 < shape.rows;
     const std::uint32_t first = static_cast<std::uint32_t>(row) * stride;
     const auto seeds = problem.seeds.subspan(first, static_cast<std::size_t>(columns_));
-    for_each_unknown(seeds, [&](std::size_t index) __attribute__((always_inline)) {
-      if (!has_time()) return;
-      const auto column = static_cast<int>(index);
-      const std::uint32_t cell = first + static_cast<std::uint32_t>(index);
-      if (has_rows_around && column > 0 && column + 1 < columns_) [[likely]] {
-        take_cell(costs, weights, cell, column, neighbours_inside(cell, stride), coarse[cell]);
-      } else {
-        take_cell_at_edge(costs, weights, cell, column, neighbour_cells(shape, row, column),
-                          coarse[cell]);
-      }
-    });
+    for_each_unknown(
+        seeds, [&](std::size_t index) __attribute__((always_inline)) {
+          if (!has_time()) return;
+          const auto column = static_cast<int>(index);
+          const std::uint32_t cell = first + static_cast<std::uint32_t>(index);
+          if (has_rows_around && column > 0 && column + 1 < columns_) [[likely]] {
+            take_cell(costs, weights, cell, column, neighbours_inside(cell, stride), coarse[cell]);
+          } else {
+            take_cell_at_edge(costs, weights, cell, column, neighbour_cells(shape, row, column),
+                              coarse[cell]);
+          }
+        });
     if (is_stopped_) break;
   }
   graph.nodes = nodes_.first(size_);

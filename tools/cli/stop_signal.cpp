@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "stop_signal.hpp"
 
+#include <atomic>
+#include <cerrno>
 #include <csignal>
 
 #include "console.hpp"
@@ -9,7 +11,9 @@
 namespace terracut::cli {
 namespace {
 
-volatile std::sig_atomic_t wanted = 0;
+/// Set by whichever thread takes the signal, read by all that work.
+std::atomic<bool> wanted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not lock");
 void (*also_called)() noexcept = nullptr;
 
 }  // namespace
@@ -18,8 +22,10 @@ void catch_stop_signals(void (*also)() noexcept) {
   also_called = also;
   struct sigaction action{};
   action.sa_handler = [](int) {
-    wanted = 1;
+    const int before = errno;
+    wanted = true;
     if (also_called != nullptr) also_called();
+    errno = before;
   };
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   ::sigaction(SIGINT, &action, nullptr);
@@ -27,7 +33,7 @@ void catch_stop_signals(void (*also)() noexcept) {
 }
 
 bool stop_wanted() noexcept {
-  return wanted != 0;
+  return wanted;
 }
 
 Status go_on() {

@@ -33,7 +33,7 @@ std::uint16_t internet_checksum(std::span<const std::uint8_t> bytes) noexcept {
   return folded_complement(sum_words(bytes));
 }
 
-std::uint16_t udp_checksum(const packet::Datagram& datagram) noexcept {
+std::uint16_t udp_checksum(const Datagram& datagram) noexcept {
   constexpr std::uint64_t kProtocolUdp = 17;
   const std::uint64_t udp_bytes = 8 + datagram.payload.size();
   const std::uint64_t addresses =

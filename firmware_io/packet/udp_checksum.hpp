@@ -14,6 +14,6 @@ namespace terracut::packet {
 
 /// Returns the UDP checksum over IPv4 (RFC 768) of pseudo header, UDP header and payload; never 0,
 /// which would mean "none". The payload must fit a UDP datagram.
-[[nodiscard]] std::uint16_t udp_checksum(const packet::Datagram& datagram) noexcept;
+[[nodiscard]] std::uint16_t udp_checksum(const Datagram& datagram) noexcept;
 
 }  // namespace terracut::packet

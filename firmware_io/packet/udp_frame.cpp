@@ -169,8 +169,8 @@ bool is_supported_link_type(int link_type) noexcept {
   return probe || probe.error() != FrameReject::kUnsupportedLinkType;
 }
 
-tl::expected<packet::Datagram, FrameReject> parse_udp_frame(int link_type, Bytes captured,
-                                                            std::int64_t stamp_ns) noexcept {
+tl::expected<Datagram, FrameReject> parse_udp_frame(int link_type, Bytes captured,
+                                                    std::int64_t stamp_ns) noexcept {
   const auto network = link_payload(link_type, captured);
   if (!network) return Rejected(network.error());
   const Bytes ip = network->ip;
@@ -204,14 +204,14 @@ tl::expected<packet::Datagram, FrameReject> parse_udp_frame(int link_type, Bytes
   }
   if (udp.size() < udp_bytes) return Rejected(FrameReject::kShortCapture);
 
-  return packet::Datagram{.payload = udp.subspan(kUdpHeaderBytes, udp_bytes - kUdpHeaderBytes),
-                          .stamp_ns = stamp_ns,
-                          .source_address = big_u32(ip, 12),
-                          .destination_address = big_u32(ip, 16),
-                          .source_port = big_u16(udp, 0),
-                          .destination_port = big_u16(udp, 2),
-                          .vlan = network->vlan,
-                          .source_mac = network->source_mac};
+  return Datagram{.payload = udp.subspan(kUdpHeaderBytes, udp_bytes - kUdpHeaderBytes),
+                  .stamp_ns = stamp_ns,
+                  .source_address = big_u32(ip, 12),
+                  .destination_address = big_u32(ip, 16),
+                  .source_port = big_u16(udp, 0),
+                  .destination_port = big_u16(udp, 2),
+                  .vlan = network->vlan,
+                  .source_mac = network->source_mac};
 }
 
 }  // namespace terracut::packet

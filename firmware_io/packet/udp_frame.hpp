@@ -42,7 +42,7 @@ inline constexpr std::size_t kFrameRejects = static_cast<std::size_t>(FrameRejec
 /// verified: captures made on the sending machine often hold unfinished ones. An IP total length of
 /// 0 (segmentation offload) is accepted if the UDP length fits. The payload points into `captured`.
 /// Allocates nothing; callable from the packet path.
-[[nodiscard]] tl::expected<packet::Datagram, FrameReject> parse_udp_frame(
+[[nodiscard]] tl::expected<Datagram, FrameReject> parse_udp_frame(
     int link_type, std::span<const std::uint8_t> captured,
     std::int64_t stamp_ns) noexcept TERRACUT_NONBLOCKING;
 

@@ -75,7 +75,7 @@ class HeardSenders {
     explicit Sender(std::optional<sensor::SensorModel> wanted) : probe(wanted) {}
 
     sensor::SensorProbe probe;
-    std::map<sensor::SensorModel, streams::SenderStreams> streams;
+    std::map<sensor::SensorModel, SenderStreams> streams;
     std::string first_unknown;  ///< "1218 bytes to port 2368: ..."; empty: none.
     hdl64e::StatusStreamReader hdl64e_status;
     sensor::Ruby128DeviceReader ruby128_device;

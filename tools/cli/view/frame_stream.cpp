@@ -45,12 +45,12 @@ void FrameStream::begin() {
 
 void FrameStream::send_newest() {
   if (is_sending_) return;
-  const ViewFrames::Turn turn = source_.frames.newest();
-  if (turn.number == seen_) return;
-  const std::uint64_t skipped = seen_ == 0 ? 0 : turn.number - seen_ - 1;
+  const ViewFrames::Newest newest = source_.frames.newest();
+  if (newest.number == seen_) return;
+  const std::uint64_t skipped = seen_ == 0 ? 0 : newest.number - seen_ - 1;
   source_.skipped += skipped;
-  seen_ = turn.number;
-  frame_ = turn.frame;
+  seen_ = newest.number;
+  frame_ = newest.frame;
   const std::uint32_t missed = header_.missed + static_cast<std::uint32_t>(skipped);
   header_ = frame_->header;
   header_.missed = missed;

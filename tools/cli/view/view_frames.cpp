@@ -27,7 +27,7 @@ void ViewFrames::put(const publish::LabelledFrame& frame) {
                                    frame.points.size());
   const std::lock_guard lock(mutex_);
   newest_ = room;
-  ++turns_;
+  ++frames_put_;
   losses_ += frame.record.info.losses;
   shown_.push_back(of_frame);
   if (shown_.size() > kFramesShown) shown_.pop_front();
@@ -38,9 +38,9 @@ void ViewFrames::put_figures(const status::MonitorSnapshot& figures) {
   run_ = figures;
 }
 
-ViewFrames::Turn ViewFrames::newest() const {
+ViewFrames::Newest ViewFrames::newest() const {
   const std::lock_guard lock(mutex_);
-  return {turns_, newest_};
+  return {frames_put_, newest_};
 }
 
 ViewFrames::Shown ViewFrames::shown(const status::FrameRecord& record) const noexcept {

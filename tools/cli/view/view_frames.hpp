@@ -27,7 +27,7 @@ class ViewFrames {
     stream::FrameWireHeader header;
     std::vector<stream::WirePoint> points;
   };
-  struct Turn {
+  struct Newest {
     std::uint64_t number = 0;           ///< Sequence number of the frame, from 1; 0: none yet.
     std::shared_ptr<const Kept> frame;  ///< The frame; null: none yet.
   };
@@ -39,7 +39,7 @@ class ViewFrames {
   void put(const publish::LabelledFrame& frame);
   void put_figures(const status::MonitorSnapshot& figures);
 
-  [[nodiscard]] Turn newest() const;
+  [[nodiscard]] Newest newest() const;
   /// Returns the figures for the page: sensor, rows, deadline_ms or null, frames[] as [ms, level,
   /// missed], losses[] and onlookers[] as [cause, count] (status::is_of_onlookers()); silent_s if
   /// the sensor is silent.
@@ -58,7 +58,7 @@ class ViewFrames {
   memory::UsedAgain<Kept> rooms_;
   mutable std::mutex mutex_;
   std::shared_ptr<const Kept> newest_;  ///< Guarded by mutex_, as are the next members.
-  std::uint64_t turns_ = 0;
+  std::uint64_t frames_put_ = 0;
   std::deque<Shown> shown_;
   frame::LossCounters losses_;
   std::optional<status::MonitorSnapshot> run_;

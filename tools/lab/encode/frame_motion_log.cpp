@@ -23,7 +23,7 @@ std::vector<vehicle::MotionSample> FrameMotionLog::samples() const {
   const std::size_t frames = std::min(twists_.size(), seams_ns_.size() - 2);
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const std::int64_t begin_ns = seams_ns_[frame + 1], end_ns = seams_ns_[frame + 2];
-    const encode::SensorTwist& twist = twists_[frame];
+    const SensorTwist& twist = twists_[frame];
     const double pace = twist.frame_duration_s / (static_cast<double>(end_ns - begin_ns) * 1e-9);
     const auto add = [&](std::int64_t stamp_ns) {
       samples.push_back(

@@ -20,7 +20,7 @@ class FrameMotionLog {
   /// Takes every firing, in order.
   void note_firing(std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg);
   /// Adds the next frame's motion, before or after its first firing is noted.
-  void add_frame(const encode::SensorTwist& twist) { twists_.push_back(twist); }
+  void add_frame(const SensorTwist& twist) { twists_.push_back(twist); }
 
   /// Returns samples every 10 ms and at both ends of every frame, once all firings are noted.
   [[nodiscard]] std::vector<vehicle::MotionSample> samples() const;
@@ -30,7 +30,7 @@ class FrameMotionLog {
   std::vector<std::int64_t> seams_ns_;
   std::int64_t frame_ = 0;  ///< Number of the frame, by azimuth.
   std::int64_t last_ns_ = 0;
-  std::vector<encode::SensorTwist> twists_;
+  std::vector<SensorTwist> twists_;
 };
 
 }  // namespace terracut::encode

@@ -17,13 +17,13 @@ namespace terracut::encode {
 namespace {
 
 /// Rotates points by half a revolution about the sensor's axis.
-void work_round(std::span<scan::ScanPoint> points) {
+void turn_half_round(std::span<scan::ScanPoint> points) {
   for (scan::ScanPoint& point : points) {
     point.x_m = -point.x_m;
     point.y_m = -point.y_m;
   }
 }
-encode::SensorTwist reversed(encode::SensorTwist twist) {
+SensorTwist reversed(SensorTwist twist) {
   for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
     twist.velocity_m_s[axis] = -twist.velocity_m_s[axis];
     twist.angular_velocity_rad_s[axis] = -twist.angular_velocity_rad_s[axis];
@@ -31,7 +31,7 @@ encode::SensorTwist reversed(encode::SensorTwist twist) {
   return twist;
 }
 
-Expected<RecordedSpin> recorded_spin(const encode::ScanReader& reader) {
+Expected<RecordedSpin> recorded_spin(const ScanReader& reader) {
   RecordedSpin spin;
   scan::KittiScan scan;
   scan::RingRecovery rings;
@@ -49,7 +49,7 @@ Expected<RecordedSpin> recorded_spin(const encode::ScanReader& reader) {
 Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder,
                                              const std::filesystem::path& pcap_path,
                                              const ScanDriveOptions& options) {
-  auto reader = encode::ScanReader::open(folder, options.motion);
+  auto reader = ScanReader::open(folder, options.motion);
   if (!reader) return tl::unexpected(std::move(reader.error()));
   ScanDriveReport report;
   report.why_as_recorded = reader->why_as_recorded();
@@ -92,7 +92,7 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
     if (options.can_log) {
       const auto twist = reader->twist(i);
       if (!twist) return tl::unexpected(twist.error());
-      work_round(scan.points);
+      turn_half_round(scan.points);
       log.add_frame(reversed(**twist));
     }
     const Status status = encoder.add_frame(scan.points, rings.ring_of_point, scan.labels);

@@ -21,7 +21,7 @@ namespace terracut::encode {
 struct ScanDriveOptions {
   /// The unit's table; without one it is fitted from the scans.
   std::optional<hdl64e::Hdl64eCalibration> calibration;
-  encode::PutMotionBack motion = encode::PutMotionBack::kWhereKnown;
+  PutMotionBack motion = PutMotionBack::kWhereKnown;
   /// Also write the restored motion as a CAN log beside the capture (motion/vehicle_log.hpp);
   /// kInvalidArgument if none was restored. A recorded frame begins behind, a frame of packets
   /// straight ahead, so the sensor is reversed: it looks backwards, and its vehicle drives

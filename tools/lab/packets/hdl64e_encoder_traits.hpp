@@ -31,7 +31,7 @@ struct Hdl64eEncoderTraits {
   using Sender = Hdl64ePacketSender;
 
   struct Config {
-    packets::ReturnMode returns = packets::ReturnMode::kSingle;
+    ReturnMode returns = ReturnMode::kSingle;
     hdl64e::GeometryModel geometry = hdl64e::GeometryModel::kManual;
   };
 
@@ -40,38 +40,34 @@ struct Hdl64eEncoderTraits {
   static constexpr double kBeamHalfWidth_rad = 1.0e-3;  ///< The manual: 2 mrad for the whole beam.
   static constexpr std::string_view kCalibrationSuffix = ".calibration.xml";
 
-  [[nodiscard]] static constexpr const hdl64e::FiringTimes& times(
-      packets::ReturnMode returns) noexcept {
-    return returns == packets::ReturnMode::kDual ? hdl64e::kFiringTimesDual
-                                                 : hdl64e::kFiringTimesSingle48;
+  [[nodiscard]] static constexpr const hdl64e::FiringTimes& times(ReturnMode returns) noexcept {
+    return returns == ReturnMode::kDual ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48;
   }
-  [[nodiscard]] static constexpr std::int64_t firing_ns(packets::ReturnMode returns) noexcept {
+  [[nodiscard]] static constexpr std::int64_t firing_ns(ReturnMode returns) noexcept {
     return times(returns).column_ns;
   }
-  [[nodiscard]] static constexpr std::int64_t laser_period_ns(
-      packets::ReturnMode returns) noexcept {
+  [[nodiscard]] static constexpr std::int64_t laser_period_ns(ReturnMode returns) noexcept {
     return firing_ns(returns);
   }
-  [[nodiscard]] static constexpr int firings_per_group(packets::ReturnMode returns) noexcept {
+  [[nodiscard]] static constexpr int firings_per_group(ReturnMode returns) noexcept {
     return times(returns).columns_per_packet;
   }
-  [[nodiscard]] static constexpr int columns_per_packet(packets::ReturnMode) noexcept {
+  [[nodiscard]] static constexpr int columns_per_packet(ReturnMode) noexcept {
     return hdl64e::kColumnsPerPacketSingle;
   }
 
-  [[nodiscard]] static constexpr std::int32_t step_ticks(const packets::GroupAzimuths& rotor, int,
-                                                         packets::ReturnMode returns) noexcept {
+  [[nodiscard]] static constexpr std::int32_t step_ticks(const GroupAzimuths& rotor, int,
+                                                         ReturnMode returns) noexcept {
     const auto last = static_cast<std::size_t>(times(returns).columns_per_packet - 1);
-    return hdl64e::column_step_ticks(rotor.cdeg[0], rotor.cdeg[last],
-                                     returns == packets::ReturnMode::kDual);
+    return hdl64e::column_step_ticks(rotor.cdeg[0], rotor.cdeg[last], returns == ReturnMode::kDual);
   }
   [[nodiscard]] static constexpr std::int32_t advance_ticks(std::int32_t step_ticks, int laser,
-                                                            packets::ReturnMode returns) noexcept {
-    return hdl64e::firing_advance_ticks(step_ticks, laser, returns == packets::ReturnMode::kDual);
+                                                            ReturnMode returns) noexcept {
+    return hdl64e::firing_advance_ticks(step_ticks, laser, returns == ReturnMode::kDual);
   }
   [[nodiscard]] static std::int32_t offset_ticks(const Offsets& offsets, std::int32_t step_ticks,
-                                                 int laser, packets::ReturnMode returns) noexcept {
-    return offsets.offset_ticks(step_ticks, laser, returns == packets::ReturnMode::kDual);
+                                                 int laser, ReturnMode returns) noexcept {
+    return offsets.offset_ticks(step_ticks, laser, returns == ReturnMode::kDual);
   }
 
   [[nodiscard]] static Offsets offsets(const Calibration& calibration) {

@@ -7,24 +7,24 @@
 namespace terracut::packets {
 
 std::int64_t packet_end_ns(
-    std::span<const packets::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns) noexcept {
+    std::span<const FiringColumn, hdl64e::kColumnsPerPacketSingle> columns) noexcept {
   const std::int64_t first_ns = columns.front().stamp_ns, last_ns = columns.back().stamp_ns;
   const bool dual_return = columns[0].unwrapped_azimuth_cdeg == columns[1].unwrapped_azimuth_cdeg;
   const int firings = dual_return ? hdl64e::kColumnsPerPacketDual : hdl64e::kColumnsPerPacketSingle;
   return last_ns + (last_ns - first_ns) / (firings - 1);
 }
 
-void encode_hdl64e_packet(
-    std::span<const packets::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
-    std::int64_t end_stamp_ns, hdl64e::StatusPair status, hdl64e::wire::Packet& packet) noexcept {
+void encode_hdl64e_packet(std::span<const FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
+                          std::int64_t end_stamp_ns, hdl64e::StatusPair status,
+                          hdl64e::wire::Packet& packet) noexcept {
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    const packets::FiringColumn& column = columns[c];
+    const FiringColumn& column = columns[c];
     for (std::size_t half = 0; half < 2; ++half) {
       hdl64e::wire::Block& block = packet.blocks[2 * c + half];
       block.azimuth_cdeg =
           static_cast<std::uint16_t>(beams::wrap_cdeg(column.unwrapped_azimuth_cdeg));
       for (std::size_t j = 0; j < block.returns.size(); ++j) {
-        const packets::LabelledReturn& beam = column.by_laser[half * hdl64e::kLasersPerBlock + j];
+        const LabelledReturn& beam = column.by_laser[half * hdl64e::kLasersPerBlock + j];
         block.returns[j] = {packet::Le16::of(beam.raw), beam.intensity};
       }
     }

@@ -15,13 +15,13 @@ namespace terracut::packets {
 /// Writes six columns as one data packet: six firings, or in dual return three firings with their
 /// strongest and last return, each pair with one azimuth. The device stamp marks the packet's end
 /// (docs/reference/sensors.md): `end_stamp_ns` (since 1970), as microseconds of its hour.
-void encode_hdl64e_packet(
-    std::span<const packets::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
-    std::int64_t end_stamp_ns, hdl64e::StatusPair status, hdl64e::wire::Packet& packet) noexcept;
+void encode_hdl64e_packet(std::span<const FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
+                          std::int64_t end_stamp_ns, hdl64e::StatusPair status,
+                          hdl64e::wire::Packet& packet) noexcept;
 
 /// Returns the end of the packet of these columns: one firing period, computed from the columns,
 /// after the last one. Two columns with one azimuth at the start mean dual return.
 [[nodiscard]] std::int64_t packet_end_ns(
-    std::span<const packets::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns) noexcept;
+    std::span<const FiringColumn, hdl64e::kColumnsPerPacketSingle> columns) noexcept;
 
 }  // namespace terracut::packets

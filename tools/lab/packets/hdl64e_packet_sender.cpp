@@ -15,15 +15,15 @@ constexpr std::uint32_t kBroadcastAddress = 0xC0A803FF;  // 192.168.3.255
 }  // namespace
 
 Expected<Hdl64ePacketSender> Hdl64ePacketSender::create(
-    const hdl64e::Hdl64eCalibration& calibration, packets::ReturnMode returns) {
-  const bool both = returns == packets::ReturnMode::kDual;
+    const hdl64e::Hdl64eCalibration& calibration, ReturnMode returns) {
+  const bool both = returns == ReturnMode::kDual;
   const auto table = hdl64e::make_stream_table(
       calibration, both ? hdl64e::ReturnSetting::kBoth : hdl64e::ReturnSetting::kStrongest);
   if (!table) return tl::unexpected(table.error());
   return Hdl64ePacketSender(StatusStreamWriter(*table, hdl64e::StatusFlavour::kS3));
 }
 
-Status Hdl64ePacketSender::send(std::span<const packets::FiringColumn> columns, int,
+Status Hdl64ePacketSender::send(std::span<const FiringColumn> columns, int,
                                 capture::PcapWriter& capture) {
   const auto whole = columns.first<hdl64e::kColumnsPerPacketSingle>();
   const std::int64_t end_ns = packet_end_ns(whole);

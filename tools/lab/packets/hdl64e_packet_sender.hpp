@@ -21,11 +21,11 @@ class Hdl64ePacketSender {
  public:
   /// Fails if a calibration does not fit into the status stream.
   [[nodiscard]] static Expected<Hdl64ePacketSender> create(
-      const hdl64e::Hdl64eCalibration& calibration, packets::ReturnMode returns);
+      const hdl64e::Hdl64eCalibration& calibration, ReturnMode returns);
 
   /// Writes the next packet from its columns. `first_column` is the index of its first column in
   /// the group.
-  [[nodiscard]] Status send(std::span<const packets::FiringColumn> columns, int first_column,
+  [[nodiscard]] Status send(std::span<const FiringColumn> columns, int first_column,
                             capture::PcapWriter& capture);
 
  private:

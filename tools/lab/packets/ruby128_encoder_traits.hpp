@@ -29,7 +29,7 @@ struct Ruby128EncoderTraits {
   using Sender = Ruby128PacketSender;
 
   struct Config {
-    packets::ReturnMode returns = packets::ReturnMode::kSingle;
+    ReturnMode returns = ReturnMode::kSingle;
     ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
     /// 0 lets decoders detect the stamps' encoding.
     std::uint16_t protocol_version = 0;
@@ -41,32 +41,30 @@ struct Ruby128EncoderTraits {
   static constexpr double kBeamHalfWidth_rad = 1.25e-3;
   static constexpr std::string_view kCalibrationSuffix = ".calibration.csv";
 
-  [[nodiscard]] static constexpr std::int64_t firing_ns(packets::ReturnMode) noexcept {
+  [[nodiscard]] static constexpr std::int64_t firing_ns(ReturnMode) noexcept {
     return ruby128::kRubyBlock_ns;
   }
-  [[nodiscard]] static constexpr std::int64_t laser_period_ns(
-      packets::ReturnMode returns) noexcept {
+  [[nodiscard]] static constexpr std::int64_t laser_period_ns(ReturnMode returns) noexcept {
     return firing_ns(returns);
   }
-  [[nodiscard]] static constexpr int firings_per_group(packets::ReturnMode) noexcept { return 3; }
-  [[nodiscard]] static constexpr int columns_per_packet(packets::ReturnMode) noexcept {
+  [[nodiscard]] static constexpr int firings_per_group(ReturnMode) noexcept { return 3; }
+  [[nodiscard]] static constexpr int columns_per_packet(ReturnMode) noexcept {
     return ruby128::kRubyBlocksPerPacket;
   }
 
   /// In dual return the packets hold A A B and B C C; B keeps its step from the first.
-  [[nodiscard]] static constexpr std::int32_t step_ticks(const packets::GroupAzimuths& rotor,
-                                                         int place,
-                                                         packets::ReturnMode returns) noexcept {
+  [[nodiscard]] static constexpr std::int32_t step_ticks(const GroupAzimuths& rotor, int place,
+                                                         ReturnMode returns) noexcept {
     const std::int32_t a = rotor.cdeg[0], b = rotor.cdeg[1], c = rotor.cdeg[2];
-    if (returns == packets::ReturnMode::kSingle) return ruby128::ruby_step_ticks({a, b, c});
+    if (returns == ReturnMode::kSingle) return ruby128::ruby_step_ticks({a, b, c});
     return place < 2 ? ruby128::ruby_step_ticks({a, a, b}) : ruby128::ruby_step_ticks({b, c, c});
   }
   [[nodiscard]] static constexpr std::int32_t advance_ticks(std::int32_t step_ticks, int channel,
-                                                            packets::ReturnMode) noexcept {
+                                                            ReturnMode) noexcept {
     return ruby128::ruby_advance_ticks(step_ticks, channel);
   }
   [[nodiscard]] static std::int32_t offset_ticks(const Offsets& offsets, std::int32_t step_ticks,
-                                                 int channel, packets::ReturnMode) noexcept {
+                                                 int channel, ReturnMode) noexcept {
     return offsets.offset_ticks(step_ticks, channel);
   }
 

@@ -14,7 +14,7 @@ namespace terracut::packets {
 
 /// Facts common to all data packets of one drive.
 struct Ruby128PacketFacts {
-  packets::ReturnMode returns = packets::ReturnMode::kSingle;
+  ReturnMode returns = ReturnMode::kSingle;
   ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
   std::uint16_t protocol_version = 0;
   double temperature_deg_c = 0;  ///< In (-128, 128).
@@ -24,9 +24,8 @@ struct Ruby128PacketFacts {
 /// both returns of a firing (the last, then the strongest) are blocks of their own. `first_column`
 /// is the first column's index in the group of firings of whole packets: even for the first return
 /// of a firing. The device stamp is the first column's.
-void encode_ruby128_packet(
-    std::span<const packets::Ruby128Column, ruby128::kRubyBlocksPerPacket> columns,
-    int first_column, const Ruby128PacketFacts& facts,
-    ruby128::ruby128_wire::Packet& packet) noexcept;
+void encode_ruby128_packet(std::span<const Ruby128Column, ruby128::kRubyBlocksPerPacket> columns,
+                           int first_column, const Ruby128PacketFacts& facts,
+                           ruby128::ruby128_wire::Packet& packet) noexcept;
 
 }  // namespace terracut::packets

@@ -43,7 +43,7 @@ ruby128::ruby128_wire::Difop difop_of(const ruby128::Ruby128Calibration& calibra
   difop.device_port = ruby128::kRubyDevicePort;
   difop.fov_end_cdeg = beams::kRevolution_cdeg;
   difop.serial = unit.serial;
-  difop.return_mode = facts.returns == packets::ReturnMode::kDual ? kDualMode : kStrongestMode;
+  difop.return_mode = facts.returns == ReturnMode::kDual ? kDualMode : kStrongestMode;
   difop.temperatures.fill(
       packet::Be16::of(ruby128::ruby_temperature_field(unit.temperature_deg_c)));
   ruby128::set_calibration(difop, calibration);
@@ -65,7 +65,7 @@ Status Ruby128PacketSender::send_difop(std::int64_t stamp_ns, std::int64_t captu
       datagram(ruby128::payload_of(difop_), captured_ns, ruby128::kRubyDevicePort));
 }
 
-Status Ruby128PacketSender::send(std::span<const packets::Ruby128Column> columns, int first_column,
+Status Ruby128PacketSender::send(std::span<const Ruby128Column> columns, int first_column,
                                  capture::PcapWriter& capture) {
   const std::int64_t stamp_ns = columns.front().stamp_ns;
   const std::int64_t end_ns = columns.back().stamp_ns + ruby128::kRubyBlock_ns;

@@ -34,7 +34,7 @@ class Ruby128PacketSender {
 
   /// Writes the next packet from its columns. `first_column` is the index of its first column in
   /// the group.
-  [[nodiscard]] Status send(std::span<const packets::Ruby128Column> columns, int first_column,
+  [[nodiscard]] Status send(std::span<const Ruby128Column> columns, int first_column,
                             capture::PcapWriter& capture);
 
  private:

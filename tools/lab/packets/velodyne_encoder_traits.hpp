@@ -53,7 +53,7 @@ struct VelodyneEncoderTraits {
   }
 
   /// A packet with one firing has no step of its own: it is the one from the previous packet.
-  [[nodiscard]] static constexpr std::int32_t step_ticks(const packets::GroupAzimuths& rotor, int,
+  [[nodiscard]] static constexpr std::int32_t step_ticks(const GroupAzimuths& rotor, int,
                                                          ReturnMode returns) noexcept {
     const int firings = firings_per_group(returns);
     if (firings > 1) {

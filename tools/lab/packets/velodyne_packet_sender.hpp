@@ -55,7 +55,7 @@ class VelodynePacketSender {
         static_cast<std::uint16_t>(beams::wrap_cdeg(column.unwrapped_azimuth_cdeg));
     const auto first = static_cast<std::size_t>(part * velodyne::kBlockReturns);
     for (std::size_t i = 0; i < block.returns.size(); ++i) {
-      const packets::LabelledReturn& beam = column.by_laser[first + i];
+      const LabelledReturn& beam = column.by_laser[first + i];
       block.returns[i] = {packet::Le16::of(beam.raw), beam.intensity};
     }
   }

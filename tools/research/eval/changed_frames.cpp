@@ -62,7 +62,7 @@ Picture side_by_side(const Picture& left, const Picture& right) {
 
 }  // namespace
 
-ChangedFrames::ChangedFrames(std::span<const eval::MethodChoice> methods,
+ChangedFrames::ChangedFrames(std::span<const MethodChoice> methods,
                              const datasets::ClassTable& classes)
     : methods_(methods), classes_(classes), most_(methods.size()) {}
 

@@ -37,7 +37,7 @@ class ChangedFrames {
   static constexpr int kSide = 320;  ///< Pixels of each half.
 
   /// Both arguments must outlive this object.
-  ChangedFrames(std::span<const eval::MethodChoice> methods, const datasets::ClassTable& classes);
+  ChangedFrames(std::span<const MethodChoice> methods, const datasets::ClassTable& classes);
 
   /// The order of calls does not matter: of equal frames the first by name is kept.
   void look(const LabelledByAll& frame);
@@ -58,7 +58,7 @@ class ChangedFrames {
   void draw(const LabelledByAll& frame, std::size_t method, Change& change) const;
   [[nodiscard]] datasets::Role role_of(std::uint32_t label) const;
 
-  std::span<const eval::MethodChoice> methods_;
+  std::span<const MethodChoice> methods_;
   const datasets::ClassTable& classes_;
   mutable std::mutex mutex_;  ///< Guards the following member.
   std::vector<Change> most_;  ///< Indexed by method.

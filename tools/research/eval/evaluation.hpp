@@ -41,7 +41,7 @@ struct EvaluationConfig {
   const datasets::ClassTable* classes = nullptr;
   std::filesystem::path predictions;  ///< Folder; empty: none are written.
   /// Receives every frame that all methods label; may be null.
-  eval::ChangedFrames* changed_frames = nullptr;
+  ChangedFrames* changed_frames = nullptr;
 };
 
 /// A failure to evaluate something.

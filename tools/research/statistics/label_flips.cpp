@@ -105,8 +105,8 @@ void LabelFlips::look_at(const scan::KittiScan& scan,
   }
 }
 
-statistics::FlipCounts LabelFlips::count(std::size_t method, std::span<const frame::Label> labels) {
-  statistics::FlipCounts counts;
+FlipCounts LabelFlips::count(std::size_t method, std::span<const frame::Label> labels) {
+  FlipCounts counts;
   std::vector<frame::Label>& before = labels_[method];
   for (std::size_t i = 0; i < partners_.size(); ++i) {
     const std::uint32_t partner = partners_[i];

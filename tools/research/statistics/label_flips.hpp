@@ -29,8 +29,7 @@ class LabelFlips {
   void look_at(const scan::KittiScan& scan, const std::optional<encode::RigidMotion>& before_this);
 
   /// Counts the flips of one method, given a label per point of the latest frame.
-  [[nodiscard]] statistics::FlipCounts count(std::size_t method,
-                                             std::span<const frame::Label> labels);
+  [[nodiscard]] FlipCounts count(std::size_t method, std::span<const frame::Label> labels);
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

@@ -7,14 +7,14 @@ namespace {
 
 /// `labels_of(entry, counts)` returns the labels to score in place of the counted ones.
 template <class LabelsOf>
-quality::Quality score(const statistics::FrameCounts& counts, const datasets::ClassTable& classes,
+quality::Quality score(const FrameCounts& counts, const datasets::ClassTable& classes,
                        const Scope& scope, LabelsOf&& labels_of) {
   quality::Quality quality;
   for (const auto& [key, counted] : counts.by_class_and_band()) {
     const datasets::ClassEntry* const entry = classes.find(key.class_id);
     if (entry == nullptr || (entry->vegetation && !scope.vegetation)) continue;
     if (scope.band && *scope.band != key.band) continue;
-    const statistics::LabelCounts labels = labels_of(*entry, counted);
+    const LabelCounts labels = labels_of(*entry, counted);
     quality.add(entry->role(scope.ground), labels.ground, labels.obstacle);
   }
   return quality;
@@ -22,36 +22,33 @@ quality::Quality score(const statistics::FrameCounts& counts, const datasets::Cl
 
 }  // namespace
 
-quality::Quality quality_of(const statistics::FrameCounts& counts,
-                            const datasets::ClassTable& classes, const Scope& scope) {
-  return score(counts, classes, scope,
-               [&](const datasets::ClassEntry&, statistics::LabelCounts counted) {
-                 if (scope.ground == datasets::GroundDefinition::kRoad) {
-                   counted.ground -= counted.other_ground;
-                   counted.obstacle += counted.other_ground;
-                 }
-                 return counted;
-               });
+quality::Quality quality_of(const FrameCounts& counts, const datasets::ClassTable& classes,
+                            const Scope& scope) {
+  return score(counts, classes, scope, [&](const datasets::ClassEntry&, LabelCounts counted) {
+    if (scope.ground == datasets::GroundDefinition::kRoad) {
+      counted.ground -= counted.other_ground;
+      counted.obstacle += counted.other_ground;
+    }
+    return counted;
+  });
 }
 
-quality::Quality everything_ground(const statistics::FrameCounts& counts,
-                                   const datasets::ClassTable& classes, const Scope& scope) {
-  return score(counts, classes, scope,
-               [](const datasets::ClassEntry&, const statistics::LabelCounts& counted) {
-                 return statistics::LabelCounts{counted.ground + counted.obstacle, 0};
-               });
+quality::Quality everything_ground(const FrameCounts& counts, const datasets::ClassTable& classes,
+                                   const Scope& scope) {
+  return score(counts, classes, scope, [](const datasets::ClassEntry&, const LabelCounts& counted) {
+    return LabelCounts{counted.ground + counted.obstacle, 0};
+  });
 }
 
-quality::Quality perfect_ground(const statistics::FrameCounts& counts,
-                                const datasets::ClassTable& classes, const Scope& scope) {
-  return score(counts, classes, scope,
-               [&](const datasets::ClassEntry& entry, const statistics::LabelCounts& counted) {
-                 datasets::Role truth = entry.role(datasets::GroundDefinition::kAll);
-                 if (truth == datasets::Role::kIgnored) truth = entry.role(scope.ground);
-                 const std::uint64_t points = counted.ground + counted.obstacle;
-                 return truth == datasets::Role::kGround ? statistics::LabelCounts{points, 0}
-                                                         : statistics::LabelCounts{0, points};
-               });
+quality::Quality perfect_ground(const FrameCounts& counts, const datasets::ClassTable& classes,
+                                const Scope& scope) {
+  return score(
+      counts, classes, scope, [&](const datasets::ClassEntry& entry, const LabelCounts& counted) {
+        datasets::Role truth = entry.role(datasets::GroundDefinition::kAll);
+        if (truth == datasets::Role::kIgnored) truth = entry.role(scope.ground);
+        const std::uint64_t points = counted.ground + counted.obstacle;
+        return truth == datasets::Role::kGround ? LabelCounts{points, 0} : LabelCounts{0, points};
+      });
 }
 
 double f1_ground(const quality::Quality& quality) noexcept {

@@ -19,17 +19,17 @@ struct Scope {
 
 /// Returns the counts by the class table's roles. Unknown classes are ignored. Under kRoad, ground
 /// labelled as no road surface counts as called obstacle.
-[[nodiscard]] quality::Quality quality_of(const statistics::FrameCounts& counts,
+[[nodiscard]] quality::Quality quality_of(const FrameCounts& counts,
                                           const datasets::ClassTable& classes, const Scope& scope);
 
 /// Returns the score of the same points if all were called ground.
-[[nodiscard]] quality::Quality everything_ground(const statistics::FrameCounts& counts,
+[[nodiscard]] quality::Quality everything_ground(const FrameCounts& counts,
                                                  const datasets::ClassTable& classes,
                                                  const Scope& scope);
 /// Returns the score of a detector that finds all physical ground (GroundDefinition::kAll) and
 /// nothing else: under kRoad, the ceiling of all methods that do not see kerbs. Points ignored
 /// under kAll are taken as found correctly.
-[[nodiscard]] quality::Quality perfect_ground(const statistics::FrameCounts& counts,
+[[nodiscard]] quality::Quality perfect_ground(const FrameCounts& counts,
                                               const datasets::ClassTable& classes,
                                               const Scope& scope);
 

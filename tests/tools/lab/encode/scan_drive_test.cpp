@@ -50,7 +50,7 @@ TEST(ScanDrive, ACanLogIsRefusedWhereNoMotionIsPutBack) {
   EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
   EXPECT_THAT(refused.error().message, HasSubstr("poses.txt is missing"));
   write_poses(folder, 2, 15);
-  options.motion = encode::PutMotionBack::kNever;
+  options.motion = PutMotionBack::kNever;
   refused = encode_scan_folder(folder.path() / "scans", pcap, options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
@@ -71,7 +71,7 @@ TEST(ScanDrive, PutsTheMotionBackWherePosesLieBesideTheScans) {
   EXPECT_LT(height_p95_m(false), 0.003);
   write_poses(folder, 2, 15);
   EXPECT_GT(height_p95_m(true), 0.05) << "the made scans are not compensated: motion bends them";
-  options.motion = encode::PutMotionBack::kNever;
+  options.motion = PutMotionBack::kNever;
   EXPECT_LT(height_p95_m(false), 0.003);
 }
 
@@ -151,7 +151,7 @@ TEST(ScanReader, UndoesTheCompensationOnlyOfScansNamedByTheirFrame) {
   folder.write_records("velodyne/first.bin", synthetic::scan(synthetic::table()));
   folder.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n");
   folder.write("times.txt", "0\n0.1\n");
-  const auto reader = encode::ScanReader::open(folder.path(), encode::PutMotionBack::kWhereKnown);
+  const auto reader = ScanReader::open(folder.path(), PutMotionBack::kWhereKnown);
   ASSERT_TRUE(reader) << reader.error().message;
   EXPECT_THAT(reader->why_as_recorded(), HasSubstr("not named by its frame number"));
 }
@@ -160,8 +160,7 @@ TEST(ScanReader, TakesScansAsRecordedWhereThePosesEndBeforeThem) {
   const test::ScratchFolder folder;
   write_sequence(folder, 3);
   write_poses(folder, 2, 15);
-  const auto reader =
-      encode::ScanReader::open(folder.path() / "scans", encode::PutMotionBack::kWhereKnown);
+  const auto reader = ScanReader::open(folder.path() / "scans", PutMotionBack::kWhereKnown);
   ASSERT_TRUE(reader) << reader.error().message;
   EXPECT_THAT(reader->why_as_recorded(), HasSubstr("ends at frame 1, before"));
   EXPECT_THAT(reader->why_as_recorded(), HasSubstr("000002.bin"));
@@ -173,7 +172,7 @@ TEST(ScanReader, FitsTheTableFromWholeScansAndAlignsTheOthersWithIt) {
   auto points = synthetic::scan(synthetic::table());
   synthetic::erase_ring(points, 30);
   folder.write_records("scans/velodyne/000001.bin", points);
-  auto reader = encode::ScanReader::open(folder.path() / "scans");
+  auto reader = ScanReader::open(folder.path() / "scans");
   ASSERT_TRUE(reader);
   scan::KittiScan scan;
   scan::RingRecovery rings;
@@ -197,7 +196,7 @@ TEST(ScanReader, TellsRingsWhereNoScanOfTheFolderHasAll) {
     points.push_back({});
     folder.write_records("scans/00000" + std::to_string(scan) + ".bin", points);
   }
-  auto reader = encode::ScanReader::open(folder.path() / "scans");
+  auto reader = ScanReader::open(folder.path() / "scans");
   ASSERT_TRUE(reader);
   const auto fitted = reader->fit_rings();
   ASSERT_TRUE(fitted) << fitted.error().message;

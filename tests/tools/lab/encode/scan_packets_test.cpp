@@ -34,7 +34,7 @@ struct Drive {
 };
 
 void encode(const std::filesystem::path& sequence, Drive& drive) {
-  auto reader = encode::ScanReader::open(sequence);
+  auto reader = ScanReader::open(sequence);
   ASSERT_TRUE(reader);
   const auto fitted = reader->fit_rings();
   ASSERT_TRUE(fitted);

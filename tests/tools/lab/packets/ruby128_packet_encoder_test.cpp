@@ -16,8 +16,8 @@ constexpr std::size_t kBlockAt[] = {80, 468, 856};
 /// 2026-01-02 03:04:05.678901234 UTC
 constexpr std::int64_t kStamp_ns = 1'767'323'045'678'901'234;
 
-std::array<packets::Ruby128Column, 3> three_columns() {
-  std::array<packets::Ruby128Column, 3> columns;
+std::array<Ruby128Column, 3> three_columns() {
+  std::array<Ruby128Column, 3> columns;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     columns[i].stamp_ns = kStamp_ns + static_cast<std::int64_t>(i) * 55'550;
     columns[i].unwrapped_azimuth_cdeg = 3 * 36'000 - 1 + 20 * static_cast<std::int64_t>(i);
@@ -25,7 +25,7 @@ std::array<packets::Ruby128Column, 3> three_columns() {
   return columns;
 }
 
-std::vector<std::uint8_t> encoded(const std::array<packets::Ruby128Column, 3>& columns,
+std::vector<std::uint8_t> encoded(const std::array<Ruby128Column, 3>& columns,
                                   const Ruby128PacketFacts& facts, int first_column = 0) {
   ruby128::ruby128_wire::Packet packet = ruby128::blank_packet();
   encode_ruby128_packet(columns, first_column, facts, packet);
@@ -78,8 +78,7 @@ TEST(Ruby128PacketEncoder, WritesTheStampOfTheFirstColumnInAnyEncoding) {
 
 TEST(Ruby128PacketEncoder, NumbersTheReturnsOfPairsThatStraddlePackets) {
   const auto numbers = [](int first_column) {
-    const Bytes packet =
-        encoded(three_columns(), {.returns = packets::ReturnMode::kDual}, first_column);
+    const Bytes packet = encoded(three_columns(), {.returns = ReturnMode::kDual}, first_column);
     EXPECT_EQ(packet[7], 3);  // wave mode: both returns
     return Bytes{packet[81], packet[469], packet[857]};
   };
@@ -93,7 +92,7 @@ TEST(Ruby128PacketEncoder, LeavesNothingOfThePacketBefore) {
   auto columns = three_columns();
   columns[1].by_laser[5] = {999, 9, 0};
   ruby128::ruby128_wire::Packet packet = ruby128::blank_packet();
-  encode_ruby128_packet(columns, 0, {.returns = packets::ReturnMode::kDual}, packet);
+  encode_ruby128_packet(columns, 0, {.returns = ReturnMode::kDual}, packet);
   encode_ruby128_packet(three_columns(), 0, {}, packet);
   const auto payload = ruby128::payload_of(packet);
   EXPECT_EQ(Bytes(payload.begin(), payload.end()), encoded(three_columns(), {}));

@@ -96,7 +96,7 @@ double outside(const Shape& shape, const Vector3d& place) {
 }
 
 TEST(Shapes, ChordsEndOnTheSurfaceAndRunInsideForRandomLines) {
-  world::Random random(7);
+  Random random(7);
   int met = 0;
   for (int i = 0; i < 20000; ++i) {
     Shape shape =

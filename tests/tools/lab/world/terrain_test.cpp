@@ -113,7 +113,7 @@ Road rough_road() {
 
 TEST(Terrain, FindsTheSameGroundAsTinyStepsDo) {
   const Terrain terrain(rough_road(), 5);
-  world::Random random(3);
+  Random random(3);
   int grazed = 0;
   for (int i = 0; i < 2000; ++i) {
     const double x_m = random.uniform(-40, 40);

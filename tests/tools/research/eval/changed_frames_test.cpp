@@ -47,8 +47,7 @@ class ChangedFramesTest : public testing::Test {
   frame::RangeImage image_{{.rows = 2, .columns = 8}, 0, memory_};
   std::vector<std::uint32_t> truth_{40, 10, 40, 0};
   datasets::ClassTable table_ = *datasets::built_in_table("semantickitti");
-  std::vector<eval::MethodChoice> methods_{*eval::method_named("terracut"),
-                                           *eval::method_named("paper")};
+  std::vector<MethodChoice> methods_{*eval::method_named("terracut"), *eval::method_named("paper")};
   ChangedFrames changed_{methods_, table_};
 };
 
@@ -74,11 +73,11 @@ TEST_F(ChangedFramesTest, OtherGroundIsGround) {
 }
 
 TEST_F(ChangedFramesTest, AreDrawnForEveryMethodOfADatasetAndOfADriveButTheFirst) {
-  const eval::MadeUpDataset dataset;
+  const MadeUpDataset dataset;
   methods_.push_back(*eval::method_variant("blind=terracut,elevation_map.obstacle_height_m=2", {}));
   methods_.push_back(*eval::method_variant("same=terracut", {}));
   ChangedFrames of_scans(methods_, table_), of_drive(methods_, table_);
-  eval::EvaluationConfig scans;
+  EvaluationConfig scans;
   scans.layout = table_.layout().value();
   scans.root = dataset.root();
   scans.methods = methods_;
@@ -86,7 +85,7 @@ TEST_F(ChangedFramesTest, AreDrawnForEveryMethodOfADatasetAndOfADriveButTheFirst
   scans.changed_frames = &of_scans;
   ASSERT_TRUE(
       eval::evaluate(scans, nullptr, [](std::size_t, std::size_t) {}, [] { return false; }));
-  eval::SimulatedConfig drive;
+  SimulatedConfig drive;
   drive.drives = {.scenes = {"street"}, .duration_s = 0.1};
   drive.methods = methods_;
   drive.changed_frames = &of_drive;

@@ -35,7 +35,7 @@ struct LabelFlipsTest : testing::Test {
 
 TEST_F(LabelFlipsTest, TheFirstFrameHasNone) {
   flips.look_at(scan_of({{{5, 0, 0, 0}, kRoad}}), std::nullopt);
-  EXPECT_EQ(flips.count(0, std::vector{Label::kGround}), statistics::FlipCounts{});
+  EXPECT_EQ(flips.count(0, std::vector{Label::kGround}), FlipCounts{});
 }
 
 TEST_F(LabelFlipsTest, AReturnSeenAgainIsComparedWithTheNearest) {
@@ -43,7 +43,7 @@ TEST_F(LabelFlipsTest, AReturnSeenAgainIsComparedWithTheNearest) {
   (void)flips.count(0, std::vector{Label::kGround, Label::kObstacle});
   flips.look_at(scan_of({{{5.05F, 0, 0, 0}, kRoad}, {{5.3F, 0, 0, 0}, kRoad}}), kAtRest);
   const auto counts = flips.count(0, std::vector{Label::kGround, Label::kObstacle});
-  EXPECT_EQ(counts, (statistics::FlipCounts{.returns = 1, .flips = 1, .true_flips = 1}));
+  EXPECT_EQ(counts, (FlipCounts{.returns = 1, .flips = 1, .true_flips = 1}));
 }
 
 TEST_F(LabelFlipsTest, TheSensorsMotionIsRemoved) {

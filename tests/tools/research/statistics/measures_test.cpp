@@ -11,8 +11,8 @@ namespace {
 
 /// 80 of 100 road points, 30 of 60 of terrain, 4 of 10 of vegetation and 1 of 20 of cars are called
 /// ground; 50 unlabelled ones, too. Road is near, the rest far.
-statistics::FrameCounts counts() {
-  statistics::FrameCounts counts;
+FrameCounts counts() {
+  FrameCounts counts;
   counts.add({40, 0}, {80, 20});
   counts.add({72, 2}, {30, 30});
   counts.add({70, 2}, {4, 6});
@@ -43,7 +43,7 @@ TEST(MeasuresTest, CountTheRoadAloneAndUnlabelledPointsAgainstIt) {
 }
 
 TEST(MeasuresTest, BelieveOfTheRoadWhatIsToldFromOtherGround) {
-  statistics::FrameCounts told;
+  FrameCounts told;
   told.add({40, 0}, {80, 20, 10});
   told.add({72, 2}, {30, 30, 25});
   told.add({10, 2}, {5, 15, 4});
@@ -55,12 +55,12 @@ TEST(MeasuresTest, BelieveOfTheRoadWhatIsToldFromOtherGround) {
 }
 
 TEST(MeasuresTest, CountALabelledPointByItsLabel) {
-  statistics::FrameCounts counts;
+  FrameCounts counts;
   for (const auto label : {frame::Label::kGround, frame::Label::kOtherGround,
                            frame::Label::kOtherGround, frame::Label::kObstacle}) {
     counts.add(48, 1, label);
   }
-  EXPECT_EQ(counts.by_class_and_band().at({48, 1}), (statistics::LabelCounts{3, 1, 2}));
+  EXPECT_EQ(counts.by_class_and_band().at({48, 1}), (LabelCounts{3, 1, 2}));
 }
 
 TEST(MeasuresTest, LeaveVegetationOut) {

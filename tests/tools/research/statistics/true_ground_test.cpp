@@ -57,7 +57,7 @@ TEST_F(TrueGroundTest, KeyObstaclesCountAsTallFromThirtyCentimetresOn) {
               std::vector{Label::kGround, Label::kGround, Label::kGround, Label::kObstacle,
                           Label::kGround, Label::kGround},
               result);
-  EXPECT_EQ(result.tall, (statistics::TallCounts{.returns = 2, .as_ground = 1}));
+  EXPECT_EQ(result.tall, (TallCounts{.returns = 2, .as_ground = 1}));
 }
 
 }  // namespace

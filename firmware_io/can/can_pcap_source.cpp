@@ -78,9 +78,10 @@ Expected<std::optional<CanFrame>> CanPcapSource::next() {
     if (!record) return tl::unexpected(record.error());
     if (!*record) return std::nullopt;
     ++counters_.records;
-    // Byte order of the id: the kernel uses the machine's; libpcap writes it big endian for a CAN
-    // interface. In cooked captures libpcap keeps the machine's order, and swaps it if the file is
-    // from a machine of the other order.
+    // The byte order of the CAN id: the kernel uses the byte order of the machine, but libpcap
+    // writes the id in big endian when it captures from a CAN interface. In a cooked capture the id
+    // has the order of the capturing machine; libpcap swaps it when a machine of the other order
+    // reads the file.
     auto bytes = std::optional((*record)->bytes);
     CanIdOrder order = CanIdOrder::kNative;
     if (file_.link_type() == DLT_CAN_SOCKETCAN) {

@@ -12,7 +12,7 @@
 namespace terracut::can {
 namespace {
 
-/// True if the file begins as a capture. A log begins with a parenthesis or at least a word.
+/// True if the file begins like a pcap or pcapng capture. A candump log is text instead.
 bool begins_like_capture(const std::filesystem::path& path) {
   using Magic = std::array<std::uint8_t, 4>;
   constexpr std::array<Magic, 5> kMagics{

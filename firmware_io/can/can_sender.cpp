@@ -79,7 +79,8 @@ bool CanSender::send(const CanFrame& frame) noexcept {
   }
 }
 
-/// Opens a new socket if the interface came back: the old socket stays tied to the old interface.
+/// Opens a new socket if the interface was lost and is back: the old socket stays tied to the lost
+/// interface.
 void CanSender::look_after_interface() noexcept {
   const std::int64_t now_ns = measure::monotonic_ns();
   if (interface_.empty() || now_ns < next_look_ns_) return;

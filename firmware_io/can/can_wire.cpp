@@ -14,7 +14,7 @@ static_assert(kClassicWireBytes == CAN_MTU && kFdWireBytes == CANFD_MTU);
 
 constexpr std::size_t kLengthAt = 4;
 constexpr std::size_t kFlagsAt = 5;
-// CANFD_FDF is missing in the headers of older kernels.
+// The value of CANFD_FDF, which the headers of older kernels lack.
 constexpr std::uint8_t kFdFlag = 0x04;
 constexpr std::uint8_t kXlFlag = 0x80;  // in the fifth byte, which holds the length in other frames
 

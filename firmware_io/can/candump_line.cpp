@@ -77,7 +77,7 @@ bool read_data(std::string_view text, std::size_t most_bytes, CanFrame& frame) n
 /// Reads the part after the id, "#...": classic data or a remote frame. Returns the rest of the
 /// line.
 std::optional<std::string_view> read_classic(std::string_view body, CanFrame& frame) noexcept {
-  // A suffix "_9" to "_F" states how a length of 8 was written on the wire; it stays 8 bytes.
+  // A suffix "_9" to "_F" is the length code on the wire; the frame still has 8 bytes of data.
   if (const std::size_t mark = body.find('_'); mark != std::string_view::npos) {
     const auto code = whole_number<unsigned>(body.substr(mark + 1), 16);
     if (!code || *code < 9 || *code > 15) return "the length behind '_' is not 9 to F";
@@ -149,7 +149,8 @@ tl::expected<CandumpLine, CandumpFault> parse_candump_line(std::string_view line
   if (mark == std::string_view::npos) {
     return malformed("there is no '#' behind its id; expected the format of `candump -l`");
   }
-  // CAN XL has two digits of network and three of priority here, other frames 3 or 8 digits.
+  // A CAN XL line has five digits before the mark: two of the network and three of the priority.
+  // The id of any other frame has 3 or 8 digits.
   if (mark == 5) return no_frame("it is a CAN XL frame");
   CanFrame& frame = parsed.frame;
   if (!read_id(text.substr(0, mark), frame)) {

@@ -40,7 +40,8 @@ CandumpSource::CandumpSource(std::unique_ptr<std::istream> stream, std::string n
     : stream_(std::move(stream)), name_(std::move(name)), interface_(std::move(interface)) {}
 
 std::optional<std::string_view> CandumpSource::read_line() {
-  // failbit alone means that the line goes on; getline() has removed nothing of its rest.
+  // If only failbit is set, the line is longer than the buffer; getline() has left the remaining
+  // characters in the stream.
   stream_->getline(line_.data(), static_cast<std::streamsize>(line_.size()));
   const auto count = static_cast<std::size_t>(stream_->gcount());
   too_long_ = stream_->fail() && count == kMostLine;

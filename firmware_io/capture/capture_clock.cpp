@@ -8,7 +8,7 @@
 namespace terracut::capture {
 namespace {
 
-/// Four years. Any two stamps of a capture may be added to this without overflow.
+/// The longest time that the clock counts, four years. Adding two such times cannot overflow.
 constexpr std::int64_t kLongest_ns = std::int64_t{1} << 57;
 
 }  // namespace

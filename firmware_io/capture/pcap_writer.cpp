@@ -40,7 +40,8 @@ void append_big_u32(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
   append_big_u16(bytes, value & 0xFFFF);
 }
 
-/// Appends 02:00 (locally administered) and the IPv4 address, or broadcast for x.x.x.255.
+/// Appends the MAC address made from an IPv4 address: 02:00 (locally administered) and the IPv4
+/// address, or the broadcast address for x.x.x.255.
 void append_hardware_address(std::vector<std::uint8_t>& bytes, std::uint32_t address) {
   if ((address & 0xFF) == 0xFF) {
     append(bytes, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF});

@@ -52,9 +52,9 @@ struct LaserField {
   bool is_filled = false;            ///< True if some numbers are not 0.
 };
 
-/// Takes the laser numbers from the first field that has them. A field of zeros, which drivers
-/// write that do not know the numbers, is taken only if no other field has numbers. A field with
-/// other values holds no laser numbers; cloud.laser_note then says so.
+/// Takes the laser numbers from the first field that has them. Some drivers do not know the numbers
+/// and write zeros: such a field is taken only if no other field has numbers. A field with other
+/// values holds no laser numbers; cloud.laser_note then says so.
 void take_lasers(const FieldTable& table, Cloud& cloud) {
   Values chosen;
   std::string_view chosen_name;
@@ -89,7 +89,7 @@ void take_lasers(const FieldTable& table, Cloud& cloud) {
   }
 }
 
-/// Moves points from the file's coordinates to the sensor's, given the sensor's place in the file.
+/// Moves points from the file's coordinates to the sensor's. The file states the sensor's pose.
 class ToSensor {
  public:
   explicit ToSensor(const std::array<double, 7>& viewpoint) : at_(viewpoint) {

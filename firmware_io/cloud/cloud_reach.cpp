@@ -40,7 +40,7 @@ double quantile(std::span<const ScanPoint> points, double share, Figure&& figure
 
 /// Guesses why measured points lie too far away.
 std::string_view likely_cause(std::span<const ScanPoint> points) {
-  // Bytes of another layout read as numbers may have any size.
+  // If bytes of another layout are read as numbers, the numbers may have any size.
   constexpr double kNoCoordinates = 1e6;
   if (quantile(points, 0.9, distance_m) > kNoCoordinates * quantile(points, 0.1, distance_m)) {
     return "are these bytes of another layout, or big-endian?";
@@ -52,7 +52,8 @@ std::string_view likely_cause(std::span<const ScanPoint> points) {
     return std::hypot(double{p.x_m} - middle_x, double{p.y_m} - middle_y);
   });
   if (std::hypot(middle_x, middle_y) > 3 * spread) return "are these coordinates of a map?";
-  constexpr double kHalfWayInLogarithms = 3000;  // a street's median is some 10 metres
+  // A street's median is 10 m: 1000 in centimetres, 10000 in millimetres.
+  constexpr double kHalfWayInLogarithms = 3000;
   return quantile(points, 0.5, distance_m) > kHalfWayInLogarithms ? "are these millimetres?"
                                                                   : "are these centimetres?";
 }

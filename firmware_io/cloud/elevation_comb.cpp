@@ -13,12 +13,12 @@
 namespace terracut::cloud {
 namespace {
 
-/// Points nearer than this are left out: at such distances it matters that beams start beside the
-/// origin, and no vehicle's lowest beam meets the road nearer.
+/// Points nearer than this are left out: at such distances the beam's start beside the origin
+/// changes the elevation too much. No vehicle's lowest beam meets the road nearer than this.
 constexpr float kNearest_m = 1.0F;
 /// A bin lies in a gap if the fullest bin around it has more than this many times its points.
 constexpr std::uint32_t kGapShare = 50;
-/// Least share of the points in teeth that are narrower than the gaps beside them.
+/// The least share of the points that must lie in teeth narrower than the gaps beside them.
 constexpr double kLeastInTeeth = 0.95;
 
 /// With fewer points in a row on average, the cloud is a curve or a drawing, not a revolution.

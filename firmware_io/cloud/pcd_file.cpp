@@ -23,9 +23,10 @@
 namespace terracut::cloud {
 namespace {
 
-/// Unpacks LZF: literal runs (length - 1 in a byte below 32), and copies of earlier bytes (length -
-/// 2 in the upper three bits, where 7 adds the next byte; distance - 1 in the lower five bits and a
-/// byte). Returns nothing unless the result has exactly `bytes` bytes.
+/// Unpacks LZF. A control byte below 32 is the length - 1 of a run of literal bytes. Any other
+/// control byte describes a copy of earlier bytes: its upper three bits are the length - 2 (7 means
+/// that the next byte is added), its lower five bits and one more byte are the distance - 1.
+/// Returns nothing unless the result has exactly `bytes` bytes.
 std::optional<std::string> lzf_unpacked(std::string_view packed, std::size_t bytes) {
   std::string data;
   data.reserve(bytes);
@@ -87,7 +88,7 @@ class PcdReader {
     char type = '\0';       ///< 'I', 'U' or 'F'.
     std::size_t count = 1;
 
-    /// False for padding (named _) and for fields of several values or none (old PCL wrote those).
+    /// False for padding (named _) and for fields that do not hold exactly one value.
     [[nodiscard]] bool is_kept() const { return count == 1 && name != "_"; }
   };
 
@@ -193,7 +194,7 @@ class PcdReader {
   Status check_header() {
     if (fields_.empty()) return refuse("its header names no FIELDS");
     if (!has_points_ && width_ && height_) {
-      const std::size_t most = scan::kMaxScanPoints + 1;  // limits the product
+      const std::size_t most = scan::kMaxScanPoints + 1;  // keeps the product from overflowing
       points_ = std::min(*width_, most) * std::min(*height_, most);
       has_points_ = true;
     }

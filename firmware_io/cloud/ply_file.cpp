@@ -55,7 +55,7 @@ class PlyReader {
     std::string name;
     char type;
     std::size_t bytes;
-    /// For a list (which is skipped), the type of its length.
+    /// The type of a list's length; set only if the property is a list. Lists are skipped.
     char count_type = '\0';
     std::size_t count_bytes = 0;
 

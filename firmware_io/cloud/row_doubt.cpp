@@ -11,14 +11,14 @@
 namespace terracut::cloud {
 namespace {
 
-/// The points of one sensor lie within 0.1 to 20 cm of the line of their row; those of KITTI's
-/// scans, compensated for motion at speed, within 27 cm. Points of two sensors never come in
-/// KITTI's order.
+/// The points of one sensor lie within 0.1 to 20 cm of the line of their row. The points of KITTI's
+/// scans lie within 27 cm, because they are compensated for the motion of a moving car; KITTI's
+/// scans are always of one sensor.
 constexpr double kWidestRow_m = 0.3, kWidestOfKitti_m = 0.4;
 /// If half of the points lie nearer to their line than noise would put them, the others are not
 /// from a second sensor.
 constexpr double kNoise_m = 0.01;
-/// Beams start up to 0.2 m above the origin (an HDL-64E's).
+/// No sensor's beams start higher than this above its origin; an HDL-64E's start up to 0.2 m above.
 constexpr double kHighestStart_m = 0.5;
 
 double median_start_m(const scan::RingTable& table) {

@@ -24,9 +24,9 @@ using scan::RingRecovery;
 using scan::RingTable;
 using scan::RingTableFit;
 
-/// If two tables explain the points equally well to within this, the one whose beams start at the
-/// origin is taken, as most sensors' beams do: the lowest beams see only near ground, which cannot
-/// tell a start above the origin from an elevation.
+/// If two tables explain the points equally well to within this, the table whose beams start at the
+/// origin is taken. Most sensors' beams do so. The lowest beams see only near ground, which cannot
+/// tell a higher start from a higher elevation.
 constexpr double kAlike_m = 0.01;
 
 Expected<scan::FittedRings> simplest_fit(const RingTableFit& fit, std::size_t lasers) {
@@ -50,7 +50,7 @@ Status check_apart(const scan::FittedRings& rings) {
                           rings.coinciding, rings.with_line));
 }
 
-/// Calls `use` with some of the clouds.
+/// Calls `use` with clouds spread evenly over all of them.
 Status for_some(std::size_t clouds, const ReadCloud& read,
                 const std::function<Status(const CloudView&)>& use) {
   return scan::read_some_scans(clouds, [&](std::size_t index) -> Status {
@@ -210,7 +210,8 @@ Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds, co
 void find_by_place(const NearestRing& nearest, std::span<const scan::ScanPoint> points,
                    std::vector<std::int16_t>& ring_of_point) {
   ring_of_point.resize(points.size());
-  std::ranges::transform(points, ring_of_point.begin(), std::cref(nearest));  // not a copy
+  // std::cref() avoids a copy.
+  std::ranges::transform(points, ring_of_point.begin(), std::cref(nearest));
 }
 
 }  // namespace
@@ -231,7 +232,8 @@ std::string_view description_of(RowSource source) noexcept {
 
 Expected<NumberedLasers> fit_numbered_lasers(std::size_t lasers, std::size_t clouds,
                                              const ReadCloud& name_lasers) {
-  // Far more than noise and motion, far less than a map's frame or wrong numbers cause.
+  // Noise and motion cause much less than this; a map's frame or wrong laser numbers cause much
+  // more.
   constexpr double kWidestCone_m = 1.0;
   LaserElevations elevations(lasers);
   const Status looked = for_some(clouds, name_lasers, [&](const CloudView& cloud) -> Status {

@@ -11,9 +11,10 @@
 namespace terracut::decode {
 namespace {
 
-/// Tolerance for azimuths rounded when sent and heads that rotate unevenly.
+/// The tolerance for heads that rotate unevenly and for azimuths that were rounded when sent.
 constexpr std::int64_t kJitter_ticks = 5 * packet::kTicksPerCdeg;
-/// Most by which gaps differ, by rounding of azimuths, if the sensor's packets begin with its view.
+/// The rounding of azimuths makes the gaps of a sensor differ by at most this if its packets begin
+/// where its view begins.
 constexpr std::int64_t kRounding_ticks = 3 * packet::kTicksPerCdeg;
 
 }  // namespace
@@ -117,10 +118,11 @@ void BlindSector::learn() noexcept {
     common = packet::intersection(
         common, packet::shifted(gaps_[i].head, frames * sector_.revolution_ticks));
   }
-  if (common.ticks() < sector_.once.ticks() + least_ticks()) return;  // known, or not alike
+  // Known already, or the gaps differ.
+  if (common.ticks() < sector_.once.ticks() + least_ticks()) return;
   sector_.once = common;
   earliest_ticks_ = latest_ticks_ = 0;
-  // The caller judges the newest gap.
+  // The loop leaves out the newest gap, which the caller judges.
   for (std::size_t i = 0; i + 1 < gaps_.size(); ++i) {
     if (!std::exchange(gaps_[i].is_pending, false)) continue;
     const Verdict verdict = beside_sector(gaps_[i]);
@@ -153,13 +155,13 @@ void BlindSector::pass(const packet::RotorInterval& swept) noexcept {
     return;
   }
   const packet::RotorInterval blind = sector_.next(swept.from_ticks);
-  // No packet was expected to begin so late before the sector.
+  // This packet begins closer to the sector than any packet was expected to.
   const std::int64_t before_ticks = blind.from_ticks - swept.from_ticks;
   if (before_ticks <= earliest_ticks_ + kRounding_ticks) {
     earliest_ticks_ = before_ticks - kRounding_ticks - 1;
   }
   if (swept.to_ticks <= blind.from_ticks + kJitter_ticks) return;
-  move_to({swept.to_ticks, blind.to_ticks});  // the sector begins later than known
+  move_to({swept.to_ticks, blind.to_ticks});  // the blind sector begins later than was known
   if (sector_.once.ticks() >= least_ticks()) return;
   sector_.once = {};
   gaps_known_ = 0;
@@ -207,7 +209,7 @@ BlindSector::Loss BlindSector::take_due() noexcept {
 std::int64_t BlindSector::next_packet(std::int64_t rotor_ticks) const noexcept {
   if (sector_.is_none()) return rotor_ticks;
   const packet::RotorInterval blind = sector_.next(rotor_ticks);
-  // In earlier frames no packet has begun so late before the sector.
+  // In earlier frames no packet has begun so close to the sector's beginning.
   const bool is_last = rotor_ticks >= blind.from_ticks - earliest_ticks_ - kRounding_ticks;
   return is_last ? blind.to_ticks : rotor_ticks;
 }

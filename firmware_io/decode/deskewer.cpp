@@ -25,7 +25,8 @@ Deskewer::Config checked(const Deskewer::Config& config, std::span<const std::in
   return config;
 }
 
-/// Returns the whole columns from a beam to its head, rounded: at most half a column's time off.
+/// Returns by how many whole columns a beam lags behind its head. Rounding costs at most half a
+/// column's time.
 std::int64_t shift_of(std::int32_t beam_ticks, const Deskewer::Config& config) {
   return std::llround(-static_cast<double>(beam_ticks) * config.shape.columns /
                       static_cast<double>(config.revolution_ticks));
@@ -42,7 +43,7 @@ Deskewer::Deskewer(const Config& config, std::span<const std::int32_t> beam_tick
   const auto head_columns = static_cast<std::size_t>(columns_ + last_shift_ - first_shift_);
   const std::size_t nodes = head_columns / kNodeColumns + 3;
 
-  // Enough for two open frames, and for beams that reach into the next.
+  // The memory holds two open frames, and what beams reach into the next frame.
   instants_ns_ = memory.take<std::int64_t>("deskew", std::bit_ceil(3 * nodes));
   node_ns_ = memory.take<std::int64_t>("deskew", nodes);
   node_poses_ = memory.take<vehicle::PlanarPose>("deskew", nodes);

@@ -109,8 +109,8 @@ frame::HeadSweep FrameBuilder::head_of(const OpenFrame& frame) const noexcept {
 }
 
 bool FrameBuilder::seen_whole(const OpenFrame& frame) const noexcept {
-  // Wire azimuths are rounded, so firings lie off by up to a rounding: three quarters of a step are
-  // not a missing firing yet.
+  // Wire azimuths are rounded, so a firing may lie off by one rounding step: a gap of three
+  // quarters of a firing step does not yet mean a missing firing.
   const std::int64_t slack_ticks = step_ticks_ * 3 / 4;
   const std::int64_t first_ticks = oldest_ * revolution_ticks_ - spread_.foremost_ticks;
   const std::int64_t end_ticks = (oldest_ + 1) * revolution_ticks_ - spread_.hindmost_ticks;

@@ -8,7 +8,8 @@
 namespace terracut::decode {
 namespace {
 
-/// A packet up to this much older than the newest is out of order; if older, the clock has jumped.
+/// A packet older than the newest by up to this is out of order; for an older packet the clock has
+/// jumped.
 constexpr std::int64_t kReorder_us = 20'000;
 /// A longer step of the device clock is a gap only if the host's clock agrees.
 constexpr std::int64_t kOutage_us = 1'000'000;
@@ -16,7 +17,8 @@ constexpr std::int64_t kOutage_us = 1'000'000;
 constexpr std::int64_t kLongestOutage_us = 86'400'000'000;
 /// The caller is told of missing packets in a gap wider than this even if the period is not known.
 constexpr std::int64_t kWide_ticks = packet::kRevolution_ticks / 90;
-/// Azimuth is counted up to here, years of a rotating head; then the count begins again.
+/// The azimuth is counted on from revolution to revolution up to this limit, which a head reaches
+/// after years; then the count begins again.
 constexpr std::int64_t kFarthest_cdeg = 100'000'000'000'000;
 /// The head may be this far from where time and speed predict it, plus an eighth of its rotation
 /// since.
@@ -40,8 +42,8 @@ std::int64_t host_step_us(std::int64_t from_ns, std::int64_t to_ns) noexcept {
          1000;
 }
 
-/// True if a gap lasted as long by the host's clock as by the device's, or if the host's does not
-/// tell.
+/// True if a gap lasted as long by the host's clock as by the device's, or if the host's clock
+/// cannot tell.
 bool takes_its_time(std::int64_t step_us, std::int64_t host_us) noexcept {
   return step_us <= kReorder_us || host_us <= 0 || 4 * host_us >= step_us;
 }
@@ -110,7 +112,8 @@ Placement StreamTracker::doubt(const packet::PacketAzimuths& azimuths, std::int6
                           step_us <= kOutage_us &&
                           takes_its_time(step_us, host_step_us(doubtful_.host_ns, host_stamp_ns));
   const auto rotor_cdeg = may_follow ? head_after(doubtful_, azimuths) : std::nullopt;
-  // A blind sector may lie between the two; but after more than a revolution any angle would fit.
+  // A blind sector may lie between the doubtful packet and this one; but after more than a
+  // revolution any angle would fit.
   const bool agrees = rotor_cdeg && *rotor_cdeg - doubtful_.rotor_cdeg <= beams::kRevolution_cdeg;
   const std::int64_t in_doubt_cdeg = agrees ? *rotor_cdeg : azimuths.first_cdeg();
   if (!agrees || step_us >= 0) {
@@ -166,7 +169,8 @@ Placement StreamTracker::follow(const packet::PacketAzimuths& azimuths, std::int
       placed.missing = missing;
       return placed;
     }
-    // With packets in doubt it may be another stream that passes where this one stood.
+    // While packets are in doubt, this packet may come from another stream whose head happens to
+    // pass where the first one stood.
     const bool only_the_clock_was_set = keeps_rotating && doubtful_packets_ == 0;
     if (!only_the_clock_was_set)
       return {Arrival::kRejected, frame::Reject::kClockJump, 0, 0, 0, false};

@@ -25,9 +25,9 @@ constexpr float kTanOfSixteenth = 0.41421356F;  // tan(pi / 8), a sixteenth of a
   return t - t * u * sum;
 }
 
-/// Has no branches, so that the compiler vectorises the loop: it selects between values, not
-/// between operations, which it may not execute twice where they could trap. Folds the direction's
-/// eighth of a revolution onto the first eighth, and that onto its lower half.
+/// Folds each direction onto the first eighth of a revolution, then onto the lower half of that
+/// eighth. The loop has no branches, so that the compiler vectorises it: each condition selects
+/// between two values that are already computed.
 TERRACUT_VECTOR_CLONES void find_all(const CloudPoint* __restrict points, std::size_t count,
                                      float* __restrict azimuths_rad) noexcept {
   for (std::size_t i = 0; i < count; ++i) {

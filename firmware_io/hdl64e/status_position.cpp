@@ -10,13 +10,15 @@
 namespace terracut::hdl64e {
 namespace {
 
-// Limits around the period of any return mode. 17 packets never fit below the longest, so packets
-// adjacent by place and less than that apart are neighbours.
+// The packet period of every return mode lies between these limits. A packet and the one that is 17
+// packets later have adjacent places in the cycle of 16 as well, but they are farther apart in time
+// than the longest period.
 constexpr std::int64_t kShortestPeriod_us = 100;
 constexpr std::int64_t kLongestPeriod_us = 1000;
 
-// The longest gap across which the cycle is certain: the period may be off by 1 in 288 (one pair of
-// stamps in whole microseconds), and letters tell a number only modulo 16.
+// The longest gap across which a packet's cycle is certain. Letters tell a number only modulo 16,
+// and the period may be wrong by 1 in 288 when it is known from one pair of stamps in whole
+// microseconds.
 constexpr std::int64_t kLongestGap_packets = 896;
 constexpr std::int64_t kDriftPerPackets = 128;
 constexpr std::int64_t kLongestReorder_packets = 64;

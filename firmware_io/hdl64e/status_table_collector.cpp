@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::string_view kBeginning = "UNIT#";
 
-// A laser's entry has its number and 20 bytes, 28 bytes apart, after the first group.
+// A laser's entry has 21 bytes: its number and 20 others. Entries are 28 bytes apart and begin
+// after the first group of 7 bytes.
 constexpr std::size_t kLasers = 64;
 constexpr std::size_t kFirstLaserAt = 7;
 constexpr std::size_t kLaserStride = 28;
@@ -97,7 +98,8 @@ void StatusTableCollector::add(std::int64_t cycle, int place, std::uint8_t value
   const bool moved = begins && anchor_ != kNoAnchor && row != anchor_;
   const bool lost = row == anchor_ && !begins;
   if (moved || lost) {
-    // Cycles were miscounted (the gap was longer than the stamps told): older bytes are misplaced.
+    // The cycles were miscounted because a gap was longer than the stamps told, so the bytes
+    // collected before the gap are in wrong places.
     clear();
     return;
   }

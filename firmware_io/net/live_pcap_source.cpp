@@ -175,7 +175,8 @@ std::size_t LivePcapSource::read_batch() noexcept {
     source.take({data, header->caplen}, std::int64_t{header->ts.tv_sec} * 1'000'000'000 +
                                             header->ts.tv_usec * source.stamp_unit_ns_);
   };
-  // pcap_setnonblock() makes it return at once; its buffers are those of pcap_activate().
+  // pcap_setnonblock() makes this call return at once. Its buffers were allocated by
+  // pcap_activate().
   const int result = threads::trusted_call([&]() noexcept {
     return ::pcap_dispatch(handle_.get(), static_cast<int>(config_.batch), on_frame,
                            reinterpret_cast<unsigned char*>(this));
@@ -184,7 +185,7 @@ std::size_t LivePcapSource::read_batch() noexcept {
   if (result < 0) {
     ++counters_.receive_errors;
     refresh_drops();
-    // Nothing comes from this handle any more; look_after() opens it again.
+    // This handle delivers no more packets; look_after() opens the interface again.
     threads::trusted_call([this]() noexcept { handle_.reset(); });
   }
   counters_.delivered += kept_;
@@ -229,7 +230,8 @@ void LivePcapSource::look_after(std::int64_t now_ns) noexcept {
   link_ = now.state;
   if (now.state == LinkState::kGone) return;
   if (handle_ && now.index == interface_index_) return;
-  // libpcap allocates what it opens; nothing can come meanwhile, so no time is lost.
+  // Opening the interface makes libpcap allocate memory. This delays nothing: no packet can arrive
+  // before the interface is open.
   threads::trusted_call([this]() noexcept {
     handle_.reset();
     if (auto handle = activate(config_)) {

@@ -33,7 +33,8 @@ InterfaceStatus interface_status(int socket, const std::string& name) noexcept {
   static_assert(kInterfaceNameLength == IFNAMSIZ - 1);
   ifreq request{};
   std::copy_n(name.data(), std::min(name.size(), kInterfaceNameLength), request.ifr_name);
-  // The kernel answers from its table, and is asked only when nothing came, so no time is lost.
+  // The kernel answers from its table without waiting, and it is asked only while no packet is
+  // there to be read.
   const auto ask = [&](unsigned long what) noexcept {
     return threads::trusted_call([&]() noexcept { return ::ioctl(socket, what, &request); }) == 0;
   };

@@ -130,7 +130,8 @@ void PacketRing::copy_to(PacketWindow& window) const noexcept {
   window.payload_bytes_ = 0;
   window.overwritten_ = 0;
   std::size_t free_word = 0;
-  const auto start_again = [&] {  // begins after a gap, which would look like lost packets
+  // Drops what was copied: a gap inside the window would look like lost packets.
+  const auto start_again = [&] {
     window.overwritten_ += window.datagrams_ + 1;
     window.datagrams_ = 0;
     window.payload_bytes_ = 0;

@@ -114,14 +114,15 @@ tl::expected<UdpSource::Socket, UdpSource::Failure> UdpSource::open_socket(
   const int descriptor = socket.descriptor.get();
   const int on = 1, off = 0;
 
-  // All settings of what the socket receives come before bind(), which starts it.
+  // All options that decide what the socket receives are set before bind(), which starts reception.
   socket.buffer = request_receive_buffer(descriptor, config.receive_buffer_bytes);
   if (!set_option(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, on) ||
       !set_option(descriptor, SOL_SOCKET, SO_RXQ_OVFL, on) ||
       !set_option(descriptor, IPPROTO_IP, IP_PKTINFO, on)) {
     return failed(Step::kSocket);
   }
-  // Otherwise the socket gets every group that any program of this machine has joined.
+  // Without this option the socket receives every multicast group that any program of this machine
+  // has joined.
   set_option(descriptor, IPPROTO_IP, IP_MULTICAST_ALL, off);
   if (config.share_port) set_option(descriptor, SOL_SOCKET, SO_REUSEADDR, on);
 
@@ -130,8 +131,8 @@ tl::expected<UdpSource::Socket, UdpSource::Failure> UdpSource::open_socket(
     socket.bound_to_interface =
         ::setsockopt(descriptor, SOL_SOCKET, SO_BINDTODEVICE, config.interface.c_str(),
                      static_cast<socklen_t>(config.interface.size() + 1)) == 0;
-    // If the process may not do that, in_pktinfo tells each datagram's interface. Binding to the
-    // interface's address instead would shut out broadcasts.
+    // A process that may not bind to an interface reads each datagram's interface from in_pktinfo.
+    // Binding to the interface's address instead would shut out broadcasts.
     if (!socket.bound_to_interface && errno != EPERM) return failed(Step::kInterface);
   }
   const sockaddr_in address = socket_address(config.bind);
@@ -237,7 +238,8 @@ std::size_t UdpSource::read_batch() noexcept {
   prepare(count);
   counters_.received += count;
   counters_.delivered += kept;
-  // More may wait, and others may have been dropped since these: their drop counts are out of date.
+  // The batch was full: more datagrams may be waiting, and the kernel may have dropped others since
+  // it counted the drops of these.
   if (count == messages_.size()) refresh_drops();
   return kept;
 }

@@ -43,7 +43,8 @@ SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
     return block.id.value() == hdl64e::kUpperBlockId;
   });
   if (are_upper) return product(packet.status_value);
-  // In dual return the two returns of a block are adjacent.
+  // In dual return mode the two returns of a block are adjacent, so each block id occurs twice in a
+  // row.
   const bool is_single = packet.blocks[1].id.value() == hdl64e::kLowerBlockId &&
                          packet.blocks[2].id.value() == hdl64e::kVls128ThirdId;
   const bool is_dual = packet.blocks[2].id.value() == hdl64e::kLowerBlockId &&

@@ -73,8 +73,8 @@ tl::expected<LinkPayload, FrameReject> after_ether_type(Bytes frame,
   return payload;
 }
 
-/// Skips the address family: NULL has it in the capturing machine's byte order, LOOP in the
-/// network's.
+/// Skips the address family, which links of type NULL hold in the capturing machine's byte order
+/// and links of type LOOP in network byte order.
 tl::expected<LinkPayload, FrameReject> after_family(Bytes frame) noexcept {
   if (frame.size() < 4) return Rejected(FrameReject::kShortCapture);
   const std::uint32_t big = big_u32(frame, 0);

@@ -54,7 +54,7 @@ void Ruby128Sensor::begin_packet(const packet::PacketAzimuths& azimuths) noexcep
 void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload, std::size_t column,
                                 const Returns& found) noexcept {
   const auto* packet = packet_in(payload);
-  if (packet == nullptr) return;  // never after check()
+  if (packet == nullptr) return;  // check() has ruled this out
   packet::split_returns(&packet->blocks[column].returns[0].distance.bytes[0],
                         packet::ByteOrder::kBig, found.raw, &found.intensity[0]);
 }

@@ -18,7 +18,8 @@ std::uint32_t sub_second(std::span<const std::uint8_t, 10> bytes) noexcept {
          std::uint32_t{bytes[8]} << 8 | std::uint32_t{bytes[9]};
 }
 
-/// Returns the lower 33 bits of the six bytes of seconds, so that nanoseconds fit into 63.
+/// Returns the lower 33 bits of the six bytes of seconds, so that the time in nanoseconds fits into
+/// 63 bits.
 std::int64_t seconds(std::span<const std::uint8_t, 10> bytes) noexcept {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < 6; ++i) value = value << 8 | bytes[i];
@@ -35,7 +36,7 @@ std::int64_t calendar_ns(std::span<const std::uint8_t, 10> bytes) noexcept {
                             hours{bytes[3]} + minutes{bytes[4]} + std::chrono::seconds{bytes[5]} +
                             milliseconds{bytes[6] << 8 | bytes[7]} +
                             microseconds{bytes[8] << 8 | bytes[9]};
-  // The limit: 64 bits of nanoseconds end in 2262.
+  // A later time would overflow: 64 bits of nanoseconds end in the year 2262.
   constexpr std::int64_t kLatest_us = std::numeric_limits<std::int64_t>::max() / 1000;
   return std::clamp<std::int64_t>(time.count(), 0, kLatest_us) * 1000;
 }
@@ -114,9 +115,10 @@ RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp
   last_sub_second_ = fraction;
   has_last_ = true;
   if (!has_before || fraction <= before) return encoding_;
-  // Packets are 55 to 167 microseconds apart, or a thousand times as many nanoseconds. A step below
-  // the shortest in nanoseconds proves microseconds. A longer one means nanoseconds, which soon
-  // show a value of a million, or microseconds with a gap of hundreds of packets.
+  // Packets are 55 to 167 microseconds apart, so the field grows by 55 to 167 if it counts
+  // microseconds, or by a thousand times as much if it counts nanoseconds. A step below 50,000
+  // proves microseconds. A longer step means nanoseconds, whose values soon exceed a million, or
+  // microseconds with hundreds of packets missing.
   constexpr std::uint32_t kShortestPacket_ns = 50'000;
   if (fraction - before < kShortestPacket_ns) return finalize(RubyTimestamp::kUtcMicroseconds);
   return encoding_ = RubyTimestamp::kUtcNanoseconds;

@@ -17,15 +17,16 @@ namespace terracut::scan {
 namespace {
 
 constexpr double kHalfRevolution_rad = std::numbers::pi;
-constexpr double kJitter_rad = std::numbers::pi / 18;  // steps back over the seam, see the header
-/// A fall of the azimuth too large for jitter: recorded rings fall by 10 degrees at most. It ends a
-/// ring of a cropped view, which need not reach past straight ahead.
+constexpr double kJitter_rad = std::numbers::pi / 18;  // see split_into_rings()
+/// The azimuth must fall by more than this to begin a new ring of a cropped view, which may hold
+/// nothing straight ahead. Jitter within recorded rings makes it fall by 10 degrees at most.
 constexpr double kCroppedFall_rad = std::numbers::pi / 9;
 constexpr int kMaxSegments = 4 * kScanRings;
-constexpr std::size_t kMinFirstRingPoints = 8;  // fewer before the first crossing are its jitter
+// If fewer points come before the first crossing, they belong to the next ring.
+constexpr std::size_t kMinFirstRingPoints = 8;
 
-/// Counts the rings of a file: how often the azimuth falls by more than `fall_rad`. With half a
-/// revolution it counts the passes of straight ahead.
+/// Counts the rings of a file: how often the azimuth falls by more than `fall_rad`. If `fall_rad`
+/// is half a revolution, this counts how often the azimuth passes straight ahead.
 class FallCounter {
  public:
   explicit FallCounter(double fall_rad) : fall_rad_(fall_rad) {}
@@ -61,8 +62,8 @@ class Directions {
     const auto bin = static_cast<std::size_t>(azimuth_rad(point.x_m, point.y_m) * kPerRad);
     seen_.set(std::min(bin, kBins - 1));
   }
-  /// True if the directions of two segments overlap little, like the halves of a ring torn by
-  /// jitter: a laser sees each direction once in a revolution.
+  /// True if the directions of two segments overlap little, as those of two parts of one ring that
+  /// jitter has torn: a laser sees each direction once in a revolution.
   [[nodiscard]] bool may_be_of_one_laser(const Directions& other) const {
     return 4 * (seen_ & other.seen_).count() < std::min(seen_.count(), other.seen_.count());
   }
@@ -72,15 +73,17 @@ class Directions {
   std::bitset<kBins> seen_;
 };
 
-/// The cost of taking a segment for a ring: the angle between the ring's line and the median of the
-/// segment's points. Motion compensation moves near points by degrees, but to both sides alike.
+/// The cost of assigning a segment to a ring: the angle between the ring's line and the median of
+/// the segment's points. Motion compensation moves near points by degrees, but equally many up and
+/// down, so the median stays.
 class AlignmentCost {
  public:
   static constexpr double kCap_rad = 0.02;
-  static constexpr double kTorn_rad = 0.001;  // two segments from one laser are possible, but rare
-  /// Makes two lasers in one row cost more than moving all others by a row.
+  static constexpr double kTorn_rad = 0.001;  // one ring torn in two is possible, but rare
+  /// Giving two lasers the same ring costs more than moving all others by a ring.
   static constexpr double kSameDirections_rad = kScanRings * kCap_rad;
-  /// Two returns at the slowest spin rate; more points are of several lasers.
+  /// The most points that one laser gives in a revolution: two returns for each of 4167 firings at
+  /// the slowest spin rate. A segment with more points mixes several lasers.
   static constexpr std::size_t kMostPoints = std::size_t{2} * 4167;
 
   AlignmentCost(std::span<const ScanPoint> points, const RingRecovery& split)

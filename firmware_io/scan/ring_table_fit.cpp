@@ -15,9 +15,9 @@
 namespace terracut::scan {
 namespace {
 
-// The spread of a compensated point about the true line, in horizontal distance (half a revolution
-// at some 10 m/s) and in height (a laser's noise), metres. Only the ratio matters, and only for
-// rings steeper than a few degrees; it was not tuned.
+// How far the motion-compensated points scatter about the true line, in metres: in horizontal
+// distance (half a revolution at some 10 m/s) and in height (a laser's noise). Only the ratio of
+// the two matters, and only for rings steeper than a few degrees. The values were not tuned.
 constexpr double kDistanceError_m = 0.2;
 constexpr double kHeightError_m = 0.01;
 
@@ -64,7 +64,7 @@ void fill_gaps(std::vector<std::optional<RingLine>>& lines) {
     const RingLine a = *lines[static_cast<std::size_t>(above)];
     const RingLine b = *lines[static_cast<std::size_t>(below)];
     const double share = static_cast<double>(ring - above) / (below - above);
-    // Noise may have exchanged the last two.
+    // Noise may have exchanged the last two rings.
     const double fall_rad = (a.elevation_rad - b.elevation_rad) * (below > above ? 1 : -1);
     const double apart_rad = std::max(fall_rad, kMinStep_rad) * (below > above ? -1 : 1);
     double elevation_rad = a.elevation_rad + share * apart_rad;
@@ -83,7 +83,8 @@ void RingTableFit::add(std::span<const ScanPoint> points,
       continue;
     Ring& ring = rings_[static_cast<std::size_t>(ring_of_point[i])];
     if (ring.seen++ % ring.stride != 0) continue;
-    if (ring.samples.size() == kPointsPerRing) {  // thin out: keep every other one from now on
+    // Keeps every other sample, and samples half as often from now on.
+    if (ring.samples.size() == kPointsPerRing) {
       std::size_t kept = 0;
       for (std::size_t from = 0; from < ring.samples.size(); from += 2) {
         ring.samples[kept++] = ring.samples[from];

@@ -18,8 +18,8 @@ namespace {
 /// Points are processed in blocks that stay in the cache next to the core.
 constexpr std::size_t kBlock = 512;
 
-/// A block's points in the vehicle frame and their cells in the image; any value for points without
-/// a place.
+/// A block's points in the vehicle frame and their cells in the image. Points without a place in
+/// the image have arbitrary values.
 struct Block {
   std::array<float, kBlock> x_m, y_m, z_m, ground_range_m, azimuth_rad;
   std::array<std::int32_t, kBlock> column;

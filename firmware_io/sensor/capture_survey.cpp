@@ -30,7 +30,7 @@ class HeadSurvey {
     if (!reject && azimuths.behind_sector > 0 && !stream_.blind().is_inside(azimuths)) {
       reject = frame::Reject::kAzimuthJump;
     }
-    if (reject && azimuths.columns == 0) return;  // its block ids do not fit after all
+    if (reject && azimuths.columns == 0) return;  // the block ids contradict the model
     if (reject == frame::Reject::kAzimuthOutOfRange) {
       stream_.add_out_of_range();
     } else {

@@ -14,7 +14,7 @@ void Hdl64eSurvey::add(std::span<const std::uint8_t> payload) {
   status_.add(packet->status_type, packet->status_value, packet->stamp_us.value());
   packet::PacketAzimuths azimuths;
   const auto reject = hdl64e::check_hdl64e_packet(payload, azimuths);
-  if (reject && azimuths.columns == 0) return;  // its block ids do not fit after all
+  if (reject && azimuths.columns == 0) return;  // the block ids contradict the model
   if (reject == frame::Reject::kAzimuthOutOfRange) {
     stream_.add_out_of_range();
   } else {

@@ -12,7 +12,7 @@ void Ruby128Survey::add(std::span<const std::uint8_t> payload, std::int64_t stam
   if (packet == nullptr) return;
   packet::PacketAzimuths azimuths;
   auto reject = ruby128::check_ruby128_packet(payload, azimuths);
-  if (reject && azimuths.columns == 0) return;  // its block ids do not fit after all
+  if (reject && azimuths.columns == 0) return;  // the block ids contradict the model
   const bool may_have_sector =
       reject == frame::Reject::kAzimuthJump && ruby128::read_across_sector(azimuths, step_ticks_);
   if (may_have_sector && stream_.blind().is_inside(azimuths)) reject.reset();

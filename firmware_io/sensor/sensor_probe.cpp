@@ -18,11 +18,11 @@ namespace {
 constexpr std::uint64_t kEnoughPackets = 50;
 /// A longer step between packets is a gap, across which the head's rotation is unknown.
 constexpr std::int64_t kLongestStep_us = 5'000;
-/// Sensors keep their set spin rate to a percent or two, but KITTI's runs at 9.65 Hz.
+/// Sensors keep to their set spin rate within 2 %, but KITTI's sensor runs at 9.65 Hz.
 constexpr double kNominalTolerance = 0.03;
 
-/// Returns the firing period. An HDL-64E fires every 48 us or, in dual return and always on some
-/// S3, every 57.6 us.
+/// Returns the firing period. An HDL-64E fires every 48 us; in dual return mode, and some S3 units
+/// in every mode, every 57.6 us.
 double firing_s(SensorModel model, bool fires_slowly) {
   if (model == SensorModel::kRuby128) return ruby128::kRubyBlock_ns * 1e-9;
   if (const auto* layout = velodyne::layout_of(model)) return layout->firing_ns * 1e-9;
@@ -30,7 +30,8 @@ double firing_s(SensorModel model, bool fires_slowly) {
   return (fires_slowly ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48).column_ns * 1e-9;
 }
 
-/// True if a step between adjacent packets is nearer to the 57.6 us cycle.
+/// True if a step between adjacent packets is closer to that of a 57.6 us firing period than to
+/// that of 48 us.
 bool is_slow_step(std::int64_t step_us) {
   constexpr std::int64_t kBetween_ns =
       (hdl64e::kFiringTimesSingle48.packet_ns() + hdl64e::kFiringTimesSingle57.packet_ns()) / 2;
@@ -38,8 +39,8 @@ bool is_slow_step(std::int64_t step_us) {
   return step_us * 1000 > kBetween_ns && step_us * 1000 < kLongest_ns;
 }
 
-/// Returns the spin rate of a head seen to rotate at this rate; no sensor rotates slower than 5 Hz
-/// or faster than 20.
+/// Returns the nominal spin rate near `seen_hz`, or else `seen_hz` itself; nothing outside 5 to 20
+/// Hz, because no sensor rotates slower or faster.
 std::optional<double> head_spin_hz(double seen_hz) {
   for (const double nominal_hz : {5.0, 10.0, 15.0, 20.0}) {
     if (std::abs(seen_hz - nominal_hz) < kNominalTolerance * nominal_hz) return nominal_hz;

@@ -105,7 +105,8 @@ bool StreamSurvey::follow(const packet::PacketAzimuths& azimuths, std::int64_t s
   const bool is_wide = gap.ticks() >= blind_.least_ticks();
   if (is_wide || seen_->has_sector) {
     std::int64_t missing = std::max(0LL, std::llround(static_cast<double>(step_us) / one_us) - 1);
-    if (seen_->has_sector) {  // its time is in the step; the loss behind it is in the gap
+    // The step's time includes the blind sector, but the gap begins behind it.
+    if (seen_->has_sector) {
       missing = std::min(missing, (gap.ticks() + azimuths.pace_ticks / 2) / azimuths.pace_ticks);
     }
     lost_in_gaps_ += is_wide ? blind_.judge(gap, missing, not_rotating_, stride).packets : missing;

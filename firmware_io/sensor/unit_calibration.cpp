@@ -23,7 +23,7 @@ using capture::PcapSource;
 
 // --- HDL-64E: the table in the status stream ---
 
-/// A table takes 4160 packets, and S2 units need two equal rounds; the rest is for losses.
+/// A table takes 4160 packets, and S2 units must send it twice; the other packets allow for losses.
 constexpr std::uint64_t kPacketsToSearch = 30'000;
 
 /// What the search for a table in the stream met.
@@ -44,7 +44,8 @@ StreamSearch search_status_stream(PcapSource& source) {
     if (!next) search.broke_off = next.error().message;
     if (!next || !*next) break;
     const auto reject = hdl64e::check_hdl64e_packet((*next)->payload, azimuths);
-    if (reject && *reject != frame::Reject::kStationary) continue;  // a standing head still talks
+    // A head at rest still sends its table.
+    if (reject && *reject != frame::Reject::kStationary) continue;
     const auto* packet = hdl64e::packet_in((*next)->payload);
     if (packet == nullptr) continue;
     ++search.data_packets;
@@ -84,7 +85,7 @@ Expected<calib::SensorCalibration> from_packets_of_hdl64e(PcapSource& source) {
 
 // --- RS-Ruby128: the angles in DIFOP ---
 
-/// DIFOP comes about once a second, among 6000 data packets (12000 in dual return).
+/// A DIFOP packet comes about once a second, after 6000 data packets (12000 in dual return mode).
 constexpr std::uint64_t kDatagramsToSearch = 60'000;
 
 Expected<ruby128::Ruby128Calibration> search_difop(PcapSource& source) {

@@ -21,7 +21,7 @@ struct Known {
   std::size_t number;
   std::string_view of;
 };
-/// From the makers' factory settings and manuals.
+/// The ports that lidar makers name in their factory settings and manuals.
 constexpr Known kPorts[] = {{7502, "Ouster"},
                             {7503, "Ouster (its IMU)"},
                             {6699, "RoboSense"},

@@ -17,7 +17,7 @@
 namespace terracut::streams {
 namespace {
 
-/// Any other sensor at the same port shows within this time after the first.
+/// Any other sensor at the same port has sent a packet within this time after the first sensor's.
 constexpr std::int64_t kAnotherShows_ns = 300'000'000;
 /// A rotating sensor sends its calibration within this time, if at all; an HDL-64E takes 1.2 s.
 constexpr std::int64_t kCalibrationComes_ns = 6'000'000'000;

@@ -42,7 +42,8 @@ std::uint64_t HeardSenders::Sender::data_packets() const {
 std::vector<SensorStream> HeardSenders::Sender::sensors_of(sensor::SensorModel model) const {
   std::vector<SensorStream> all = streams.at(model).sensors();
   drop_strays(all);
-  if (all.size() == 1) all.front().source_port.reset();  // there is none to tell it from
+  // A single sensor needs no port to be told apart.
+  if (all.size() == 1) all.front().source_port.reset();
   return all;
 }
 
@@ -122,7 +123,8 @@ std::vector<SensorStream> HeardSenders::steady() const {
 }
 
 bool HeardSenders::has_told(const SensorStream& sensor) const {
-  if (sensor::has_factory_table(sensor.model)) return true;  // it is known without
+  // Its calibration is known without a packet.
+  if (sensor::has_factory_table(sensor.model)) return true;
   const Sender& sender = senders_.at(sensor.source_address);
   return sensor.model == sensor::SensorModel::kRuby128 ? sender.ruby128_device.has_calibration()
                                                        : sender.hdl64e_status.has_table();
@@ -138,7 +140,8 @@ std::string HeardSenders::describe(const Sender& sender) const {
     return fmt::format("{}, whose head does not rotate,", to_string(model));
   }
   if (std::string models = sender.probe.foreign_models(); !models.empty()) return models;
-  // The first of the votes are unknown ones, if there are any; else all that came tells of devices.
+  // votes() is ordered by model: datagrams of unknown kinds come first, if there are any. Otherwise
+  // only device packets came.
   const auto [model, datagrams] = *sender.probe.votes().begin();
   return model == sensor::SensorModel::kUnknown
              ? fmt::format("{} datagrams of no sensor known here, {},", datagrams,
@@ -176,8 +179,8 @@ std::string HeardSenders::others() const {
 
 HeardCapture hear_beginning(capture::PcapSource& source,
                             std::optional<sensor::SensorModel> wanted) {
-  // Enough for a stream that begins with other packets, and to measure the spin rate: about a
-  // second.
+  // About a second of datagrams: enough to measure the spin rate, and for a stream that begins with
+  // other packets.
   constexpr int kMostDatagrams = 6'000;
   HeardCapture heard{.senders = HeardSenders(wanted), .broke_off = {}};
   for (int i = 0; i < kMostDatagrams; ++i) {

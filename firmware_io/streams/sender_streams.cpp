@@ -14,7 +14,7 @@
 namespace terracut::streams {
 namespace {
 
-constexpr std::uint64_t kNoChance = 5;  ///< So many contradictions cannot be reordered packets.
+constexpr std::uint64_t kNoChance = 5;  ///< Reordered packets never cause so many contradictions.
 constexpr std::size_t kMostSources = 16;
 constexpr std::int64_t kLongestStep_us = 10'000'000;
 
@@ -52,7 +52,7 @@ void SenderStreams::Sources::add(std::uint64_t mark, std::optional<bool> contrad
 }
 
 bool SenderStreams::Sources::tell_apart() const {
-  // If each packet has a port of its own, a port cannot identify a sensor.
+  // If each packet comes from another port, ports cannot identify sensors.
   return packets.size() < kMostSources && turns.are_of_several();
 }
 

@@ -17,11 +17,11 @@
 namespace terracut::streams {
 namespace {
 
-/// By which sensors are told apart; the first ones rather than the later ones.
+/// The properties that can tell sensors apart; earlier ones are preferred to later ones.
 enum class Mark : unsigned { kAddress, kPort, kTo, kVlan, kModel, kSourcePort, kMac, kCount };
 constexpr unsigned kMarks = static_cast<unsigned>(Mark::kCount);
 
-/// A set of marks, by their bits.
+/// A set of marks: bit i is set if it holds the mark of number i.
 using Marks = unsigned;
 constexpr Marks kAll = (1U << kMarks) - 1;
 constexpr Marks set_of(std::initializer_list<Mark> marks) {
@@ -29,7 +29,7 @@ constexpr Marks set_of(std::initializer_list<Mark> marks) {
   for (const Mark mark : marks) set |= 1U << static_cast<unsigned>(mark);
   return set;
 }
-/// `live` has no other options, and opens one port.
+/// The marks that the options of the command `live` can state; `live` opens a single port.
 constexpr Marks kOfLive = set_of({Mark::kAddress, Mark::kTo, Mark::kModel, Mark::kSourcePort});
 constexpr bool has(Marks marks, Mark mark) {
   return (marks >> static_cast<unsigned>(mark) & 1U) != 0;
@@ -58,7 +58,7 @@ bool tell_apart(Marks marks, std::span<const SensorStream> sensors) {
   return true;
 }
 
-/// The fewest of `all` that do; all where these do not.
+/// Returns the smallest subset of `all` that tells the sensors apart; `all` if no subset does.
 Marks telling_marks(Marks all, std::span<const SensorStream> sensors) {
   Marks best = all;
   for (Marks marks = all; marks > 0; marks = (marks - 1) & all) {

@@ -129,7 +129,7 @@ std::optional<DbcSignal> signal_from(LineReader line) {
   signal.bit_count = *count;
   signal.factor = *factor;
   signal.offset = *offset;
-  // The least and most value are only what the file's makers expected; they are not used.
+  // The file's makers state the least and the most value that they expect; these are not used.
   if (!line.symbol('[') || !line.number() || !line.symbol('|') || !line.number() ||
       !line.symbol(']')) {
     return std::nullopt;
@@ -207,7 +207,7 @@ class Parser {
   Status read_value_type(LineReader reader, int line) {
     const auto id = reader.whole<std::uint32_t>();
     const auto name = reader.name();
-    reader.symbol(':');  // which some writers leave out
+    reader.symbol(':');  // some writers leave the colon out
     const auto type = reader.whole<int>();
     if (!id || !name || !type || *type < 0 || *type > 2) {
       return malformed(line, "a value type has to read SIG_VALTYPE_ number NAME : 0, 1 or 2;");
@@ -226,8 +226,8 @@ class Parser {
   std::map<std::pair<std::uint32_t, std::string>, DbcNumber> value_types_;
 };
 
-/// Returns the end of the line that begins at `begin`. It is not inside quotation marks; a
-/// backslash before a mark makes that part of the text.
+/// Returns the end of the line that begins at `begin`. A line end between quotation marks does not
+/// count, and a quotation mark after a backslash is part of the quoted text.
 std::size_t end_of_line(std::string_view text, std::size_t begin) {
   bool inside = false;
   for (std::size_t at = begin; at < text.size(); ++at) {

@@ -43,7 +43,7 @@ class EgoMotion::Path {
  public:
   Path(const EgoMotion& motion, std::size_t from) noexcept : motion_(motion), at_(from) {}
 
-  /// Instants must not decrease from call to call.
+  /// `instant_ns` must not decrease from call to call.
   [[nodiscard]] PlanarPose sensor_at(std::int64_t instant_ns) noexcept {
     while (at_ + 1 < motion_.count_ && motion_.kept(at_ + 1).stamp_ns <= instant_ns) {
       at_pose_ = at_pose_ * since_sample(motion_.kept(at_ + 1).stamp_ns);
@@ -102,7 +102,7 @@ EgoMotionCounters EgoMotion::counters() const noexcept {
 
 void EgoMotion::take_new() noexcept {
   MotionSample sample;
-  // Takes only what waits now: a writer that never rests must not keep the reader here.
+  // Takes only the samples that wait now: a writer that keeps adding must not keep the reader here.
   for (std::size_t left = waiting_.size_approx(); left > 0 && waiting_.try_pop(sample); --left) {
     if (const auto newest = newest_ns(); newest && sample.stamp_ns <= *newest) count_ = 0;
     if (count_ == ring_.size()) {
@@ -128,7 +128,7 @@ const MotionSample& EgoMotion::kept(std::size_t number) const noexcept {
 }
 
 std::size_t EgoMotion::last_before(std::int64_t instant_ns) const noexcept {
-  std::size_t low = 0, high = count_;  // kept(low) is at or before it, kept(high) after
+  std::size_t low = 0, high = count_;  // kept(low) is at or before the instant, kept(high) after it
   while (high - low > 1) {
     const std::size_t middle = low + (high - low) / 2;
     (kept(middle).stamp_ns <= instant_ns ? low : high) = middle;
@@ -139,7 +139,7 @@ std::size_t EgoMotion::last_before(std::int64_t instant_ns) const noexcept {
 std::optional<std::size_t> EgoMotion::beginning_of(std::int64_t first_ns,
                                                    std::int64_t last_ns) const noexcept {
   if (count_ == 0) return std::nullopt;
-  const auto apart = [this](std::size_t number) {  // too far from the sample before
+  const auto apart = [this](std::size_t number) {  // the gap before this sample is too long
     return kept(number).stamp_ns - kept(number - 1).stamp_ns > max_age_ns_;
   };
   std::size_t at = last_before(last_ns);

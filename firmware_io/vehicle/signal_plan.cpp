@@ -18,7 +18,7 @@ std::uint64_t intel_bits(const std::uint8_t* bytes, unsigned count, unsigned shi
   std::uint64_t low = 0;
   for (unsigned i = 0; i < std::min(count, 8U); ++i) low |= std::uint64_t{bytes[i]} << 8 * i;
   low >>= shift;
-  // With a ninth byte the shift is not 0.
+  // A number of nine bytes always has a shift above 0, so the shift by (64 - shift) is valid.
   return count == 9 ? low | std::uint64_t{bytes[8]} << (64 - shift) : low;
 }
 

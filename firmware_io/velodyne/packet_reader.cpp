@@ -106,8 +106,8 @@ std::int32_t PacketReader::step_of(const packet::PacketAzimuths& azimuths,
   const int firings = layout_.firings(azimuths.dual_return);
   is_step_guessed_ = false;
   if (firings > 1) return mean_step_ticks(advance_cdeg, firings);
-  // A packet of one firing has no step of its own. It gets the advance since the packet before, if
-  // that came just before, and until then the step at 10 Hz.
+  // A packet of one firing shows no step between firings. The step is the advance since the packet
+  // before if that packet came just before, else the last step; at first, it is the step at 10 Hz.
   const std::int64_t since_us =
       packet::clock_step_us(last_.stamp_us, azimuths.device_stamp_us, kClockWrap_us);
   const bool follows =
@@ -128,7 +128,8 @@ void PacketReader::complete(packet::PacketAzimuths& azimuths) const noexcept {
                              ? azimuths.advance_cdeg(azimuths.columns - 1) * packet::kTicksPerCdeg +
                                    azimuths.step_ticks
                              : azimuths.pace_ticks;
-  // The gap to the next packet must not count as a loss, however fast the head rotates.
+  // While the step is a guess, the sweep is as wide as it can be: otherwise a fast head's gap to
+  // the next packet would count as a loss.
   if (is_step_guessed_) azimuths.sweep_ticks = layout_.most_step_cdeg() * packet::kTicksPerCdeg;
   azimuths.nominal_period_ns = layout_.column_ns * firings;
   azimuths.shortest_period_ns =

@@ -11,9 +11,10 @@
 namespace terracut::mount {
 namespace {
 
-/// Compares two grounds below a sensor at (0, 0, 0), both bent by `bend_per_m`, where they are at
-/// least 0.06 m apart. Returns the number of points on `of` per point on `against`. 0.06 m is twice
-/// the sensor's noise to either side, and what 3.5 degrees of roll make 1 m beside the sensor.
+/// Returns the number of points on the ground `of` per point on the ground `against`, counted only
+/// where the two are at least 0.06 m apart. Both grounds lie below a sensor at (0, 0, 0) and are
+/// bent by `bend_per_m`. 0.06 m is twice the sensor's noise to either side; 3.5 degrees of roll
+/// move the ground by as much at 1 m beside the sensor.
 double support(std::span<const std::array<float, 3>> points, const Mount& of, const Mount& against,
                double bend_per_m) {
   constexpr double kApart_m = 0.06;

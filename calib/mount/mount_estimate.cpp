@@ -21,21 +21,21 @@ namespace {
 constexpr double kNearest_m = 3.0;    ///< Nearer points may be the vehicle itself.
 constexpr double kFarthest_m = 15.0;  ///< Farther points may be on another slope.
 constexpr double kLowest_m = 0.2,
-                 kHighest_m = 6.0;      ///< The heights searched: all that may be stated.
-constexpr double kSteepest_rad = 0.26;  ///< 15 degrees
+                 kHighest_m = 6.0;      ///< The search covers all heights that a user may state.
+constexpr double kSteepest_rad = 0.26;  ///< 15 degrees.
 constexpr double kReach_m = 0.10;       ///< Half thickness of the ground in the search.
 constexpr double kLeastShare = 0.2;     ///< Least share of points within that thickness.
-/// An RS-Ruby128 3 m up sees about 250 points of the strip.
+/// The least number of points in the strip; an RS-Ruby128 3 m above the ground sees about 250.
 constexpr std::size_t kLeastPoints = 150;
-/// Number of random planes tried. With so many, a plane that holds 20 % of the points is found in
-/// 98 % of frames.
+/// Number of random planes tried. This many find a plane that holds 20 % of the points in 98 % of
+/// frames.
 constexpr int kCandidates = 500;
 constexpr int kMaxRefinements = 50;
 constexpr std::size_t kLeastInliers = 50;
 constexpr double kReachPerRms = 2.0;
 constexpr double kLeastReach_m = 0.03;  ///< The sensor's own noise.
 
-/// Points are thinned to this many a cell: ground counts by area, not by how densely it is seen.
+/// Points are thinned to kMostInCell a cell: ground counts by area, not by how densely it is seen.
 constexpr double kCell_m = 0.5;
 constexpr int kMostInCell = 8;
 
@@ -43,9 +43,9 @@ constexpr int kMostInCell = 8;
 /// share one error.
 constexpr double kPatch_m = 3.0;
 
-/// Expected size of the road's bend, in z = bend x^2, where a slope begins: a radius of 170 m.
+/// The expected size of the road's bend, in z = bend x^2, where a slope begins: a radius of 170 m.
 /// Where only one ring meets the ground, bend and height cannot be told apart; this prior keeps
-/// both from running away, and the uncertainty shows it.
+/// both finite, and the reported uncertainty grows.
 constexpr double kUsualBend_per_m = 0.003;
 constexpr double kUsualUnevenness_m = 0.02;
 

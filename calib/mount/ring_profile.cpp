@@ -37,7 +37,8 @@ double nearest_ground_m(double elevation_rad, double origin_height_m, const Moun
 }
 
 /// Makes the ring of a beam that starts `origin_height_m` above the sensor's origin. `past_axis(d)`
-/// converts the horizontal distance d from the beam's start to that from the axis of rotation.
+/// converts the horizontal distance `d` from the beam's start to a distance from the axis of
+/// rotation.
 template <class PastAxis>
 Ring ring_past_axis(double elevation_rad, double origin_height_m, const Mount& mount,
                     double range_limit_m, const PastAxis& past_axis) {

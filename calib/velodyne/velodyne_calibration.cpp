@@ -43,7 +43,7 @@ std::uint64_t fingerprint(const VelodyneCalibration& calibration) {
   const auto mdeg = [](double rad) { return std::llround(beams::rad_to_deg(rad) * 1e3); };
   text::Fnv1a hash;
   constexpr std::int64_t kOfVlp16 = sensor::row_of(sensor::SensorModel::kVlp16).stream_number;
-  // Fingerprints written down earlier number the models from the VLP-16, so this must stay.
+  // Stored fingerprints number the models from the VLP-16 on, so this numbering must not change.
   hash.add(std::int64_t{sensor::row_of(calibration.model).stream_number} - kOfVlp16);
   for (const VelodyneLaser& laser : calibration.lasers) {
     hash.add(mdeg(laser.elevation_rad));

@@ -15,7 +15,7 @@
 namespace terracut {
 namespace {
 
-constexpr std::array<std::size_t, 9> kBytes{0, 1, 1, 2, 2, 4, 4, 4, 8};  // by FieldType
+constexpr std::array<std::size_t, 9> kBytes{0, 1, 1, 2, 2, 4, 4, 4, 8};  // indexed by FieldType
 
 std::size_t bytes_of(FieldType type) noexcept {
   const auto number = static_cast<std::size_t>(type);
@@ -75,7 +75,7 @@ Read check_fields(const PointBuffer& buffer) {
                      fmt::format("field {} has type {}; known are 1 to 8", field.name,
                                  static_cast<int>(field.type)));
     }
-    // Divides instead of multiplying: any of these may be as large as its type allows.
+    // Divides, because a product of these values could overflow.
     const std::size_t count = std::max<std::size_t>(field.count, 1);
     if (field.offset < buffer.point_step && count <= (buffer.point_step - field.offset) / bytes) {
       continue;

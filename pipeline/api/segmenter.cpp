@@ -55,8 +55,8 @@ struct Segmenter::Engine {
     explicit MountOfFirstClouds(const cloud::SensorRows& rows)
         : to_image_(rows, mount::kAtTheSensor, memory_) {}
 
-    /// Whether the cloud shows another mount to label by, now found(). The errors of
-    /// cloud::RowFinder::find().
+    /// Adds a cloud to the search. Returns true if the search now shows a mount, which found()
+    /// returns. Fails as cloud::RowFinder::find() does.
     Expected<bool> look(const cloud::CloudView& view) {
       if (const Status placed = to_image_.place(view); !placed) {
         return tl::unexpected(placed.error());
@@ -72,7 +72,7 @@ struct Segmenter::Engine {
       return found.has_value();
     }
     [[nodiscard]] bool is_done() const noexcept { return is_done_; }
-    /// Returns why there is no mount, as of the last cloud.
+    /// Returns why the clouds so far show no mount.
     [[nodiscard]] const Error& fault() const noexcept { return fault_; }
     [[nodiscard]] const std::optional<mount::FoundMount>& found() const noexcept { return found_; }
 
@@ -105,7 +105,7 @@ struct Segmenter::Engine {
     if (const Status labelled = pipeline->label(view, record); !labelled) {
       return tl::unexpected(labelled.error());
     }
-    // Once, and not before: the view may look into these.
+    // Reserved only now: reserve() may move these buffers, and `view` may point into them.
     cloud.points.reserve(most_points);
     cloud.laser.reserve(most_points);
     return std::span<const Label>(pipeline->point_labels());
@@ -146,12 +146,12 @@ struct Segmenter::Engine {
 
   Config config;
   mount::Mount mount;
-  std::optional<mount::FoundMount> found;          ///< What `mount` is, where it was found.
-  cloud::Cloud cloud;                              ///< What is taken out of drivers' memory.
-  std::optional<cloud::SensorRows> rows;           ///< As the first cloud tells them.
-  std::size_t most_points = 0;                     ///< Of a cloud.
-  std::optional<run::CloudPipeline> pipeline;      ///< From the first cloud on.
-  std::optional<MountOfFirstClouds> first_clouds;  ///< While the mount is looked for.
+  std::optional<mount::FoundMount> found;          ///< The mount found, if one was looked for.
+  cloud::Cloud cloud;                              ///< The points read from a driver's memory.
+  std::optional<cloud::SensorRows> rows;           ///< The rows that the first cloud shows.
+  std::size_t most_points = 0;                     ///< The most points a cloud may have.
+  std::optional<run::CloudPipeline> pipeline;      ///< Set by the first cloud.
+  std::optional<MountOfFirstClouds> first_clouds;  ///< Set while the mount is looked for.
 };
 
 Segmenter::Segmenter(std::unique_ptr<Engine> engine) noexcept : engine_(std::move(engine)) {}

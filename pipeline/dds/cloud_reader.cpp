@@ -8,7 +8,7 @@
 namespace terracut::dds {
 namespace {
 
-/// More clouds than arrive while the taking thread does not run.
+/// The number of clouds kept for the taking thread; fewer arrive while it does not run.
 constexpr int kKeptClouds = 16;
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;

@@ -29,19 +29,20 @@ Expected<int> domain_of(const Participant::Config& config) {
               fmt::format("ROS_DOMAIN_ID is '{}'; expected 0 to {}", named, kMostDomain));
 }
 
-/// Cyclone takes several pieces of configuration separated by commas; later ones win.
+/// Returns the configuration: our part first, then the user's. Cyclone accepts several parts
+/// separated by commas; a later part overrides earlier ones.
 std::string configuration(const Participant::Config& config) {
   const std::string_view users = environment("CYCLONEDDS_URI");
   std::string interface = config.interface;
   if (interface.empty() && environment("ROS_LOCALHOST_ONLY") == "1") interface = "lo";
-  // Interfaces of several pieces add up, and naming one twice is an error.
+  // The interfaces of all parts are used together, and naming one interface twice is an error.
   if (users.find("NetworkInterface") != std::string_view::npos) interface.clear();
   const std::string interfaces =
       interface.empty()
           ? ""
           : fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>", interface);
-  // Writers keep at most their history and never wait for a reader that stands still: others would
-  // wait with it.
+  // WhcHigh is so large that a writer never waits for a reader that has stopped reading: other
+  // readers would wait too. A writer's history bounds its memory.
   const std::string own = fmt::format(
       "<CycloneDDS><Domain id=\"any\">"
       "<General>{}<MaxMessageSize>{}B</MaxMessageSize><FragmentSize>{}B</FragmentSize></General>"

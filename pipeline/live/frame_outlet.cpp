@@ -15,7 +15,7 @@ FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publi
       publisher_(publisher),
       slots_(slots),
       ready_(ready),
-      // The slots count frames that nobody takes any more.
+      // A failure needs no handler: the slots count the frames that nobody takes any more.
       thread_([this] { work(); }, [](std::string_view) {}) {}
 
 bool FrameOutlet::finish(std::chrono::milliseconds patience) {

@@ -35,7 +35,7 @@ std::optional<recorder::FlightRecorder> recorder_of(const LiveConfig& config,
 }
 
 LiveThreads::Config threads_config(const LiveConfig& config, const streams::SensorOnAir& sensor) {
-  constexpr double kSlowest_hz = 5;  // if the sensor has not reported its spin rate
+  constexpr double kSlowest_hz = 5;  // assumed if the sensor has not reported its spin rate
   LiveThreads::Config of_threads = config.threads;
   of_threads.frame_period_ns =
       static_cast<std::int64_t>(1e9 / std::max(sensor.spin_hz, kSlowest_hz));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kLongestWait_ns = 100'000'000;
 
-/// Waits on purpose.
+/// Waits on purpose, so that packets gather and one call receives many of them.
 void gather(std::int64_t time_ns) noexcept {
   threads::trusted_call(
       [&]() noexcept { std::this_thread::sleep_for(std::chrono::nanoseconds(time_ns)); });
@@ -49,7 +49,7 @@ Expected<LiveThreads::Events> LiveThreads::Events::make() {
 
 std::vector<threads::Grant> LiveThreads::start() {
   using Grants = std::vector<threads::Grant>;
-  std::promise<Grants> receive_granted, segment_granted;  // for each thread
+  std::promise<Grants> receive_granted, segment_granted;  // each thread reports what it was granted
   std::future<Grants> receive_grants = receive_granted.get_future();
   std::future<Grants> segment_grants = segment_granted.get_future();
   segment_thread_ = std::jthread([this, granted = std::move(segment_granted)]() mutable {

@@ -17,7 +17,7 @@ namespace {
 constexpr std::int64_t kPatience_ns = 50'000'000;
 constexpr std::chrono::milliseconds kRest{1};
 
-/// Waits on purpose.
+/// Waits on purpose, so that messages gather.
 void rest() noexcept {
   threads::trusted_call([]() noexcept { std::this_thread::sleep_for(kRest); });
 }
@@ -34,7 +34,7 @@ VehicleMotion::~VehicleMotion() {
 }
 
 std::vector<threads::Grant> VehicleMotion::start(int priority) {
-  std::promise<std::vector<threads::Grant>> granted;  // for the thread
+  std::promise<std::vector<threads::Grant>> granted;  // the thread reports what it was granted
   auto grants = granted.get_future();
   thread_ = std::jthread([this, priority, granted = std::move(granted)]() mutable {
     granted.set_value(thread_state_.set_up(thread_request("tc-can", priority, std::nullopt)));

@@ -26,7 +26,8 @@ std::span<const std::uint32_t> Components::operator[](std::uint32_t i) const noe
 
 void Components::find(CutGraph& graph, std::span<const std::uint32_t> cells,
                       std::span<const float> ground_range_m) noexcept {
-  for (CutNode& node : graph.nodes) node.queued = node.side != Side::kFree;  // here: reached
+  // `queued` means reached here.
+  for (CutNode& node : graph.nodes) node.queued = node.side != Side::kFree;
   count_ = 0;
   std::uint32_t end = 0;
   for (std::uint32_t seed = 0; seed < graph.nodes.size(); ++seed) {
@@ -43,8 +44,8 @@ void Components::find(CutGraph& graph, std::span<const std::uint32_t> cells,
           std::min(extent.range_bits, ordered_bits(ground_range_m[cells[nodes_[next]]]));
       for_each_edge(node.edges, [&](int direction) {
         const std::uint32_t neighbour = node.neighbour[static_cast<std::size_t>(direction)];
-        // A branch would be mispredicted: writes the neighbour always and counts it only if it was
-        // not reached.
+        // A branch would be mispredicted. So the loop always writes the neighbour, but counts it
+        // only if it was not reached before.
         bool& reached = graph.nodes[neighbour].queued;
         nodes_[end] = neighbour;
         end += reached ? 0 : 1;

@@ -9,9 +9,9 @@
 namespace terracut::min_cut {
 namespace {
 
-/// Relabels exactly after so much lifting. Exact relabelling visits each arc once, some 8
-/// operations a node; repeating it when lifts have cost four times that was best over the
-/// adversarial families, and never repeating it costs one of them 10-fold.
+/// After lifts have cost this much work, distances are computed exactly again. Such a computation
+/// visits each arc once, about 8 operations a node. Four times that was the best interval over the
+/// adversarial inputs; without exact distances one of them takes 10 times as long.
 constexpr std::int64_t kLiftWorkPerNode = 32;
 
 }  // namespace
@@ -139,8 +139,8 @@ void PushRelabel::lift(std::uint32_t index, std::uint32_t distance) noexcept {
     if (distance != kNoWayToSink) enter_level(index);
     return;
   }
-  // A gap: no node is left at the old distance, so none above it has a path to the sink. All active
-  // nodes are below, as this one was the highest.
+  // There is a gap: no node is left at the old distance, so no node above it has a path to the
+  // sink. No active node is lost, as this one was the highest.
   nodes_[index].distance = kNoWayToSink;
   for (std::uint32_t level = old + 1; level <= levels_; ++level) {
     for (std::uint32_t at = level_first_[level]; at != kEnd; at = level_next_[at]) {

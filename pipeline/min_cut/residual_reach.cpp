@@ -19,7 +19,8 @@ std::uint32_t measure_way_to_sink(CutGraph& graph, std::span<const std::uint32_t
     for_each_edge(node.edges, [&](int direction) {
       const std::uint32_t other = node.neighbour[static_cast<std::size_t>(direction)];
       CutNode& neighbour = graph.nodes[other];
-      // A branch would be mispredicted: writes the neighbour always and counts it only if new.
+      // A branch would be mispredicted. So the loop always writes the neighbour, but counts it only
+      // if it is new.
       const bool is_new = neighbour.distance == kNoWayToSink &&
                           neighbour.residual[static_cast<std::size_t>(opposite(direction))] != 0;
       queue[end] = other;

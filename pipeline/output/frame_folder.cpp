@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Begins the line of a list that names the input of its files. Earlier versions wrote none.
+/// Begins the line of a list that names the input of its files. Earlier versions wrote no such
+/// line.
 constexpr std::string_view kMadeOf = "of: ";
 /// Replaces a line break of a name in a list; a file's name may hold a line break but no slash.
 constexpr char kLineBreak = '/';
@@ -114,7 +115,7 @@ Status FrameFolder::begin() {
   if (!list) return tl::unexpected(list.error());
   std::size_t removed = 0;
   for (const std::string& name : list->names) {
-    // Only names that place() can have listed.
+    // Removes only names that place() can have listed.
     if (!name.ends_with(config_.ending)) continue;
     removed += fs::remove(config_.folder / name, error) ? 1 : 0;
     if (error) return write_failed(config_.folder / name, error);

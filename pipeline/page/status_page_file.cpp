@@ -85,7 +85,7 @@ std::int32_t pid_in(int file) {
   return pid;
 }
 
-/// Renames the finished page into place, where there may be nothing or a dead process's page.
+/// Renames the finished page to `path`, where there may be no file or the page of a dead process.
 Status put_in_place(const std::filesystem::path& made, const std::filesystem::path& path) {
   for (int tries = 0; tries < 100; ++tries) {
     if (::link(made.c_str(), path.c_str()) == 0) {
@@ -93,8 +93,8 @@ Status put_in_place(const std::filesystem::path& made, const std::filesystem::pa
       return {};
     }
     if (errno != EEXIST) return not_written(path, "naming it", errno);
-    // Only the holder of the existing file's lock may replace it: never two processes at once, and
-    // nobody while its publisher lives.
+    // Only the process that locks the existing file may replace it: its publisher holds the lock
+    // while it lives, and two processes cannot hold it at once.
     const files::OwnedDescriptor old(
         ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (!old && errno == ENOENT) continue;
@@ -161,7 +161,7 @@ Expected<StatusPageFile> StatusPageFile::create(const std::filesystem::path& fol
                     "disk; choose one that is, such as /dev/shm");
   }
 
-  // Made under another name first, so that readers never find half a page.
+  // The page is made under another name first, so that readers never find half a page.
   const std::filesystem::path made = folder / ("." + name + ".part-" + std::to_string(::getpid()) +
                                                "-" + std::to_string(measure::realtime_ns()));
   files::OwnedDescriptor file(
@@ -205,13 +205,13 @@ Expected<StatusPageFile> StatusPageFile::open(const std::filesystem::path& folde
                 "could not read the status page " + path.string() + ": " + reason(error_number) +
                     (error_number == ENOENT ? "; nobody publishes under this name" : ""));
   };
-  // O_NONBLOCK: a named pipe there must not make us wait.
+  // O_NONBLOCK keeps open() from waiting if the path is a named pipe.
   files::OwnedDescriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (!file) return unreadable(errno);
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) return unreadable(errno);
 
-  struct Fields {  // the header without its atomic
+  struct Fields {  // the members of StatusPageHeader before its atomic
     std::uint64_t magic;
     std::uint32_t header_bytes;
     std::uint32_t layout;

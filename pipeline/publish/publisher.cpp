@@ -9,8 +9,8 @@
 
 namespace terracut::publish {
 
-/// The queues hold as many frames as the longest has room for; besides, each output has one in
-/// work, and one is being filled.
+/// Returns the number of buffers: as many as the longest queue holds, one that each output works
+/// on, and one that is being filled.
 std::size_t Publisher::buffers_for(const Sinks& sinks) noexcept {
   std::size_t longest = 0;
   for (const auto& sink : sinks) longest = std::max(longest, sink->queue_frames());

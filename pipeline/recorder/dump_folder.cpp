@@ -115,7 +115,7 @@ struct OldDump {
 };
 
 struct Holdings {
-  /// By serial number and name, so the oldest is first.
+  /// Keyed by serial number and name, so that the oldest is first.
   std::map<std::pair<std::uint64_t, std::string>, OldDump> dumps;
   OldDump leftovers;  ///< Temporary files of processes that are gone.
 
@@ -242,7 +242,7 @@ tl::expected<std::filesystem::path, RefusedDump> DumpFolder::make_room(std::uint
     }
     ++deleted_;
   }
-  // Never gives a number again, even if its dump is gone.
+  // Serial numbers are never given again, even if their dump was deleted.
   newest_serial_ = std::max(newest_serial_, held.newest_serial());
   while (true) {
     fs::path capture = folder / fmt::format("{}-{:06}-{}-{}{}", limits_.name, ++newest_serial_,

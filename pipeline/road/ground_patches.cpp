@@ -19,7 +19,7 @@ constexpr float kUnknown_m = std::numeric_limits<float>::quiet_NaN();
 constexpr float kLeastSpacing_m = 0.001F;  // limit close to the sensor
 constexpr auto kMostOver = static_cast<float>(GroundPatches::kMostPatchesOver);
 
-// The loops of the next two have no branches, so that the compiler vectorises them.
+// The loops of the next functions have no branches, so that the compiler vectorises them.
 
 /// Finds the ground of a row, the ground whose neighbours are ground as well (is_bend), and how far
 /// each height departs from the mean of its neighbours', which is valid only with is_bend.
@@ -52,7 +52,7 @@ TERRACUT_VECTOR_CLONES void find_low(const float* range_m, const float* height_m
   }
 }
 
-/// Does patches_over() for many ranges.
+/// Computes what patches_over() returns, for many ranges.
 TERRACUT_VECTOR_CLONES void count_over(float length_m, const float* range_m, std::size_t count,
                                        float spacing_rad, std::int32_t* patches) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -255,10 +255,10 @@ void GroundPatches::collect(const frame::RangeImage& image,
     switch (width) {
       case 5:
         collect_row(row, columns, ColumnsOf<5>(5), patches);
-        break;  // RS-Ruby128, 0.2 deg
+        break;  // the width for an RS-Ruby128 with 0.2 deg steps
       case 6:
         collect_row(row, columns, ColumnsOf<6>(6), patches);
-        break;  // HDL-64E, 10 Hz
+        break;  // the width for an HDL-64E at 10 Hz
       default:
         collect_row(row, columns, ColumnsOf<0>(width), patches);
         break;

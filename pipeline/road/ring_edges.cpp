@@ -11,15 +11,16 @@
 namespace terracut::road {
 namespace {
 
-/// Patches of a ring on one surface have ranges that differ by less.
+/// Patches of a ring lie on one surface if their ranges differ by less than this.
 constexpr float kSameSurface_m = 1.0F;
 /// How far to either side of an edge the ring is checked for an equally steep slope.
 constexpr float kBeside_m = 1.5F;
 constexpr float kNoGround_m = std::numeric_limits<float>::max();
-/// A step in at least this share of the rings, in the same direction, runs through the sensor.
+/// A step that at least this share of the rings shows in the same direction runs through the
+/// sensor.
 constexpr float kMostRings = 0.8F;
-/// The least number of rings for that: fewer may all be near. An HDL-64E on a car has 30 on open
-/// ground.
+/// At least this many rings must have ground on both sides of such a step: fewer rings may all be
+/// near. An HDL-64E on a car has 30 on open ground.
 constexpr float kEnoughRings = 24;
 
 /// The planes of a row, each from its first patch on, with a margin at both ends.
@@ -57,7 +58,7 @@ TERRACUT_VECTOR_CLONES void add_patch(const Row row, int beside, int count, floa
   }
 }
 
-/// Turns sums into means; a patch without any is its own mean.
+/// Turns sums into means. If no patch was added to a patch's sums, the patch itself is the mean.
 TERRACUT_VECTOR_CLONES void find_means(const Row row, int count, const Sums sums,
                                        float* __restrict x_m, float* __restrict y_m,
                                        float* __restrict z_m) noexcept {
@@ -243,7 +244,7 @@ bool RingEdges::goes_on_beside(const GroundPatches& ground, int index) const noe
   const int beside = ground.patches_over(kBeside_m, range_m_[padded(index)]);
   const int left = index - reach, right = index + reach;
   const auto is_as_steep = [&](float slope) {
-    return std::fabs(slope - across) < config_.bend;  // false if that is unknown
+    return std::fabs(slope - across) < config_.bend;  // false if the slope is unknown (NaN)
   };
   return is_as_steep(slope_between(index, {left - beside, left - (beside + 1) / 2},
                                    {left - beside / 2, left})) ||

@@ -17,11 +17,12 @@ constexpr float kFar_m = std::numeric_limits<float>::max();
 constexpr int kRowsAcross = 3;
 /// A barrier is lone if few barriers lie within so many rows and patches around it.
 constexpr int kAround = 2;
-/// Growing back reaches so many times half the vehicle's width, as it runs along rings and columns
-/// and not always straight.
+/// Growing back goes as far as this many times half the vehicle's width: its path follows rings and
+/// columns, which is longer than a straight line.
 constexpr float kGrowBack = 1.3F;
 
-/// Counts the ones among 2 kAround + 1 values, beginning with each.
+/// Counts the ones among 2 kAround + 1 successive values, for each value that may begin such a
+/// window.
 TERRACUT_VECTOR_CLONES void count_around(const std::uint8_t* values, std::size_t count,
                                          std::uint8_t* around) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -69,8 +70,8 @@ TERRACUT_VECTOR_CLONES void find_reaches(float half_width_m, std::size_t count,
 }
 
 /// Finds the patches of a row within the ranges that earlier barriers block, and adds the row's own
-/// barriers. A patch outside a blocked range ends it: what lies behind it is behind something else.
-/// Patches without a range (NaN) change nothing.
+/// barriers. A patch outside a blocked range ends that range: patches beyond it lie behind
+/// something else. Patches without a range (NaN) change nothing.
 TERRACUT_VECTOR_CLONES void block_ranges(const float* range_m, const float* reach_m,
                                          std::size_t count, float* __restrict from_m,
                                          float* __restrict to_m,
@@ -169,8 +170,9 @@ void RoadSurface::find_barriers() noexcept {
 }
 
 void RoadSurface::open_seams() noexcept {
-  // A step makes the ground around it rough, and its upper side may be labelled obstacle. All of
-  // this is narrower than the vehicle; other obstacles in the way lie beside it.
+  // A seam's step makes the ground around it rough, and the step's upper side may be labelled
+  // obstacle. Both effects are narrower than the vehicle, so an obstacle that blocks the vehicle
+  // also has patches beside them.
   for (int index = 0; index < ground_.per_row(); ++index) {
     if (!edges_.runs_through_sensor(index)) continue;
     for (int row = 0; row < ground_.rows(); ++row) {
@@ -186,8 +188,8 @@ void RoadSurface::open_seams() noexcept {
 }
 
 void RoadSurface::drop_lone_barriers() noexcept {
-  // Kerbs and grass show in several rings; a barrier in only one is a laser's noise. Obstacles
-  // stay.
+  // Kerbs and grass show in several rings; a barrier in a single ring is a laser's noise. Obstacles
+  // are never dropped.
   const auto per_row = static_cast<std::size_t>(ground_.per_row());
   for (int row = 0; row < ground_.rows(); ++row) {
     const std::size_t first = at(row, 0);
@@ -240,7 +242,7 @@ void RoadSurface::measure_along_rings() noexcept {
 void RoadSurface::measure_from(int row, int index, int step) noexcept {
   const float half_width_m = 0.5F * config_.vehicle_width_m;
   const float barrier_m = ground_.range_m()[at(row, index)];
-  // No relevant patch is nearer to the sensor, so none has a smaller spacing.
+  // No patch that matters is nearer to the sensor than this, so none has a smaller spacing.
   const float least_spacing_m = ground_.spacing_m(barrier_m - half_width_m);
   float since = 1;
   for (; since * least_spacing_m < half_width_m; ++since) {

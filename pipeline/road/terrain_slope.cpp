@@ -95,7 +95,8 @@ TerrainSlope::Gradient TerrainSlope::gradient_around(int line_x, int line_y) con
     }
   }
   if (all.weight <= 0) return {};
-  // Least squares, regularised: a slope known only in one direction stays level across it.
+  // Fits by least squares with a regularising term: ground seen only along one direction gets no
+  // slope across it.
   constexpr double kLevel_m2 = 4.0;
   const double x = all.x / all.weight, y = all.y / all.weight, z = all.z / all.weight;
   const double xx = all.xx / all.weight - x * x + kLevel_m2;

@@ -33,7 +33,7 @@ void write_point_cloud(const publish::LabelledFrame& frame, CloudOf which,
 
   CdrWriter to(message);
   add_header(to, stamp_ns, frame_id);
-  to.add(std::uint32_t{1});  // height: in order of arrival, not an image
+  to.add(std::uint32_t{1});  // height 1: the points are in order of arrival, not an image
   to.add(static_cast<std::uint32_t>(points));
   add_fields(to);
   to.add(false);  // is_bigendian

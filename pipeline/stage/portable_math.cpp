@@ -23,7 +23,8 @@ double portable_log(double x) noexcept {
 }
 
 NegativeExp::NegativeExp() noexcept {
-  // exp(-i / 64) is the product of i Taylor series of one step: IEEE operations only.
+  // exp(-i / 64) is computed as the i-th power of exp(-1 / 64), whose Taylor series needs only IEEE
+  // operations.
   const double x = -1.0 / static_cast<double>(kStepsPerUnit);
   const double one_step =
       1 + x * (1 + x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6)))));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSecond_ns = 1e9;
 constexpr std::size_t kRateFrames = 50;
-constexpr std::int64_t kRateWindow_ns = 5'000'000'000;  // older frames lie before a gap
+constexpr std::int64_t kRateWindow_ns = 5'000'000'000;  // frames older than this lie before a gap
 constexpr std::int64_t kStopped_ns = 1'000'000'000;  // the slowest head rotates five times in this
 
 /// Takes up to `wanted_ns` off `rest_ns` and returns the amount taken.
@@ -36,7 +36,7 @@ FrameMissCause largest_share(const FrameRecord& frame,
   share_of(FrameMissCause::kWaitingForCore) =
       take_share(frame.run_queue_wait_ns - std::max<std::int64_t>(frame.steal_ns, 0), rest_ns);
   share_of(FrameMissCause::kOwnWork) = rest_ns;
-  // Of equal shares the first is found; the enumeration starts with our own work.
+  // If shares are equal, max_element() finds the first; the enumeration begins with our own work.
   const auto largest = std::max_element(share_ns.begin(), share_ns.end());
   return static_cast<FrameMissCause>(largest - share_ns.begin());
 }
@@ -119,7 +119,7 @@ void DeadlineMonitor::record_costs(const FrameRecord& frame) noexcept TERRACUT_N
   figures.total_cpu.record(frame.decode_cpu_ns + frame.segment_cpu_ns);
   figures.segment_cpu.record(frame.segment_cpu_ns);
   for (std::size_t i = 0; i < figures.stages(); ++i) {
-    // Frames without this stage do not count, or it would look cheap.
+    // A frame that skipped this stage does not count, or the stage would look cheap.
     if (frame.stages.stage_ns[i] > 0) figures.stage_cpu[i].record(frame.stages.stage_ns[i]);
   }
 }
@@ -138,7 +138,7 @@ const FrameRecord& DeadlineMonitor::kept_before(std::size_t age) const noexcept
 
 double DeadlineMonitor::frames_per_s() const noexcept TERRACUT_NONBLOCKING {
   const auto newest_ns = static_cast<std::uint64_t>(newest().info.last_packet_ns);
-  std::int64_t least_ns = 0, most_ns = 0;  // before the newest; skipped frames are judged early
+  std::int64_t least_ns = 0, most_ns = 0;  // relative to the newest; negative for skipped frames
   std::size_t age = 0;
   while (age < std::min(count_ - 1, kRateFrames)) {
     const auto stamp_ns = static_cast<std::uint64_t>(kept_before(age + 1).info.last_packet_ns);

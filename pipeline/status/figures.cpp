@@ -19,7 +19,7 @@
 namespace terracut::status {
 namespace {
 
-constexpr double kMost = 1e12;  // limit of a rate: a thousand times that of the shortest times
+constexpr double kMost = 1e12;  // the highest rate or percentage shown
 
 /// Subtracts times from a page, which may have any value: wraps instead of overflowing.
 Duration between(std::int64_t from_ns, std::int64_t to_ns) noexcept {
@@ -65,7 +65,7 @@ Counts counts_of(std::string_view label, std::span<const std::uint64_t> counts) 
   for (std::size_t i = 0; i < names.size(); ++i) result.each.emplace_back(names[i], counts[i]);
   return result;
 }
-/// Returns the losses of onlookers, or all others.
+/// Returns the losses of onlookers if `of_onlookers`, else all other losses.
 Counts losses_of(const MonitorSnapshot& f, bool of_onlookers) {
   Counts losses = counts_of("cause", f.losses_in_use());
   std::erase_if(losses.each,

@@ -15,7 +15,7 @@ NamedCount rejected(frame::Reject reason, const frame::LossCounters& losses) {
           losses.rejected[static_cast<std::size_t>(reason)]};
 }
 
-/// Appends after the first `count` elements of `all`.
+/// Copies `more` behind the first `count` elements of `all`, and adds its size to `count`.
 template <std::size_t Size>
 void append(std::span<const NamedCount> more, std::array<NamedCount, Size>& all,
             std::uint32_t& count) {

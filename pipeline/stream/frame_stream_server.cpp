@@ -92,7 +92,7 @@ FrameStreamServer::FrameStreamServer(const FrameStreamConfig& config, ListeningS
   const files::OwnedDescriptor trial(
       ::socket(is_unix ? AF_UNIX : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   send_buffer_ = send_buffer_grant(wanted, request_send_buffer(trial.get(), wanted));
-  // Unless it is given one, TCP finds a size of its own, up to net.ipv4.tcp_wmem.
+  // Where no size is granted, TCP chooses its buffer size itself, up to net.ipv4.tcp_wmem.
   if (is_unix || send_buffer_.granted) send_buffer_bytes_ = wanted;
 }
 
@@ -155,7 +155,7 @@ void FrameStreamServer::handle_events() noexcept {
       give(peer);
     }
   }
-  // Comes last, so that no event above can mean a new reader in another's place.
+  // New readers are let in last: an event above must not mean a new reader in an old one's place.
   if (somebody_knocks) let_in();
 }
 
@@ -246,7 +246,7 @@ void FrameStreamServer::give(Peer& peer) noexcept {
     ::msghdr message{};
     message.msg_iov = parts.data();
     message.msg_iovlen = parts.size();
-    // MSG_NOSIGNAL: a reader's end must not end the process by SIGPIPE.
+    // MSG_NOSIGNAL: a reader that closes its connection must not end this process by SIGPIPE.
     const ::ssize_t given = ::sendmsg(peer.socket.get(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (given < 0) {
       if (errno == EINTR) continue;
@@ -284,7 +284,7 @@ void FrameStreamServer::part_with(Peer& peer, std::uint64_t& counter) noexcept {
   peer.figures.connected = false;
 }
 
-/// Ignores what a reader sends; the end of its sending is still an event.
+/// Watches a connection. What a reader sends is ignored; the end of its sending is still an event.
 void FrameStreamServer::watch(Peer& peer, int operation, bool for_room) noexcept {
   ::epoll_event event{};
   event.events = EPOLLRDHUP | (for_room ? EPOLLOUT : 0U);

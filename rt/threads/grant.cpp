@@ -9,7 +9,7 @@
 namespace terracut::threads {
 namespace {
 
-/// Returns one setcap command for both rights: setcap replaces those set before.
+/// Returns one setcap command for both rights, because each setcap replaces the rights set before.
 std::string setcap_command() {
   std::error_code error;
   const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", error);

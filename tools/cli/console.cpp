@@ -82,7 +82,7 @@ bool flush_output() {
 ExitCode end_output(ExitCode code) {
   MessageThread* const thread = background;
   if (thread != nullptr && !thread->finish(kPatience)) {
-    std::_Exit(code);  // its thread may hang on a reader and cannot be ended otherwise
+    std::_Exit(code);  // a thread that hangs on a reader cannot be ended otherwise
   }
   if (flush_output()) return code;
   // A reader that closes early (`| head`) is no error.

@@ -11,7 +11,7 @@
 namespace terracut::cli {
 namespace {
 
-/// Set by whichever thread takes the signal, read by all that work.
+/// The thread that takes the signal sets this flag; all threads that work read it.
 std::atomic<bool> wanted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not lock");
 void (*also_called)() noexcept = nullptr;

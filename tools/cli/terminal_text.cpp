@@ -32,7 +32,7 @@ std::size_t character_bytes(std::string_view text) {
   return code <= 0x10FFFF && is_shortest && !is_surrogate ? bytes : 0;
 }
 
-/// Returns the same length, but 0 for control characters.
+/// Returns the length in bytes of the character at the start of `text`; 0 for control characters.
 std::size_t shown_bytes(std::string_view text) {
   const std::size_t bytes = character_bytes(text);
   const std::uint8_t first = byte_at(text, 0);

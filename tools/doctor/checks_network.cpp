@@ -28,7 +28,7 @@ bool is_up(const SystemView& system, const std::string& interface) {
   return system.text(in_interface(interface, "operstate")) == "up";
 }
 
-/// Returns the sensor's interface, otherwise all that are up.
+/// Returns the sensor's interface; all interfaces that are up if none was named.
 std::vector<std::string> interfaces_of(const SystemView& system, const Requests& requests) {
   if (!requests.interface.empty()) return {requests.interface};
   std::vector<std::string> names = system.names_in(kInterfaces);
@@ -37,7 +37,8 @@ std::vector<std::string> interfaces_of(const SystemView& system, const Requests&
   return names;
 }
 
-/// Returns an interface's interrupt numbers: those its device lists, otherwise by its name.
+/// Returns an interface's interrupt numbers: those that its device lists, or else those whose name
+/// in /proc/interrupts is the interface's.
 std::set<int> interrupts_of(const SystemView& system, const std::string& interface) {
   std::set<int> numbers;
   for (const std::string& name : system.names_in(in_interface(interface, "device/msi_irqs"))) {
@@ -121,7 +122,7 @@ Finding check_receive_buffer(const SystemView& system, const Requests& requests)
   const std::string found = fmt::format("{} KiB (rmem_max {}) hold {:.0f} ms of packets",
                                         granted >> 10, *most, milliseconds(granted));
   if (*most >= requests.buffer_bytes) return ok("receive buffer", found);
-  // The doctor is often run by root; the service is not.
+  // The doctor is often run by root, whose rights the service does not have.
   const bool passes = has_capability(system, CAP_NET_ADMIN);
   const bool too_little = milliseconds(granted) < kLeastBuffered_ms;
   return {"receive buffer", too_little && !passes ? Verdict::kProblem : Verdict::kWarning,

@@ -150,7 +150,7 @@ std::vector<std::uint16_t> lasers_of(const py::object& laser, const ArrayCloud& 
   return lasers;
 }
 
-/// Returns the points with their lasers, which need not be a field of theirs.
+/// Returns the points with the lasers given by `lasers`.
 Cloud cloud_with_lasers(const ArrayCloud& cloud, const std::vector<std::uint16_t>& lasers,
                         std::vector<CloudPoint>& points) {
   points.resize(cloud.points());

@@ -79,8 +79,8 @@ class Assembly {
         }
       }
     }
-    // The file's parameters serve all commands, whatever method runs; typed ones must have an
-    // effect.
+    // The configuration file may hold parameters of methods that do not run; a typed parameter must
+    // have an effect.
     const std::span<const std::string> settings = options_.method.settings;
     if (const Status used = check_used(settings.subspan(of_file), kinds()); !used) {
       return wrong("--set: " + used.error().message);

@@ -123,7 +123,7 @@ tl::unexpected<Error> wrong(const CommandLine& line, std::string_view what) {
               fmt::format("{}: {}", line.command ? name_of(*line.command) : "terracut", what));
 }
 
-/// Only for help and checks: configuration_named_in() has read it before.
+/// Adds --config for help and checks only: configuration_named_in() has read the file before.
 void add_config_option(CLI::App& app) {
   app.add_option_function<std::string>(
          "--config", [](const std::string&) {},
@@ -139,7 +139,7 @@ Expected<CommandLine> read_command_line(const std::vector<std::string>& words,
   CLI::App app{kAbout, "terracut"};
   app.footer(kExitCodes);
   app.set_version_flag("--version", "terracut " TERRACUT_VERSION);
-  app.require_subcommand(1);  // only one: after it `live` may be a name
+  app.require_subcommand(1);  // exactly one: after a command, a word such as `live` may be a name
   add_config_option(app);
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     const auto command = static_cast<Command>(i);

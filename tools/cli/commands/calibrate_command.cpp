@@ -21,7 +21,7 @@
 namespace terracut::cli {
 namespace {
 
-/// Most frames for finding the mount and for measuring the rings.
+/// The most frames used to find the mount, and to measure the rings.
 constexpr std::size_t kMountFrames = 100, kRingFrames = 100'000;
 
 /// Measures the mean distance of each ring's ground returns, labelled by the method itself.
@@ -53,11 +53,12 @@ Expected<mount::RingProfileEstimate> measure_rings(RecordedFrames& frames, const
   return rings;
 }
 
-/// Returns the mount from the frames, except for stated figures; with --keep-mount as stated.
+/// Returns the mount that the frames show, but with the figures that the user stated. With
+/// --keep-mount, returns the stated mount.
 Expected<mount::Mount> measured_mount(RecordedFrames& frames, const Options& options) {
   MountOptions stated = options.mount;
   if (!options.keep_mount) {
-    stated.setup.clear();  // to be measured again
+    stated.setup.clear();  // its file is to be measured again
     mount::MountFinder finder;
     if (const Status shown = frames.look_for_mount(kMountFrames, finder); !shown) {
       return tl::unexpected(shown.error());

@@ -63,7 +63,7 @@ Status DumpAnswers::publish(
     json["refusal"] = to_string(outcome.error().refusal);
     json["message"] = outcome.error().message;
   }
-  // A path may have any bytes; JSON may not.
+  // A path may hold any bytes, but JSON only UTF-8; other bytes are replaced.
   constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
   return files::write_whole_file(path_, json.dump(1, ' ', false, kReplace) + "\n");
 }

@@ -15,9 +15,9 @@
 namespace terracut::cli {
 namespace {
 
-/// Limit for a warning; larger errors hide kerbs. In the tuning set's 18 scans no sequence is off
-/// by more than 2 cm with motion put back; with it left in, slow drives are off by 6 cm, fast ones
-/// by 10.
+/// Heights farther off than this cause a warning, because such errors hide kerbs. Over the 18 scans
+/// of the tuning set, heights are off by at most 2 cm if the motion is put back. If it is left in,
+/// they are off by 6 cm on slow drives and by 10 cm on fast ones.
 constexpr double kTooFarOff_m = 0.08;
 
 std::string motion_line(const std::string& why_as_recorded) {

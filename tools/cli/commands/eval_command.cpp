@@ -345,7 +345,8 @@ ExitCode run_eval(const Options& options) {
   if (!classes) return refuse(classes.error());
   auto config = config_of(options, *classes);
   if (!config) return refuse(config.error());
-  // Which classes are tall or moving does not need another run if the table changes.
+  // The built-in table is preferred: a change of which classes are tall or moving needs no other
+  // run.
   const auto built_in = datasets::built_in_table(options.eval.dataset);
   config->classes = built_in ? &*built_in : &*classes;
   std::optional<eval::ChangedFrames> changed;

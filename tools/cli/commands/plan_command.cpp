@@ -39,7 +39,8 @@ std::size_t output_bytes(FleetFormat format, std::size_t returns) {
   return 0;
 }
 
-/// Takes into `memory` what labels a capture, and returns the most returns of a frame.
+/// Builds in `memory` the objects that label a capture, and returns the most returns that a frame
+/// can have.
 std::size_t take_memory(const Options& options, const calib::SensorCalibration& calibration,
                         const mount::RingProfile& profile, bool has_motion,
                         memory::FixedMemory& memory) {
@@ -80,7 +81,7 @@ ExitCode run_plan(const Options& options) {
             to_mib(memory.total_bytes()));
   json["total_bytes"] = memory.total_bytes();
 
-  // For the report's sums, the reading buffer of a capture, and code that only a run needs.
+  // This much holds the report's sums, a capture's reading buffer, and code that only a run needs.
   constexpr std::size_t kRest_bytes = std::size_t{4} << 20;
   const std::size_t beside_bytes =
       program_bytes + kRest_bytes + output_bytes(options.fleet.format, returns);

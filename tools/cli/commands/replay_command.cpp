@@ -24,9 +24,9 @@ namespace {
 
 using frame::FrameInfo;
 
-/// Sleeps so that datagrams come at `rate` times the capture's speed; 0 never sleeps. Sleeps only a
-/// moment once the run is to stop. A pause longer than kLongestPause_ns is skipped: there the
-/// capture's clock was set.
+/// Sleeps so that datagrams come at `rate` times the capture's speed; with rate 0 it never sleeps.
+/// Soon ends a sleep when the run is to stop. Skips pauses longer than kLongestPause_ns: they mean
+/// that the capture's clock was set.
 class Pace {
  public:
   explicit Pace(double rate) : rate_(rate) {}
@@ -115,7 +115,7 @@ class Replay {
       const bool is_over = report.interrupted || !report.input_warning.empty();
       // Ctrl-C does not interrupt an endless replay: it is its normal end.
       if (options_.replay.loops == 0) report.interrupted = false;
-      // A pass without packets will not have any later.
+      // If this pass had no packets, later passes have none either.
       if (!sinks_ || is_over || capture_.offered() == offered_before) break;
     }
     return conclude();

@@ -41,7 +41,8 @@ class UnusedFiles {
   std::string first_;
 };
 
-/// Warns if the mount found is higher than 4.5 m: few are, but a car's is at 1.4 m in feet.
+/// Warns if the mount found is higher than 4.5 m. Few mounts are, but the height of a car's, 1.4 m,
+/// is 4.6 in feet.
 std::string doubt_of_height(const MountOptions& stated, const MountChoice& mount) {
   constexpr double kRarelyHigher_m = 4.5;
   if (stated.height_m || !mount.found || mount.found->mount.height_m < kRarelyHigher_m) return {};

@@ -37,12 +37,13 @@ using Json = nlohmann::ordered_json;
 /// The pacer that Ctrl-C interrupts while it waits.
 PacketPacer* interruptible = nullptr;
 
-/// Everything the command line names, opened.
+/// Everything that the command line names, already opened.
 struct Parts {
   PcapSource source;
   send::FaultScript faults;
   send::PortSenders sensor;
-  std::optional<send::PortSenders> stranger;  ///< The sender of foreign packets, if another.
+  std::optional<send::PortSenders> stranger;  ///< Set if foreign packets have a sender of their
+                                              ///< own.
 };
 
 Expected<Parts> open_parts(const Options& options, memory::FixedMemory& memory) {
@@ -112,7 +113,8 @@ class Send {
   }
 
  private:
-  /// False if the sending is over: Ctrl-C, or the capture broke off.
+  /// Plays the capture once. Returns false if sending must end: on Ctrl-C, or if the capture breaks
+  /// off.
   bool play_once() {
     while (!pacer_.stopped()) {
       const auto next = parts_.source.next();
@@ -136,7 +138,7 @@ class Send {
     return sum;
   }
 
-  /// False for Ctrl-C during endless sending, which is its normal end.
+  /// True if Ctrl-C ended the sending early. Endless sending normally ends by Ctrl-C.
   [[nodiscard]] bool interrupted() const {
     return pacer_.stopped() && options_.send.play.loops != 0;
   }

@@ -112,9 +112,9 @@ ExitCode simulate_and_say(const Options& options, const std::filesystem::path& o
   return kOk;
 }
 
-/// Tracing rays takes longer than real time, so the drive is computed first and then sent on time.
-/// Meanwhile its beginning is sent repeatedly, long enough to contain the unit's table (1.2 s of an
-/// HDL-64E), so that a sensor is heard within seconds.
+/// Returns how long a beginning of the drive is computed first. It is sent repeatedly while the
+/// whole drive is computed, so that the sensor is heard within seconds; tracing rays takes longer
+/// than real time. The beginning contains the unit's whole table (1.2 s for an HDL-64E).
 double beginning_s(const Options& options) {
   return options.capture.sensor.value_or(sensor::SensorModel::kHdl64e) ==
                  sensor::SensorModel::kHdl64e

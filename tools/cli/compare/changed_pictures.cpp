@@ -81,8 +81,8 @@ Status visit_capture(const Options& options, Wanted wanted, const Visit& visit) 
   return take_frames();
 }
 
-/// Visits clouds as images of one row, with one cell a point, so that the n-th return is the n-th
-/// point; only good for pictures from above.
+/// Visits clouds as images of one row with one cell a point, so that the n-th return is the n-th
+/// point. Such images are only good for pictures from above.
 Status visit_clouds(const Options& options, const Wanted& wanted, const Visit& visit) {
   const auto folder = scan::list_scan_folder(options.scans, cloud::kCloudFiles);
   if (!folder) return tl::unexpected(folder.error());

@@ -35,7 +35,8 @@ Expected<Labelling> plain_labelling(const fs::path& folder) {
     const fs::path place = path.parent_path();
     labelling.drives[place.lexically_relative(folder).string()] = place;
   }
-  // A file not seen would not be compared, and no difference reported.
+  // This must be an error: files in a folder that cannot be listed would be left out of the
+  // comparison without a word.
   if (error && fs::exists(folder, none)) {
     return fail(ErrorCode::kUnreadable,
                 folder.string() + ": a folder in it cannot be listed: " + error.message());

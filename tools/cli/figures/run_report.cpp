@@ -32,8 +32,8 @@ bool arrived_in_packets(const FrameRecord& frame) {
   return frame.decode_cpu_ns > 0;
 }
 
-/// Returns the report's figures for every frame; of its cut the cells to decide, those left coarse
-/// by the budget, and the operations.
+/// Returns the figures that the report states for every frame. Of the frame's min-cut these are the
+/// cells to decide, the cells that the budget left to the coarse stages, and the operations.
 std::vector<Figure> frame_figures(const FrameRecord& frame) {
   const min_cut::CutReport& cut = frame.segmentation.cut;
   const auto count = [](std::uint64_t of) { return status::Value(of); };

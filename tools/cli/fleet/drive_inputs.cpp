@@ -49,7 +49,7 @@ std::vector<DriveInput> inputs_of(const FleetDrive& drive) {
       {"setup", drive.setup},     {"can", drive.can},     {"dbc", drive.dbc}};
   std::erase_if(inputs, [](const DriveInput& input) { return input.path.empty(); });
   if (drive.capture.empty() || !drive.calibration.empty()) return inputs;
-  // A run may use it if the packets hold none.
+  // A run uses the calibration beside the capture if the packets hold none.
   const auto beside = calibration_beside(drive.capture);
   if (beside && !beside->empty()) inputs.push_back({"calibration", *beside});
   return inputs;

@@ -47,7 +47,7 @@ std::string cause_of(ExitCode code) {
   }
 }
 
-/// A part folder of this process, removed with this object.
+/// A temporary folder of this process, removed with this object.
 class LabellingFolder {
  public:
   LabellingFolder(const RelabelJob& job, const FleetDrive& drive)
@@ -60,7 +60,8 @@ class LabellingFolder {
   }
 
   [[nodiscard]] bool made() const { return static_cast<bool>(part_.lock); }
-  /// Returns the later folder of the drive, which has the user's normal rights for new folders.
+  /// Returns the folder that later becomes the drive's. It has the user's normal rights for new
+  /// folders.
   [[nodiscard]] fs::path labels() const { return part_.path / "labels"; }
   [[nodiscard]] fs::path settings() const { return labels() / kJobSettings; }
   [[nodiscard]] fs::path report() const { return part_.path / "report.json"; }
@@ -190,7 +191,8 @@ ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive, const Json&
     if (summary.contains(key)) facts[key] = summary[key];
   }
   std::error_code error;
-  // Removed, or a later `--labels` into this folder would take the files for its own.
+  // This list is removed: with it, a later `--labels` into this folder would treat the files as its
+  // own.
   fs::remove(folder.labels() / ".label.terracut", error);
   if (const Status sealed = seal(folder.labels(), facts); !sealed) {
     return failed(sealed.error(), record);

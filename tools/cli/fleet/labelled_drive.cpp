@@ -51,7 +51,7 @@ std::string sum_line(const std::string& sum, const std::string& name) {
   return fmt::format("\\{}  {}\n", sum, escaped);
 }
 
-/// Returns the name on a line marked by that backslash.
+/// Returns the name that sum_line() has escaped.
 std::string unescaped(std::string_view text) {
   std::string name;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -37,7 +37,7 @@ bool has_nul(const std::string& text) {
   return text.find('\0') != std::string::npos;
 }
 
-/// True if outputs can be named so: a relative path that stays below its folder.
+/// True if outputs may have this name: a relative path without parts that begin with a dot.
 bool is_name(const std::string& name) {
   const fs::path path(name);
   return !name.empty() && !has_nul(name) && path.is_relative() && path.has_filename() &&
@@ -150,7 +150,7 @@ std::vector<FleetDrive> drives_of(const Manifest& manifest, const Shard& shard) 
   });
   using Load = std::pair<std::uint64_t, std::size_t>;  // bytes, number of the shard
   std::set<Load> loads;
-  // Drives are not divided, so with more shards than drives some are empty.
+  // A drive is never divided, so if there are more shards than drives, some shards stay empty.
   const std::size_t filled = std::min(shard.of, drives.size());
   for (std::size_t i = 1; i <= filled; ++i) loads.emplace(0, i);
   std::vector<FleetDrive> its_own;

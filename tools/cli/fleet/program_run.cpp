@@ -28,7 +28,7 @@ double seconds_of(const ::timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// Runs between fork and exec: must not take memory or locks.
+/// Runs between fork and exec, so it must not allocate memory or take locks.
 [[noreturn]] void become(const std::vector<char*>& words, int log, ::pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);  // the parent has died already

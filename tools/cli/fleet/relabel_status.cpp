@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kHour_ns = 3'600'000'000'000;
 
-/// Number and content of drives of one kind.
+/// The number of drives of one kind, and how much they hold.
 struct Sum {
   std::uint64_t drives = 0, bytes = 0, frames = 0, label_bytes = 0;
 };
@@ -56,7 +56,8 @@ Tally tally_of(const fs::path& folder, const KnownJob& job, std::int64_t now_ns)
           line_for_terminal(record.drive + ": " + record.message));
       continue;
     }
-    // The next run checks whether it is complete: a fleet has millions of label files.
+    // Only the drive's facts are looked for; the next run checks all files. A fleet has millions of
+    // them.
     if (!fs::exists(folder / record.output / kDriveFacts, vanished)) {
       tally.missing_bytes += bytes;
       continue;
@@ -102,7 +103,7 @@ std::string pace_text(const Tally& tally, std::int64_t now_ns) {
       tally.lately_process_s / span_s);
   if (tally.missing_bytes == 0 || bytes_per_s <= 0) return text;
   const double left_s = static_cast<double>(tally.missing_bytes) / bytes_per_s;
-  constexpr double kYears_s = 3e9;  // limits the speed, as others may write records
+  constexpr double kYears_s = 3e9;  // others may write records, so the speed may be absurd
   if (left_s > kYears_s) return text + "end       not within a hundred years at that speed\n";
   return text + fmt::format("end       in {:.1f} h at that speed, {}\n", left_s / 3600,
                             when(now_ns + static_cast<std::int64_t>(left_s * 1e9)));

@@ -113,8 +113,8 @@ void ShardRun::note(const RelabelRecord& record) {
   // Another process's success must not be overwritten by this one's failure.
   const RelabelRecord before = read_record(job_.state(), record.drive);
   if (!record.done && is_there(before, record)) return;
-  // On a full disk the next drive's labels end the shard; a failure of this file alone costs only
-  // the record.
+  // A full disk ends the shard when the next drive's labels are written. If only this file cannot
+  // be written, only the record is lost.
   if (const Status written = write_record(job_, ended); !written) worst_ = refuse(written.error());
 }
 

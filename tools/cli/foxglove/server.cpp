@@ -3,7 +3,7 @@
 #include "server.hpp"
 
 #include "tools/cli/http/http_connection.hpp"
-// This line keeps the includes apart.
+// This line keeps clang-format from sorting the first include below into the block above.
 #include <boost/beast/websocket.hpp>
 
 #include <algorithm>
@@ -81,7 +81,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
 
   [[nodiscard]] HttpStream& stream() noexcept override { return stream_.next_layer(); }
 
-  /// Learns of changes by another client, a browser or the capture's end.
+  /// Sends the capture's state if another client, a browser, or the capture's end has changed it.
   void work_round() override {
     if (!speaks_playback_) return;
     const PlayerState state = shared_.config.capture->state();
@@ -106,7 +106,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
 
  private:
   struct Outgoing {
-    std::string text{};  ///< Used if there is no message.
+    std::string text{};  ///< Sent if `message` is null.
     bool is_binary = false;
     std::optional<std::uint32_t> subscription{};
     std::array<std::byte, 13> header{};
@@ -163,7 +163,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
     capture->obey(request->command);
     state = capture->state();
     const bool seeks = request->command.seek_s.has_value();
-    if (seeks) {  // where it will be in a moment
+    if (seeks) {  // the state after the seek
       state.position_s = *request->command.seek_s;
       state.at_end = false;
     }
@@ -173,7 +173,8 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
   void subscribe(const FoxgloveRequest::Subscription& wish) {
     const std::size_t topic = wish.channel_id - kFirstChannelId;  // wraps to a large number for 0
     if (topic >= kTopics || !shared_.config.topics[topic]) return complain("no such channel");
-    // Following the protocol: a client that stops reading holds one message per topic.
+    // The protocol allows one subscription per topic: so a client that stops reading keeps one
+    // message of each topic in memory.
     const auto has = [&](const auto& each) {
       return each.first == wish.id || each.second == topic;
     };
@@ -231,8 +232,8 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
   Shared& shared_;
   PlayerState seen_;  ///< State that was sent last.
   beast::flat_buffer buffer_{kMostTextBytes};
-  std::map<std::uint32_t, std::size_t> topics_;  ///< By id of the subscription.
-  std::deque<Outgoing> outgoing_;                ///< The first one is being written.
+  std::map<std::uint32_t, std::size_t> topics_;  ///< Keyed by the subscription's id.
+  std::deque<Outgoing> outgoing_;                ///< The first one is being sent.
   bool speaks_playback_ = false;
 };
 

@@ -3,7 +3,7 @@
 #include "http_server.hpp"
 
 #include "http_connection.hpp"
-// This line keeps the includes apart.
+// This line keeps clang-format from sorting the first include below into the block above.
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/post.hpp>
 
@@ -31,7 +31,7 @@ using Clock = HttpPace::Clock;
 
 constexpr std::chrono::milliseconds kRound{100};
 constexpr int kBacklog = 64;
-/// Connections that may come at once, as seconds of the allowed rate.
+/// The connections allowed in this many seconds may also come all at once.
 constexpr int kBurst_s = 1;
 
 std::string_view field(const http::fields& fields, std::string_view name) {
@@ -156,7 +156,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
 
   void answer(HttpAnswer answer) {
     is_accounted_ = true;
-    // Browsers ask for missing files by themselves.
+    // A 404 is no refusal: browsers ask by themselves for files that may be missing.
     if (answer.status >= 400 && answer.status != 404) ++shared_.figures.refused;
     response_.result(static_cast<unsigned>(answer.status));
     response_.version(11);
@@ -164,7 +164,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
     response_.set(http::field::cache_control, "no-store");
     response_.set(http::field::connection, "close");
     response_.set("X-Content-Type-Options", "nosniff");
-    // A page needs nothing from elsewhere and may not be embedded in another.
+    // Our pages load nothing from other sites and must not be embedded in their pages.
     response_.set("Content-Security-Policy",
                   "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'");
     response_.body() = std::move(answer.body);
@@ -176,7 +176,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
                       });
   }
 
-  /// Reads the rest of the request: closing at once would take the answer from the client.
+  /// Reads what is left of the request: closing at once could discard the answer before the client
+  /// reads it.
   void take_leave() {
     error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
@@ -241,7 +242,7 @@ struct HttpServer::State {
 
   void work_round() {
     const auto now = Clock::now();
-    // Not more often, although exceptions may end rounds early.
+    // An exception may have ended a round early, so this check keeps the rounds apart.
     if (now - last_round < kRound / 2) return;
     last_round = now;
     const HttpBounds& bounds = shared.config.bounds;
@@ -265,8 +266,8 @@ struct HttpServer::State {
     }
   }
 
-  /// Waits for the next round if no more may come or none could be accepted: the pending connection
-  /// would keep this thread awake.
+  /// Accepts connections. Waits for the next round if no more are allowed, or if accepting fails:
+  /// the pending connection would otherwise keep this thread busy.
   void accept() {
     if (is_accepting || admissions == 0) return;
     acceptor.async_accept([this](error_code error, tcp::socket socket) {

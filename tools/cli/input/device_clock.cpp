@@ -10,7 +10,7 @@
 namespace terracut::cli {
 namespace {
 
-/// TAI minus UTC since 2017: some units subtract it although the PTP master sends UTC.
+/// TAI minus UTC in seconds since 2017. Some units subtract it although the PTP master sends UTC.
 constexpr double kLeapSeconds = 37;
 constexpr double kLeapTolerance_s = 0.5;
 

@@ -21,13 +21,13 @@ constexpr const char* kHowToState =
     "state how the sensor stands (--mount-height, --mount-roll, --mount-pitch; --setup with what "
     "`terracut calibrate` measured where more of the ground is seen)";
 
-/// A figure of the mount as stated (metres or degrees) and as found.
+/// One figure of the mount: where the user states it (metres or degrees), and where it is found.
 struct MountFigure {
   std::optional<double> MountOptions::* stated;
   double Mount::* found;
   bool is_angle;
 
-  /// Returns a found angle in hundredths of a degree, as the command line would read it.
+  /// Returns the found figure in the unit of the command line; an angle is rounded to 0.01 degrees.
   [[nodiscard]] double as_stated(const Mount& mount) const {
     const double value = mount.*found;
     return is_angle ? std::round(100 * beams::rad_to_deg(value)) / 100 : value;
@@ -46,8 +46,8 @@ bool is_certain(const FoundMount& found, const MountFigure& figure) {
   return alone.is_certain();
 }
 
-/// Returns the default mount with stated figures, and with figures of `found` that are certain by
-/// themselves.
+/// Returns a mount of stated figures, of those figures of `found` that are certain by themselves,
+/// and of default figures.
 MountChoice guessed(const MountOptions& stated, const std::optional<FoundMount>& found) {
   MountChoice choice{.options = stated, .is_guess = true};
   for (const MountFigure& figure : kMountFigures) {

@@ -111,7 +111,7 @@ void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounte
                     "out; `terracut info` lists who sends, --from chooses",
                     others, unit));
   }
-  // If the user asked for a part of the stream's source, others are meant to be left out.
+  // Options that choose a part of the source's data leave out other datagrams on purpose.
   const bool is_asked_for = options.from.find(':') != std::string::npos || !options.to.empty() ||
                             !options.vlan.empty() || !options.mac.empty();
   if (const std::uint64_t others = pass.other_stream; others > 0 && !is_asked_for) {

@@ -13,7 +13,8 @@
 namespace terracut::cli {
 namespace {
 
-/// After one recording's stamps step back, the other's may do so up to this much later.
+/// If the stamps of one recording step back, those of the other belong to the same step if they
+/// step back at most this much later.
 constexpr std::int64_t kTogether_ns = 1'000'000'000;
 
 /// Checks that the recording has a frame with one of the signals; says why not.
@@ -75,7 +76,7 @@ void RecordedMotion::Steps::note(std::int64_t stamp_ns) noexcept {
 }
 
 bool RecordedMotion::next_is_due() noexcept {
-  if (frames_.count < packets_.count) {  // its clock has yet to be set back
+  if (frames_.count < packets_.count) {  // the frames' clock has not been set back yet
     if (next_->stamp_ns - packets_.left_off_ns <= kTogether_ns) return true;
     frames_.count = packets_.count;
   } else if (frames_.count > packets_.count) {

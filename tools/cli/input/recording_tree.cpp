@@ -67,7 +67,7 @@ class TreeSearch {
  private:
   bool is_first_visit(const fs::path& folder) {
     struct stat status {};
-    if (::stat(folder.c_str(), &status) != 0) return true;  // listing it gives the reason
+    if (::stat(folder.c_str(), &status) != 0) return true;  // listing the folder reports the reason
     return visited_.emplace(status.st_dev, status.st_ino).second;
   }
 
@@ -130,7 +130,7 @@ class TreeSearch {
 
   RecordingTree found_;
   std::set<std::pair<::dev_t, ::ino_t>> visited_;
-  std::set<fs::path> links_;  ///< To folders; followed after all paths without links.
+  std::set<fs::path> links_;  ///< Links to folders; followed after all other paths.
 };
 
 }  // namespace

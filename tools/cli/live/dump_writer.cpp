@@ -20,7 +20,7 @@ using recorder::DumpReason;
 
 namespace {
 
-/// Writes tables of a sensor with a calibration of that type.
+/// The encoder traits of the sensor that has this type of calibration.
 template <class Calibration>
 using EncoderTraitsOf =
     std::conditional_t<std::is_same_v<Calibration, hdl64e::Hdl64eCalibration>,

@@ -15,7 +15,7 @@
 namespace terracut::cli {
 namespace {
 
-/// Other listeners at the device port must keep receiving.
+/// Opens the device port shared, so that other listeners keep receiving.
 std::optional<net::LiveSource> open_device_port(const Options& options,
                                                 memory::FixedMemory& memory) {
   net::ListenConfig listen = listen_config_of(options);

@@ -109,7 +109,8 @@ class Waiting {
     show(what);
     service_.work_round(*figures_, measure::monotonic_ns());
     if (dump_wanted_.take()) refuse_dump(options_, answers_);
-    // A short wait is not printed; counts in the text change all the time.
+    // A short wait is not printed, and text is not repeated too often: counts in it change all the
+    // time.
     const std::int64_t now_ns = measure::monotonic_ns();
     if (now_ns < say_at_ns_ || what == said_) return;
     say(what + " (Ctrl-C ends it)");
@@ -152,7 +153,7 @@ class Waiting {
   std::int64_t say_at_ns_ = measure::monotonic_ns() + kSayFirst_ns;
 };
 
-/// Returns the configuration for these options; the vehicle's bus may be null.
+/// Returns the configuration that the options ask for. `bus` may be null.
 live::LiveConfig live_config_of(const Options& options, const streams::SensorOnAir& sensor,
                                 VehicleBus* bus) {
   const RealtimeOptions& realtime = options.realtime;
@@ -183,7 +184,7 @@ live::LiveConfig live_config_of(const Options& options, const streams::SensorOnA
 /// The outputs of a run, on threads that no other thread waits for.
 class Writers {
  public:
-  /// `answers` serves those who request dumps.
+  /// `answers` tells those who asked for a dump what became of it.
   explicit Writers(DumpAnswers& answers) noexcept : answers_(answers) {}
 
   /// Opens the outputs. Those that fail are tried again as long as the run goes on.
@@ -225,7 +226,7 @@ class Writers {
     }
   }
 
-  /// False if the disk or another output does not answer.
+  /// Ends the outputs. Returns false if the disk or another output does not answer in time.
   [[nodiscard]] bool finish() {
     constexpr std::chrono::seconds kPatience{3};
     const bool frames_done = !outlet_ || outlet_->finish(kPatience);
@@ -234,7 +235,7 @@ class Writers {
     const bool dumps_done = !dumps_ || dumps_->finish(kPatience);
     return outputs_done && labels_done && dumps_done;
   }
-  /// True if everything was written. After finish().
+  /// True if everything was written. Valid after finish().
   [[nodiscard]] bool wrote_all() const {
     return publisher_->outcome() && (!labels_ || labels_->outcome());
   }
@@ -303,7 +304,7 @@ ExitCode conclude(const Options& options, const LiveWatch& watch) {
 ExitCode run_live(const Options& options) {
   if (const Status ready = check_inputs(options); !ready) return refuse(ready.error());
   if (const Status sinks = check_sinks(options.output); !sinks) return refuse(sinks.error());
-  DumpSignal dump_wanted;  // before any thread, because threads inherit the blocked signal
+  DumpSignal dump_wanted;  // made before all threads, which inherit the blocked signal
   write_in_background();
   catch_stop_signals();
   if (options.realtime.lock_memory) say_refusals(memory::hold_memory({}));
@@ -340,7 +341,8 @@ ExitCode run_live(const Options& options) {
   const auto profile = ring_profile_of(sensor->calibration, mount.options);
   if (!profile) return refuse(profile.error());
 
-  // Opened after the first seconds, so that frames received meanwhile do not overflow the socket.
+  // The bus is opened after the wait for the sensor, so that frames received meanwhile do not
+  // overflow the socket.
   std::optional<VehicleBus> bus;
   if (signals) {
     auto opened = VehicleBus::open(options.can, *std::move(signals), socket_memory);
@@ -375,7 +377,8 @@ ExitCode run_live(const Options& options) {
   if (!ran) code = refuse(ran.error());
   if (disk_answers) return writers.wrote_all() ? code : kOutputFailed;
   warn("the disk does not answer: what was not written by now is lost");
-  std::_Exit(end_output(kOutputFailed));  // threads that wait for it can only be ended so
+  // Threads that wait for the disk cannot be ended otherwise.
+  std::_Exit(end_output(kOutputFailed));
 }
 
 }  // namespace terracut::cli

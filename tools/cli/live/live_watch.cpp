@@ -23,7 +23,8 @@ void show_thread(status::MonitorSnapshot& figures, std::string_view name,
   shown.major_faults = static_cast<std::uint64_t>(state.major_faults.load());
 }
 
-/// Names frames that their thread did not take; if only viewers get frames, nothing is lost.
+/// Returns the name for the count of frames that the outlet did not take. It names no loss if only
+/// viewers get frames.
 std::string unpublished_name(const Options& options) {
   const OutputOptions& output = options.output;
   const bool are_kept =
@@ -138,7 +139,7 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   std::vector<status::NamedCount> more{{"let_go_packets", account.let_go},
                                        {"untimed_frames", parts_.threads.records_dropped()},
                                        {"lost_messages", lost_messages()}};
-  // At the end, frames that still wait were held up for good.
+  // Frames that still wait when the run is over are lost as well.
   const auto lost = [&](const auto* slots) {
     return slots->unused() + (over_ ? slots->waiting() : 0);
   };

@@ -15,10 +15,11 @@
 namespace terracut::cli {
 namespace {
 
-/// The most clouds that wait to be labelled: some hundred milliseconds. As many answers may wait to
-/// be written, and also those of the first clouds, which come together.
+/// At most kMostWaiting clouds wait to be labelled, some hundred milliseconds. As many answers may
+/// wait to be written, and in addition the answers to the first clouds, which are labelled
+/// together.
 constexpr std::size_t kMostWaiting = 4, kMostAnswers = kMostWaiting + mount::kFramesToFind;
-/// After so long without another cloud, rows and mount are learnt from the first ones so far.
+/// If no other cloud comes for this long, rows and mount are learnt from the clouds so far.
 constexpr std::chrono::seconds kPatience{1};
 
 }  // namespace
@@ -35,7 +36,7 @@ CloudNode::CloudNode(const Options& options, dds::CloudReader reader, NodeAnswer
     taker_ = std::jthread([this] { take_clouds(); });
     labelling_ = std::jthread([this] { label_clouds(); });
     writer_ = std::jthread([this] { write_answers(); });
-  } catch (...) {  // the system refused a thread: those before it must be told to end
+  } catch (...) {  // the system refused a thread; earlier ones must end
     end();
     throw;
   }
@@ -87,7 +88,7 @@ void CloudNode::label_clouds() {
       continue;
     }
     job->record.handed_over_ns = measure::realtime_ns();
-    if (labeller_.skip_if_late(job->record)) {  // before it takes time from the next one
+    if (labeller_.skip_if_late(job->record)) {  // a late cloud must not delay the next one
       news_.add(job->record);
       continue;
     }
@@ -126,7 +127,7 @@ void CloudNode::set_up() {
   }
   news_.set_sensor(labeller_.sensor());
   for (Job& job : first) {
-    job.record.info.last_packet_ns = 0;  // nobody can label before the sensor is known
+    job.record.info.last_packet_ns = 0;  // no deadline: nobody can label before the sensor is known
     if (read(*job.cloud)) label(std::move(job));
   }
 }
@@ -151,7 +152,7 @@ void CloudNode::refuse_rows(const Error& error) {
 }
 
 void CloudNode::say_once(const std::string& what) {
-  constexpr std::size_t kMostKinds = 16;  // messages quote cloud numbers: any number of kinds
+  constexpr std::size_t kMostKinds = 16;  // messages quote numbers, so their kinds are unlimited
   if (said_.size() >= kMostKinds || std::ranges::count(said_, what) > 0) return;
   said_.push_back(what);
   warn(what + " (counted from now on, as losses)");

@@ -50,7 +50,7 @@ class Reader {
   [[nodiscard]] Options take() && { return std::move(options_); }
 
  private:
-  /// `section` is empty or ends with the dot.
+  /// Reads the keys of a section. `section` is empty for the whole file, else it ends with a dot.
   Status read_section(const YAML::Node& map, const std::string& section) {
     std::map<std::string, int> line_of;
     for (const auto& entry : map) {

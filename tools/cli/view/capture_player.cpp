@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kMoment{50};
 constexpr std::chrono::seconds kMeasuredAhead{1};
-/// After a longer gap in a capture its clock was set.
+/// A longer gap in a capture means that its clock was set.
 constexpr std::int64_t kLongestPause_ns = 60'000'000'000;
 
 double seconds(std::int64_t ns) {
@@ -26,10 +26,10 @@ CapturePlayer::CapturePlayer(PlayedRecording& recording) : recording_(recording)
   state_.frame_s = recording.frame_s();
   try {
     measuring_ = std::jthread([this] { measure(); });
-  } catch (const std::system_error&) {  // no thread is available; the length is optional
+  } catch (const std::system_error&) {  // no thread left; the player works without the length
     is_measured_ = true;
   }
-  // The length of a short recording is known before the first look.
+  // The wait makes the length of a short recording known before a viewer asks for it.
   std::unique_lock lock(mutex_);
   told_.wait_for(lock, kMeasuredAhead, [&] { return is_measured_; });
 }
@@ -81,7 +81,7 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
         return seek_s_ || steps_ > 0 || (state_.playing && !state_.at_end);
       };
       if (!told_.wait_for(lock, kMoment, has_work)) continue;
-      // A seek needs the first frame, from which places in the capture are known.
+      // A seek waits for the first frame, which shows where frames begin in the capture.
       if (has_frames_) seek_s = std::exchange(seek_s_, std::nullopt);
     }
     if (seek_s) {
@@ -148,7 +148,7 @@ bool CapturePlayer::wait_until_due(std::int64_t since_begin_ns) {
     if (seek_s_) return false;
     if (since_begin_ns - shown_ns_ > kLongestPause_ns) pace_.reset();
     if (steps_ > 0) {
-      --steps_;  // unless a later command set the steps
+      --steps_;  // a later command may set the steps anew
       pace_.reset();
       shown_ns_ = since_begin_ns;
       return true;
@@ -166,12 +166,13 @@ bool CapturePlayer::wait_until_due(std::int64_t since_begin_ns) {
         pace_->first + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
                            seconds(since_begin_ns - pace_->second) / state_.rate));
     if (due <= now) {
-      // If labels come more slowly than the frames did, play more slowly.
+      // If frames are labelled more slowly than they are due, the pace begins anew instead of
+      // catching up.
       if (now - due > std::chrono::seconds(1)) pace_ = {now, since_begin_ns};
       return true;
     }
     told_.wait_until(lock, std::min(due, now + kMoment));
-    if (commands != commands_) pace_.reset();  // after a change of rate, time anew
+    if (commands != commands_) pace_.reset();  // a command may have changed the rate
   }
   return false;
 }

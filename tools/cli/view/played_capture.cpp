@@ -11,8 +11,8 @@
 
 namespace terracut::cli {
 
-/// Finds the ends of the frames of a capture, from its first one on. Begins would not do: the first
-/// frame after a seek is cut at its begin.
+/// Finds the ends of a capture's frames, beginning with its first frame. Frames are numbered by
+/// their ends, because the first frame after a seek does not begin where it did in the capture.
 class PlayedCapture::Counter {
  public:
   Counter(const OpenCapture& capture, const Options& options)
@@ -23,7 +23,8 @@ class PlayedCapture::Counter {
     if (source_) part_.emplace(*source_, CaptureOptions{});
   }
 
-  /// Returns none at the end, and when stop_wanted().
+  /// Returns the end of the next frame; nothing at the end of the capture, or if the run is to
+  /// stop.
   std::optional<std::int64_t> next() {
     while (true) {
       if (const frame::Frame* frame = decoder_.next()) {
@@ -80,7 +81,7 @@ void PlayedCapture::take(publish::LabelledFrame& frame) {
 }
 
 Status PlayedCapture::go_to(double seek_s) {
-  // One frame earlier, because the first one begins within a revolution.
+  // Goes one frame too far back, because the first frame after a seek is cut off at its beginning.
   const double from_s = std::max(0.0, seek_s - 1.25 * frame_s());
   ahead_.reset();
   begins_ = from_s == 0;
@@ -88,7 +89,7 @@ Status PlayedCapture::go_to(double seek_s) {
 }
 
 std::uint32_t PlayedCapture::number_of(std::int64_t end_ns) {
-  // The end of the last packet, or almost so if the frame was cut elsewhere.
+  // The frame's end may differ by some packets if the frame was cut elsewhere.
   const std::int64_t least_ns = end_ns - static_cast<std::int64_t>(frame_s() / 2 * 1e9);
   const auto is_known = [&] { return !ends_ns_.empty() && ends_ns_.back() >= least_ns; };
   if (!is_known() && !counter_) {
@@ -104,7 +105,7 @@ std::uint32_t PlayedCapture::number_of(std::int64_t end_ns) {
   return static_cast<std::uint32_t>(found - ends_ns_.begin());
 }
 
-/// A capture file does not store its length.
+/// Reads through the capture, because a capture file does not store its length.
 void PlayedCapture::measure(const OnLength& on_length) const {
   auto source = open_again(capture_.capture(), options_.capture);
   constexpr std::uint64_t kPacketsAtOnce = 4096;

@@ -47,8 +47,8 @@ Status check_folder(const fs::path& folder) {
   return {};
 }
 
-/// Exchanges both, so that a kill never leaves the old one only in the staging folder. False if one
-/// is missing or the file system cannot.
+/// Exchanges two folders in one step, so that a process killed in between has lost neither. Returns
+/// false if one is missing or the file system cannot exchange them.
 bool exchange(const fs::path& a, const fs::path& b) noexcept {
   return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 }
@@ -66,7 +66,7 @@ fs::path truth_folder_of(const fs::path& pcap_path) {
   return pcap_path.parent_path() / (pcap_path.stem().string() + ".truth");
 }
 
-/// The folder itself; removed with this object.
+/// The staging folder, which is removed with this object.
 class DriveFiles::Staging {
  public:
   explicit Staging(files::Part part) : part_(std::move(part)) {}

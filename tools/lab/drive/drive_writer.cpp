@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A table without a drive's truth beside it belongs to somebody's own unit, not an earlier drive.
+/// Refuses to replace a table that no drive has written: without a drive's truth beside it, it may
+/// belong to a real unit.
 Status check_table(const fs::path& table, const fs::path& truth) {
   std::error_code none;
   if (table.empty() || !fs::exists(table, none) || fs::exists(truth, none)) return {};
@@ -23,8 +24,8 @@ Status check_table(const fs::path& table, const fs::path& truth) {
                           table.string(), truth.string()));
 }
 
-/// Writes the unit's table and reads it back: frames are cut by what the file says, as the decoder
-/// does. A built-in table is used unchanged.
+/// Writes the unit's table and reads it back, so that frames are cut by the values in the file, as
+/// the decoder will cut them. A built-in table is returned unchanged.
 template <class EncoderTraits>
 Expected<typename EncoderTraits::Calibration> written_table(
     const fs::path& table, const typename EncoderTraits::Calibration& calibration) {
@@ -46,7 +47,8 @@ Expected<DriveWriter<EncoderTraits>> DriveWriter<EncoderTraits>::create(
   const Status replaceable =
       check_table(calibration_path_of<EncoderTraits>(pcap_path), truth_folder_of(pcap_path));
   if (!replaceable) return tl::unexpected(replaceable.error());
-  auto pcap = capture::PcapWriter::create(pcap_path);  // first, because it makes missing folders
+  // Comes first, because it makes missing folders.
+  auto pcap = capture::PcapWriter::create(pcap_path);
   if (!pcap) return tl::unexpected(pcap.error());
   auto files = DriveFiles::create(pcap_path);
   if (!files) return tl::unexpected(files.error());

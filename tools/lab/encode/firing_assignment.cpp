@@ -7,11 +7,11 @@ namespace {
 
 constexpr std::size_t kNone = SIZE_MAX;
 
-/// A return with its firing, and the previous pair.
+/// A return, the firing assigned to it, and the index of the previous pair.
 struct Pair {
   std::size_t wanted, fired, before;
 };
-/// The best assignment to firings before some firing: its worth and its last pair.
+/// The best assignment that uses only the firings before a given one: its worth and its last pair.
 struct Way {
   std::int64_t worth = 0;
   std::size_t last = kNone;
@@ -27,14 +27,14 @@ std::vector<std::size_t> assign_firings(std::span<const std::int64_t> wanted_tic
       farthest_ticks * farthest_ticks * (std::ssize(wanted_ticks) + 1);
   std::vector<Pair> pairs;
   std::vector<Way> best(fired_ticks.size() + 1);  // best[n]: with the first n firings
-  std::size_t first = 0, end = 0;                 // firings near enough
+  std::size_t first = 0, end = 0;                 // the firings near enough to this return
   for (std::size_t i = 0; i < wanted_ticks.size(); ++i) {
     const std::int64_t wanted = wanted_ticks[i];
     while (first < fired_ticks.size() && fired_ticks[first] < wanted - farthest_ticks) ++first;
     for (; end < fired_ticks.size() && fired_ticks[end] <= wanted + farthest_ticks; ++end) {
       best[end + 1] = best[end];
     }
-    // Backwards, so that entries of earlier firings do not contain this return yet.
+    // The loop goes backwards, so that the entries it reads do not contain this return yet.
     for (std::size_t firing = end; firing-- > first;) {
       const std::int64_t shift = fired_ticks[firing] - wanted;
       const std::int64_t worth = best[firing].worth + worth_of_return - shift * shift;

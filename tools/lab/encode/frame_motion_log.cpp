@@ -19,7 +19,7 @@ void FrameMotionLog::note_firing(std::int64_t stamp_ns, std::int64_t unwrapped_a
 std::vector<vehicle::MotionSample> FrameMotionLog::samples() const {
   constexpr std::int64_t kPeriod_ns = 10'000'000, kBeforeSeam_ns = 1'000'000;
   std::vector<vehicle::MotionSample> samples;
-  // Seam 0 begins the run-up, seam i + 1 frame i, the last one the run-out.
+  // Seam 0 begins the run-up, seam i + 1 begins frame i, and the last seam begins the run-out.
   const std::size_t frames = std::min(twists_.size(), seams_ns_.size() - 2);
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const std::int64_t begin_ns = seams_ns_[frame + 1], end_ns = seams_ns_[frame + 2];

@@ -40,7 +40,7 @@ double share_of_frame(const Vector& p, double near) {
 
 void undo_motion_compensation(const SensorTwist& twist,
                               std::span<scan::ScanPoint> points) noexcept {
-  constexpr int kCorrections = 4;  // the correction shrinks by v t / r, below 1/5 a time
+  constexpr int kCorrections = 4;  // each one is v t / r of the last, less than a fifth
   for (scan::ScanPoint& point : points) {
     if (!scan::is_place(point)) continue;
     const Vector in_file{point.x_m, point.y_m, point.z_m};

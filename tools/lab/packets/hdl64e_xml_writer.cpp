@@ -18,8 +18,8 @@ namespace {
 
 using Text = fmt::memory_buffer;
 
-/// Degrees that deg_to_rad() takes back to exactly `rad`, the shortest such text; where no double
-/// does, the nearest.
+/// Returns the shortest text in degrees that deg_to_rad() turns back into exactly `rad`; if there
+/// is none, the nearest double.
 std::string degrees(double rad) {
   const double nearest = beams::rad_to_deg(rad);
   std::string best = text::text_of(nearest, 0);
@@ -55,8 +55,8 @@ void put_list(Text& text, std::string_view element, bool versioned, Value value)
   put(text, "\t</{}>\n", element);
 }
 
-/// Display colours are part of the layout that readers walk through; any will do, so shades of
-/// grey.
+/// Writes the display colours. Readers expect them in the layout but do not use them, so they are
+/// shades of grey.
 void put_colors(Text& text) {
   put(text,
       "\t<colors_ class_id=\"3\" tracking_level=\"0\" version=\"0\">\n"
@@ -73,7 +73,8 @@ void put_colors(Text& text) {
 
 void put_laser(Text& text, std::size_t number, const Hdl64eLaser& laser) {
   const bool first = number == 0;
-  // Readers that always interpolate then find far everywhere, which is what "no two-point" means.
+  // Some readers always interpolate between near and far. Equal values make them use the far value
+  // everywhere, as "no two-point correction" means.
   const double near_x_m = laser.two_point ? laser.dist_correction_x_m : laser.dist_correction_m;
   const double near_y_m = laser.two_point ? laser.dist_correction_y_m : laser.dist_correction_m;
   put(text, "\t\t<item{}>\n\t\t\t<px class_id{}=\"9\"{} object_id=\"_{}\">\n",

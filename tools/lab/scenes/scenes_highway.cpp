@@ -11,7 +11,7 @@
 namespace terracut::scenes {
 namespace {
 
-constexpr double kMedian_m = 1.4;  // Half its width.
+constexpr double kMedian_m = 1.4;  // Half the width of the median strip.
 constexpr double kLane_m = 3.75;
 constexpr double kCarriageway_m = 0.8 + 2 * kLane_m + 2.5;
 constexpr double kVerge_m = 1.2;

@@ -30,7 +30,8 @@ Scene make_hill_scene(const SceneExtent& extent) {
       {{-30, 0}, {15, kSlope}, {150, kSlope}, {200, 0}, {250, -kSlope}, {400, -kSlope}}};
   road.grade = world::GradeProfile(knots);
   const double kerb_m = random.uniform(0.08, 0.16);
-  // Uphill on the left: parked cars, pavement, bank; downhill on the right behind a guard rail.
+  // The hill rises on the left, with parked cars, a pavement and a bank. It falls on the right,
+  // behind a guard rail.
   road.left.strips = {
       {kHalfRoad_m, 0, -0.02, 0.01, world::Truth::kRoad, world::Material::kAsphalt},
       {kParking_m, 0, -0.02, 0.01, world::Truth::kParking, world::Material::kPaving},

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHalfRoad_m = 2.9;
 constexpr double kVerge_m = 0.8;
-constexpr double kDitch_m = 1.6;  // Down, and up again by as much.
+constexpr double kDitch_m = 1.6;  // Each side of the ditch is this wide.
 constexpr double kDitch_d_m = kHalfRoad_m + kVerge_m + kDitch_m;
 constexpr double kField_d_m = kDitch_d_m + kDitch_m;
 constexpr double kLane_d_m = 1.4;

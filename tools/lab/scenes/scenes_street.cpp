@@ -121,7 +121,7 @@ void add_traffic(SceneLayout& layout, const SidePlan& right, double ego_mps) {
     layout.add(random.chance(0.1) ? make_truck(random) : make_car(random), {s_m, 1.8}, kAgainst_rad,
                kOncoming_mps);
   });
-  // Everyone in the own lane keeps the vehicle's speed, so that nobody comes near it.
+  // All vehicles in the own lane drive at the own vehicle's speed, so that none comes near it.
   layout.row(51, 24, ego_mps, [&](world::Random& random, double s_m) {
     if (std::abs(s_m) < 12 || random.chance(0.4)) return;
     layout.add(make_car(random), {s_m, kEgoLane_d_m}, 0, ego_mps);
@@ -136,7 +136,8 @@ void add_traffic(SceneLayout& layout, const SidePlan& right, double ego_mps) {
     const double at_m = s_m + random.uniform(-8, 8);
     layout.add(make_cyclist(random), {at_m, 3.1}, kAgainst_rad, -4.5);
   });
-  // Somebody crosses from the right when the vehicle is some 50 m away, and is across in time.
+  // A person begins to cross from the right when the vehicle is about 50 m away, and has crossed
+  // before it comes.
   layout.row(54, 60, 0, [&](world::Random& random, double s_m) {
     if (ego_mps < 1) return;
     world::SceneObject person = make_pedestrian(random);

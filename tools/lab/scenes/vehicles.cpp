@@ -31,7 +31,8 @@ world::SceneObject make_car(world::Random& random) {
   car.half_base_m = 0.3 * length_m;
   car.half_track_m = 0.42 * width_m;
 
-  // Body up to the belt line, lower over the bonnet; windows all round; roof.
+  // A body reaches up to the belt line and is lower over the bonnet; above it stand windows all
+  // round, and a roof.
   const double bonnet_m = 0.25 * length_m;
   const double cabin_m = length_m - bonnet_m - (random.chance(0.5) ? 0.1 : 0.7);
   const double cabin_x_m = length_m / 2 - bonnet_m - cabin_m / 2;

@@ -18,7 +18,7 @@ Expected<PortSenders> PortSenders::open(const std::string& to, UdpSenderConfig c
                 "expected a port from 1 to 65535 after the address, found 0 in '" + to + "'");
   }
   config.to = *endpoint;
-  // Opened even without a port: a wrong address or interface must be reported now.
+  // A sender is opened even if no port is known yet, so that a wrong address is reported now.
   UdpSenderConfig first = config;
   if (!has_port) first.to.port = 1;
   auto sender = UdpSender::open(first, memory);

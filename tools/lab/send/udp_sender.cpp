@@ -85,7 +85,7 @@ std::size_t UdpSender::send(std::span<const packet::Datagram> datagrams) noexcep
     const std::size_t count = std::min(datagrams.size(), kBatch);
     for (std::size_t slot = 0; slot < count; ++slot) {
       const auto payload = datagrams[slot].payload;
-      // sendmmsg() only reads them; iovec knows no const.
+      // The cast is safe: sendmmsg() only reads the bytes, but iovec has no const pointer.
       vectors_[slot] = {const_cast<std::uint8_t*>(payload.data()), payload.size()};
     }
     // Stops at the first datagram that fails; the next call returns its error.

@@ -12,8 +12,8 @@
 namespace terracut::simulator {
 namespace {
 
-constexpr std::uint64_t kBesideTheAxis = 0x5BE5;  // distinguishes its keys from the axis's
-/// Half the length of a 5 ns pulse: nearer echoes merge.
+constexpr std::uint64_t kBesideTheAxis = 0x5BE5;  // makes its random numbers differ from the axis's
+/// Half the length of a 5 ns pulse. Echoes that are nearer to each other merge.
 constexpr double kSeparable_m = 0.75;
 /// Two places are on one surface if each lies this near to the other's tangent plane: slanting
 /// ground spreads one pulse over metres without splitting it.

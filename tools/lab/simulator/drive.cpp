@@ -25,7 +25,7 @@ namespace {
 
 // Objects are sorted again after so many firings (9 ms): nothing moves far in that time.
 constexpr std::int64_t kBatch = 192;
-// Distance from the sensor's origin to the beams' starts, at most.
+// The beams start at most this far from the sensor's origin.
 constexpr double kBeamStarts_m = 0.5;
 
 Status in_range(const char* what, double value, double least, double most) {
@@ -135,7 +135,8 @@ class Drive {
     head_.cast(firing, {moment, moment}, columns);
   }
 
-  /// Thread k takes every n-th firing; a firing depends only on its index.
+  /// Computes firings in parallel: of n threads, each takes every n-th firing. A firing's result
+  /// depends only on its index.
   void cast(std::int64_t first, std::int64_t count) {
     const auto share = [&](std::int64_t from) {
       for (std::int64_t i = from; i < count; i += config_.threads) {
@@ -159,7 +160,8 @@ class Drive {
   Eigen::Isometry3d T_vehicle_lidar_;
   drive::FiringPlan<EncoderTraits> plan_;
   ScanHead<EncoderTraits> head_;
-  std::array<ObjectIndex, 2> objects_;  ///< By frame parity; only the first is used with motion.
+  std::array<ObjectIndex, 2> objects_;  ///< Even and odd frames; only the first is used with
+                                        ///< motion.
   std::array<Moment, 2> frame_moments_{};
   std::array<double, 2> still_time_s_{};
   double batch_time_s_ = 0;

@@ -8,8 +8,8 @@
 namespace terracut::simulator {
 namespace {
 
-constexpr double kHalfSeenSignal = 1.5e-6;  // Per square metre: half of such echoes are seen.
-constexpr double kSignalSpread = 0.35;      // Spread of the signal's logarithm around that.
+constexpr double kHalfSeenSignal = 1.5e-6;  // Per square metre; half of such echoes are seen.
+constexpr double kSignalSpread = 0.35;      // Spread of the logarithm around that.
 
 bool is_seen(double signal, world::Random& random) noexcept {
   if (signal <= 0) return false;

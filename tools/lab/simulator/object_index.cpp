@@ -118,7 +118,7 @@ std::optional<world::Hit> ObjectIndex::cast(const world::SightLine& line, double
       const std::optional<double> way_m = way_to_leaf_m(shape, *chord, leaf_key);
       if (!way_m || *way_m >= limit_m) continue;
       limit_m = *way_m;
-      // Leaves and wires have random directions: taken as facing the beam.
+      // Leaves and wires lie in random directions, so they are assumed to face the beam.
       const Eigen::Vector3d normal = shape.density_per_m > 0
                                          ? Eigen::Vector3d(-line.direction)
                                          : placed.T_world_object.linear() * chord->normal;

@@ -140,7 +140,8 @@ void ScanHead<EncoderTraits>::cast_single(const Beam& beam, const Moment& moment
   if (const auto measured = measure(beam, moment, *sighting)) put(*measured, beam.laser, column);
 }
 
-// The axis is measured as in single return: a dual-return drive only adds second echoes.
+// Measures the beam's axis as in single return mode, so that a dual-return drive only adds second
+// echoes.
 template <class EncoderTraits>
 void ScanHead<EncoderTraits>::cast_dual(const Beam& beam, const Moment& moment,
                                         std::span<Column> columns) const {

@@ -11,7 +11,7 @@
 namespace terracut::world {
 namespace {
 
-// A dropped kerb: half the length of its lowest part, and the length of its ramp.
+// Half the length of a dropped kerb's lowest part, and the length of its ramp.
 constexpr double kDroppedHalf_m = 1.8;
 constexpr double kDroppedRamp_m = 1.5;
 // Bumps grow to their full height over this distance, so that neighbouring strips join.

@@ -4,7 +4,8 @@
 
 namespace terracut::world {
 
-// Reflectivities near 905 nm: asphalt and rubber dark, leaves and grass bright.
+// Returns reflectivities near a wavelength of 905 nm, where asphalt and rubber are dark, and leaves
+// and grass are bright.
 MaterialProperties properties(Material material) noexcept {
   switch (material) {
     case Material::kAsphalt:

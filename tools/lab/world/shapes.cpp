@@ -34,7 +34,8 @@ std::optional<Chord> clip_box(const Shape& shape, const Vector3d& from,
   Chord chord{-kForever, kForever, Vector3d::UnitZ()};
   const Vector3d& half = shape.half;
   const double height = 2 * half.z();
-  // A face that leans inwards by `inset` over the height; its foot is at `half`.
+  // Clips at a face that leans inwards: from its foot, at the distance `foot`, to its top by
+  // `inset`.
   const auto leaning = [&](const Vector3d& outwards, double foot, double inset) {
     const Vector3d normal = height * outwards + inset * Vector3d::UnitZ();
     return clip(chord, from, direction, normal, height * foot - inset * half.z());
@@ -51,7 +52,7 @@ std::optional<Chord> clip_box(const Shape& shape, const Vector3d& from,
   return chord;
 }
 
-/// Clips to a cylinder around axis number `axis`, with flat ends.
+/// Clips to a cylinder with flat ends around the coordinate axis number `axis`.
 std::optional<Chord> clip_cylinder(const Shape& shape, const Vector3d& from,
                                    const Vector3d& direction, int axis) noexcept {
   const Vector3d along = Vector3d::Unit(axis);

@@ -11,7 +11,7 @@
 namespace terracut::world {
 namespace {
 
-constexpr double kMarkHalfWidth_m = 0.07;  // Dashes of 4 m every 10 m.
+constexpr double kMarkHalfWidth_m = 0.07;  // Marks are 4 m long, one every 10 m.
 constexpr double kMarkLength_m = 4.0;
 constexpr double kMarkEvery_m = 10.0;
 

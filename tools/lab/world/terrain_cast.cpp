@@ -13,9 +13,9 @@ namespace {
 constexpr double kShortestStep_m = 0.04;
 constexpr double kPastEdge_m =
     0.02;  // How far a step goes beyond an edge, to be in the next strip.
-constexpr double kLongestStep_m = 8.0;  // On bends the way to an edge is only known nearby.
+constexpr double kLongestStep_m = 8.0;  // In bends the distance to an edge is known only nearby.
 constexpr double kEdgePrecision_m = 1e-6;
-constexpr double kBendInPlan = 0.005;  // Slope that appears as the road bends away below a step.
+constexpr double kBendInPlan = 0.005;  // The most slope that a bend of the road adds.
 
 }  // namespace
 

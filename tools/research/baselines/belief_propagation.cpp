@@ -86,7 +86,7 @@ void BeliefPropagation::send_all(int row, int column) noexcept {
     }
     std::swap(costs, wider);
   }
-  // Puts a cone of slope per_label on every value: one pass up, one down.
+  // Lowers each value to at most its neighbour's plus per_label: one pass goes up, one down.
   for (std::size_t i = kSides; i < count * kSides; i += kSides) {
     for (std::size_t side = 0; side < kSides; ++side) {
       costs[i + side] = std::min(costs[i + side], costs[i - kSides + side] + per_label[side]);
@@ -123,7 +123,8 @@ void BeliefPropagation::deliver(const FourCosts& costs, Side to, float limit,
   }
 }
 
-/// Labels within a free slope are equally good but for rounding; takes the middle one of the best.
+/// Returns the label of the least belief. Several labels may be equally good but for rounding,
+/// within a free slope; then the middle one.
 int BeliefPropagation::least_label(std::span<const float> belief) const noexcept {
   constexpr float kEqual = 1e-4F;
   const auto least = std::min_element(belief.begin(), belief.end());

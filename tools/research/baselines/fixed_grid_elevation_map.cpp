@@ -92,8 +92,8 @@ FixedGridElevationMap::Square FixedGridElevationMap::fit(std::span<Sample> sampl
   square.kind = level ? SquareKind::kLevel : SquareKind::kVertical;
   square.elevation_m = samples.front().height_m;
   if (!level) return square;
-  // Kalman filter updates by returns of equal variance give this mean. It is computed relative to
-  // the first height, so that few bits are lost.
+  // This mean equals the result of a Kalman filter updated by returns of equal variance. It is
+  // computed relative to the first height, so that few bits are lost.
   float weights = 0, weighted_m = 0;
   for (const Sample& sample : samples) {
     weights += sample.weight;

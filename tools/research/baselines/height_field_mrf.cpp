@@ -95,8 +95,9 @@ void HeightFieldMrf::put_costs() noexcept {
   }
 }
 
-/// Sets the costs of a cell's heights. Returns at a height support it, those one step off nearly as
-/// well. Returns above it would be obstacles; returns below it are hardly possible.
+/// Sets the costs of a cell's heights. A height is supported by returns at it and, nearly as well,
+/// by returns one step off. Returns above it would be obstacles; returns below it are hardly
+/// possible.
 void HeightFieldMrf::put_cost(int band, int sector, float free_above_m) noexcept {
   const auto labels = static_cast<std::size_t>(config_.height_labels);
   const auto cost = field_.data_cost(band, sector);

@@ -36,8 +36,8 @@ class Change:
     # Sign-flip test over the means of sequences: successive frames look alike, so the test over frames finds too much.
     # None below two sequences.
     sequences: Optional[PairedTest]
-    # As printed by eval, the mean over sequences of all their points together; None for times, and if the reports are
-    # not of the same frames.
+    # The values that eval prints: means over sequences, computed from all points of a sequence together. None for times,
+    # and if the reports are not of the same frames.
     eval_before: Optional[float]
     eval_after: Optional[float]
 

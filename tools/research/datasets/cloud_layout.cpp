@@ -15,7 +15,7 @@
 namespace terracut::datasets {
 namespace {
 
-/// The values of a key, in the order of their enum.
+/// The names that each key accepts, in the order of the key's enumeration.
 constexpr std::array kPointFormats{"kitti_bin", "nuscenes_bin", "pcd"};
 constexpr std::array kLabelFormats{"uint32", "uint8"};
 constexpr std::array kRingSources{"order", "field"};
@@ -41,8 +41,8 @@ bool decode(const YAML::Node& node, int least, int most, int& to) {
   return YAML::convert<int>::decode(node, to) && least <= to && to <= most;
 }
 
-/// Sets a key. Returns the expected values for a wrong `text`, "" if set; nothing for an unknown
-/// key.
+/// Sets a key. Returns an empty text if the value was set, the expected values if it was wrong, and
+/// nothing if the key is unknown.
 std::optional<std::string> take(CloudLayout& layout, std::string_view key, const YAML::Node& node) {
   constexpr const char* kPattern = "a relative path with one `*`, in its last part";
   const std::string text = node.IsScalar() ? node.Scalar() : "";

@@ -74,7 +74,7 @@ void ChangedFrames::look(const LabelledByAll& frame) {
   for (std::size_t i = 1; i < methods_.size(); ++i) {
     Change change = change_of(frame, i);
     if (change.returns == 0) continue;
-    // More returns first, then the first name.
+    // Frames with more changed returns come first; frames with equally many are ordered by name.
     const auto is_more = [&] {
       const Change& most = most_[i];
       return change.returns != most.returns

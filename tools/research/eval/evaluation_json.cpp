@@ -185,7 +185,7 @@ class MethodJson {
     return json;
   }
 
-  /// Returns the measures of `judge` on the same points: means(), and by sequence.
+  /// Returns the measures that `judge` gives on the same points: their means, and by sequence.
   template <class Judge>
   [[nodiscard]] Json oracle(Judge&& judge) const {
     Json json = means(judge);
@@ -200,7 +200,7 @@ class MethodJson {
   }
 
  private:
-  /// Returns every measure in every scope as the mean over sequences of `judge`.
+  /// Returns every measure in every scope: its mean over sequences of what `judge` gives.
   template <class Judge>
   [[nodiscard]] Json means(Judge&& judge) const {
     Json json = Json::object();

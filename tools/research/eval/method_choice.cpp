@@ -11,7 +11,7 @@
 namespace terracut::eval {
 namespace {
 
-/// True if the name can be a folder's.
+/// True if a folder can have this name.
 bool is_name(std::string_view name) {
   return !name.empty() && std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||

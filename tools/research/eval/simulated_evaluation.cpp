@@ -48,7 +48,7 @@ std::string name_of(std::size_t frame) {
   return fmt::format("{:06}", frame);
 }
 
-/// Called before the lengthy simulation.
+/// Checks the names before the simulation, which takes long.
 Status check_scenes(const std::vector<std::string>& scenes) {
   const auto known = scenes::scene_names();
   for (auto scene = scenes.begin(); scene != scenes.end(); ++scene) {
@@ -264,7 +264,8 @@ class Run {
     DriveEvaluation drive(config_, mount, scene, drive::truth_folder_of(capture), calibration,
                           columns, keeper_, [this] { progress_.evaluated(++done_, frames()); });
     Status status;
-    // A thread of its own, which leaves the core again before the next drive's rays.
+    // The drive runs on a thread that is pinned to one core. It ends before the next drive is
+    // simulated, which needs all cores.
     std::thread([&] {
       pin_this_thread("tc-eval-0", threads::allowed_cores(), 0);
       status = drive.run(capture, stop_wanted_);

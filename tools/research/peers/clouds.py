@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""terracut's library and a peer, clouds in memory in, labels out, in turn on one core, over recorded scans of which all
-rows are kept, every second, or every fourth.
+"""Compares terracut's library with a peer on recorded scans of which all rows are kept, every second, or every fourth.
 
-A sequence's scans are one program's run; rounds go on in turn. Times are processor milliseconds a cloud, p50 / p99 of all
-clouds, "x" the ratio of medians to the peer's. IoU_g / Recall_o, of all ground, are of each sequence's points together, then the mean over
-sequences. Needs build/release/tests/bench/cloud_peer and, but for --peer, FugSeg (./tools/setup --peers).
+Both take clouds in memory and return labels; they run in turn on one core. One run labels all scans of a sequence. Times
+are processor milliseconds a cloud: p50 / p99 over all clouds, and "x", the ratio of medians to the peer's. IoU_g / Recall_o
+count all ground; each is computed for a sequence's points together and then averaged over sequences. Needs
+build/release/tests/bench/cloud_peer and, unless --peer names another program, FugSeg (./tools/setup --peers).
 """
 
 import argparse
@@ -23,7 +23,7 @@ from .programs import Peer
 from .sources import PEERS, build
 
 ROWS = 64
-# (rows kept of so many, beginning with the lowest or so many above it)
+# (n, k): of every n rows, row k is kept; rows are counted upwards from 0, the lowest one
 KEPT = ((1, 0), (2, 0), (2, 1), (4, 0), (4, 2))
 
 

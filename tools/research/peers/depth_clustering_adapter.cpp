@@ -31,7 +31,7 @@ class DepthClustering {
     return scan;
   }
   void prepare(const Scan& scan) { cloud_ = std::make_unique<Cloud>(*scan); }
-  /// Projection is included: the method's input is an image.
+  /// The projection is timed as well, because the method's input is an image.
   void segment(const Scan&) {
     cloud_->InitProjection(*params_);
     remover_.OnNewObjectReceived(*cloud_, 0);
@@ -52,7 +52,7 @@ class DepthClustering {
 
  private:
   std::unique_ptr<ProjectionParams> params_ = ProjectionParams::HDL_64();
-  // 7 degrees and 9 pixels, as in its program for KITTI.
+  // The method's own program for KITTI uses 7 degrees and 9 pixels.
   depth_clustering::DepthGroundRemover remover_{*params_, depth_clustering::Radians::FromDegrees(7),
                                                 9};
   Listener listener_;

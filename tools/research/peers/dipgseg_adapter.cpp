@@ -21,12 +21,12 @@ class DipgSeg {
     return scan;
   }
   void prepare(const Scan& scan) {
-    cloud_ = scan;  // it takes a cloud that it may change
+    cloud_ = scan;  // the method may change its cloud, so it gets a copy
     ground_.clear();
     others_.clear();
     is_ground_.assign(scan.size(), 0);
   }
-  /// The call that finds the ground points, with the paper's parameters.
+  /// Calls the method to find the ground points, with the parameters of its paper.
   void segment(const Scan&) {
     method_.segment_ground_eval(cloud_, ground_, others_, is_ground_.data());
   }

@@ -20,7 +20,8 @@ class FugSeg {
     }
     return scan;
   }
-  /// Its viewer lets these lists grow in the call; reserving memory makes it faster.
+  /// Reserves memory, which makes the call faster; FugSeg's own viewer lets the lists grow in the
+  /// call.
   void prepare(const Scan& scan) {
     for (fugseg::Cluster3D* const list : {&ground_, &others_}) {
       list->clear();
@@ -35,7 +36,7 @@ class FugSeg {
   }
 
  private:
-  // The defaults of its viewer, for KITTI.
+  // These are the defaults of FugSeg's viewer, for KITTI.
   fugseg::GroundExtractor extractor_{120, 1.0F, 0.15F, 7.0F, 10.0F};
   fugseg::Cluster3D ground_, others_;
 };

@@ -9,8 +9,9 @@ namespace {
 using groundgrid::GroundSegmentation;
 using Cloud = pcl::PointCloud<GroundSegmentation::PCLPoint>;
 
-constexpr float kSensorHeight_m = 1.73F;  // its launch files: the vehicle's frame is so much lower
-constexpr float kMap_m = 120, kCell_m = .33F;  // GroundGrid.h
+// The height above the vehicle's frame, by its launch files.
+constexpr float kSensorHeight_m = 1.73F;
+constexpr float kMap_m = 120, kCell_m = .33F;  // by GroundGrid.h
 
 class GroundGrid {
  public:
@@ -24,7 +25,8 @@ class GroundGrid {
     sensor_.x = sensor_.y = 0;
     sensor_.z = kSensorHeight_m;
   }
-  /// In the vehicle's frame. Rings serve only as a limit, which its defaults do not set.
+  /// Returns the points in the vehicle's frame. All rings are 0: the method only compares them with
+  /// a limit, which its defaults do not set.
   static Scan scan_of(const std::vector<terracut::peers::Point>& points) {
     Scan scan(new Cloud);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -37,7 +39,7 @@ class GroundGrid {
     }
     return scan;
   }
-  /// The map before the first odometry, as made by GroundGrid::initGroundGrid().
+  /// Resets the map to its state before the first odometry, as GroundGrid::initGroundGrid() does.
   void prepare(const Scan&) {
     map_["points"].setZero();
     map_["ground"].setConstant(0);
@@ -46,7 +48,8 @@ class GroundGrid {
     map_["maxGroundHeight"].setConstant(-100);
   }
   void segment(const Scan& scan) { labelled_ = method_.filter_cloud(scan, sensor_, {}, map_); }
-  /// It returns a cloud without point numbers: points are found by coordinates; ground is 49.
+  /// The method returns a cloud without point numbers, so points are found by their coordinates.
+  /// Ground has the value 49.
   std::vector<bool> is_ground(const Scan& scan) {
     const auto key = [](const GroundSegmentation::PCLPoint& p) {
       return std::array<float, 3>{p.x, p.y, p.z};

@@ -12,9 +12,10 @@ class Jcp {
  public:
   using Scan = pcl::PointCloud<pcl::PointXYZI>;
 
-  /// Its defaults equal its processor.param.yaml.
+  /// The default configuration equals the method's processor.param.yaml.
   Jcp() { method_.config({}); }
-  /// Points without the ring: rows follow from elevation, at the cost of an arctangent per point.
+  /// Returns points without rings: the method then computes rows from elevations, which takes an
+  /// arctangent for each point.
   static Scan scan_of(const std::vector<terracut::peers::Point>& points) {
     Scan scan;
     for (const auto& p : points) scan.push_back({p[0], p[1], p[2], p[3]});

@@ -7,7 +7,8 @@
 namespace {
 
 GroundSegmentationParams kitti_params() {
-  // The values of its launch/segmentation_params.yaml, one thread, and KITTI's sensor height.
+  // The values of the method's launch/segmentation_params.yaml, with one thread and KITTI's sensor
+  // height.
   GroundSegmentationParams params;
   params.n_threads = 1;
   params.r_min_square = 0.5 * 0.5;
@@ -46,7 +47,7 @@ class Linefit {
 
 }  // namespace
 
-/// Its viewer, which is off.
+/// Replaces the method's viewer, which is not used.
 Viewer::Viewer() = default;
 Viewer::~Viewer() = default;
 void Viewer::visualize(const std::list<PointLine>&, const PointCloud::ConstPtr&,

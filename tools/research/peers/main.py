@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""terracut and other ground segmenters in turn, in the same minutes, on the same core, over the same points.
+"""Compares terracut with other ground segmenters: in turn, in the same minutes, on the same core, over the same points.
 
 The peers (sources.py) are fetched from GitHub, each at one commit, and built in a folder outside of this repository with an
-adapter of ours; one that cannot be had is left out, and why is said. `--peer NAME=PROGRAM` adds any other: a program that
-is called as `PROGRAM REPEAT LABELS SCAN.bin...`, reads all scans (float32 x y z remission), and prints a line for every
-one of them, REPEAT times over: the nanoseconds of processor time that segmenting it took. Where LABELS is not "-", it
-writes LABELS/NNNNNN.label for the n-th scan, uint32 a point: 40, 44, 48, 49, 60 or 72 is ground.
+adapter of ours. A peer that cannot be fetched or built is left out, and the reason is printed. `--peer NAME=PROGRAM` adds
+another program. It is called as `PROGRAM REPEAT LABELS SCAN.bin...` and reads all scans (float32 x y z remission). REPEAT
+times over, it segments every scan and prints the nanoseconds of processor time that this took, one line a scan. Unless
+LABELS is "-", it writes LABELS/NNNNNN.label for the n-th scan, one uint32 a point: 40, 44, 48, 49, 60 and 72 are ground.
 
-Drives are recorded SemanticKITTI sequences, as the packets they came in (`terracut encode`), and simulated ones. terracut
-labels the packets; its time is shown with and without decoding, and what of it is left when the frame's last packet has
-come. A peer gets the points that were decoded from these packets, in whatever container it likes, for nothing. Every round runs
-each program over every drive, one warming pass and two that count. p50 and p99 are of all frames of all rounds, "x" is the
-ratio of medians. IoU_g and Recall_o, of all ground, are of each drive's points together; the last rows of recorded and of simulated drives
-have their mean. The program is build/release/terracut or $TERRACUT.
+Drives are recorded SemanticKITTI sequences, encoded as packets (`terracut encode`), and simulated drives. terracut labels
+the packets. Three of its times are shown: with decoding, without it, and the time still needed when the frame's last packet
+has come. A peer gets the points decoded from these packets in its own container, which is not timed. Every round runs each
+program over every drive: one pass to warm up and two that count. p50 and p99 are over all frames of all rounds, "x" is the
+ratio of medians. IoU_g and Recall_o count all ground; each is computed for a drive's points together. The last rows show
+their means over recorded and over simulated drives. The program is build/release/terracut or $TERRACUT.
 """
 
 import argparse

@@ -53,7 +53,7 @@ class PeerSource:
     licence: str
     sources: tuple
     adapter: str
-    code: str = ""  # patterns, relative to the folder of all sources, like the following
+    code: str = ""  # patterns of source files; paths are relative to the folder of all sources, also below
     include: str = ""
     flags: str = ""
     needs: str = ""  # a header, and the packages that provide it

@@ -16,7 +16,7 @@ class Travel {
   using Scan = pcl::PointCloud<Point>;
 
   Travel() {
-    // The values of its config/kitti_params.yaml.
+    // These are the values of the method's config/kitti_params.yaml.
     method_.setParams(64.0, 1.0, 8.0, 3, 5, 10, 0.5, 0.125, 0.3, 0.940, 200, 0.03, 0.1, 1.0, true,
                       false);
   }

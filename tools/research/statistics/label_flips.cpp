@@ -13,7 +13,7 @@ namespace terracut::statistics {
 namespace {
 
 constexpr double kSame_m = 0.10;
-constexpr double kVoxel_m = 2 * kSame_m;  // two per direction cover all points within reach
+constexpr double kVoxel_m = 2 * kSame_m;  // so a point's neighbours lie in two voxels a direction
 constexpr std::size_t kVoxels = std::size_t{1} << 18;
 
 std::int64_t voxel_of(double metres) {
@@ -66,7 +66,8 @@ std::uint32_t LabelFlips::nearest_before(const Place& place) const {
   for (std::int64_t at_x = x[0]; at_x <= x[1]; ++at_x) {
     for (std::int64_t at_y = y[0]; at_y <= y[1]; ++at_y) {
       for (std::int64_t at_z = z[0]; at_z <= z[1]; ++at_z) {
-        // Two voxels may share a list; points of the other one are too far away to matter.
+        // Two voxels may share a list; the points of the other voxel are too far away to change the
+        // result.
         for (std::uint32_t i = first_in_voxel_[hash_of(at_x, at_y, at_z)]; i != kNone;
              i = next_in_voxel_[i]) {
           const Place& other = places_before_[i];

@@ -5,7 +5,7 @@
 namespace terracut::statistics {
 namespace {
 
-/// `labels_of(entry, counts)` returns the labels to score in place of the counted ones.
+/// Scores the counts with other labels: `labels_of(entry, counts)` returns those to use.
 template <class LabelsOf>
 quality::Quality score(const FrameCounts& counts, const datasets::ClassTable& classes,
                        const Scope& scope, LabelsOf&& labels_of) {

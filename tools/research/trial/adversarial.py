@@ -25,7 +25,7 @@ HARD = {"seeds.ground_share": 1, "seeds.max_ground_height_m": 0, "min_cut.max_un
 SETTINGS = [f"--set={key}={value}" for key, value in HARD.items()]
 SEVERAL_TIMES = 3  # least time of the hard cut relative to the usual one
 WAKING_UP_MS = 1.5  # from the last packet to the segmenter
-SHARES_OF_CUT = [0.8, 0.25]  # share for which the deadline leaves time
+SHARES_OF_CUT = [0.8, 0.25]  # the shares of the cut's time that the deadline leaves
 LOOPS = 2
 LABELLED_GROUND = 40
 GROUND = {40, 44, 48, 49, 60, 72}

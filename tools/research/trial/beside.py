@@ -12,7 +12,7 @@ from pathlib import Path
 
 from . import machine
 
-# Between the segmenting and the receiving thread, so that it is delayed as they are.
+# Between the priorities of the segmenting and the receiving thread, so that cyclictest is delayed as they are.
 CYCLICTEST_PRIORITY = 75
 LONGEST_US = 200_000
 

@@ -27,8 +27,8 @@ from .program import MOUNT, Program, TrialError
 WAKE_UP_PACKETS = 120
 WAKE_UP_NS = 1_000_000_000  # their duration: live recognises a sensor after 0.3 s
 LONGEST_WAIT_S = 200
-# Below the live threads', so that it does not displace them; above everything that loads the machine, which does not
-# delay a real sensor.
+# Below the priority of the live threads, so that the sender does not displace them. Above that of all programs that load
+# the machine, because they would not delay a real sensor.
 SENDER_PRIORITY = 60
 
 Others = Callable[[str], contextlib.AbstractContextManager]
@@ -91,7 +91,7 @@ class Live:
     def __enter__(self) -> "Live":
         guard = ["timeout", "--foreground", "-k", "5", str(int(self.limit_s))]  # FIFO threads must always be stoppable
         with self.log.open("w") as log:
-            # Its memory of the sensor is not shared with other trials.
+            # The file in which live remembers its sensor is not shared with other trials.
             environment = {**os.environ, "STATE_DIRECTORY": str(self.program.scratch)}
             to = log if self.messages_to is None else self.messages_to
             self.process = subprocess.Popen([*self.prefix, *guard, str(self.program.path), *self.command], stdout=to,
@@ -126,7 +126,7 @@ class Live:
     def _wake(self) -> None:
         first = self.program.scratch / "wake_up.pcap"
         span_ns = cut_beginning(self.drive.pcap, WAKE_UP_PACKETS, first)
-        # It is stopped meanwhile, so that all packets are there when it continues: none is counted later.
+        # Live is stopped while packets are sent, so that all of them are there when it continues: none is counted later.
         os.kill(self.pid(), signal.SIGSTOP)
         try:
             with self.others(self.sends_to):

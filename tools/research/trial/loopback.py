@@ -24,7 +24,7 @@ FRAMES_A_SECOND = 10
 class Sensor:
     name: str
     returns: str
-    cpu_bar_ms: float  # limit of the processor time end to end, 99.9th percentile
+    cpu_bar_ms: float  # limit for the 99.9th percentile of a frame's processor time
 
 
 SENSORS = {"hdl64e": Sensor("hdl64e", "single", 15), "ruby128": Sensor("ruby128", "dual", 25)}

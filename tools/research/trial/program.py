@@ -11,7 +11,7 @@ from pathlib import Path
 from .capture import Drive
 
 
-# The drives' mount. Stated, because a live run would estimate it from other frames than the compared replay.
+# The drives' mount. It is stated, because a live run would estimate it from other frames than the replay it is compared to.
 MOUNT = ["--mount-height", "1.73", "--mount-roll", "0", "--mount-pitch", "0"]
 
 

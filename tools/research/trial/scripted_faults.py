@@ -16,13 +16,13 @@ from .live import Live, losses
 from .program import Program, TrialError
 from .report import Report
 
-# The clock must cut no frame short: labels are compared.
+# Labels are compared, so the deadline must be too long to cut a frame short.
 DEADLINE_MS = 10_000
 STRANGER = "127.0.0.2"
 # The recorder has room for the densest sensor; an HDL-64E's packets fill it less than a third as fast.
 RECORDER_S = 6
 COLUMNS_A_PACKET = 6  # of an HDL-64E
-# The drive's frames begin every 100 ms: faults are in the middle of one, and two frames apart.
+# The drive's frames begin every 100 ms. Faults are in the middle of a frame, and two frames apart.
 FIRST_S, APART_S = 0.54, 0.2
 
 
@@ -36,7 +36,7 @@ class Fault:
     counters: dict[str, int] = field(default_factory=dict)
     once: dict[str, int] = field(default_factory=dict)
     touches: bool = False  # changes the labels of its frames
-    arriving: int = 0  # packets more, or less, that arrive for each
+    arriving: int = 0  # how many more packets arrive for each affected one; negative for fewer
     foreign_from: str = ""
 
 
@@ -79,7 +79,7 @@ class UndisturbedFrames:
         labels = labels_of(folder)
         self.begin_ns = [frame["first_packet_ns"] for frame in replay["frames"]]
         self.stamps_ns = [stamp for stamp, _ in records(drive.pcap)]
-        # The ends of the last two are only known to a replay, which sees the end of the file.
+        # Only a replay knows where the last two frames end, because it sees the end of the file.
         self.labels = [labels[number] for number in range(len(self.begin_ns) - 2)]
         if len(set(self.labels)) != len(self.labels):
             raise TrialError(f"{drive.pcap} has frames with the same labels, which cannot be told apart")

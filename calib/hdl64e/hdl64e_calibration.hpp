@@ -17,15 +17,15 @@ struct Hdl64eLaser {
   double rot_correction_rad = 0;   ///< rho, subtracted from the azimuth; positive is to the left.
   double vert_correction_rad = 0;  ///< omega, the elevation of the beam; positive is up.
   double dist_correction_m = 0;    ///< Added to a raw distance of about 25.04 m ("far").
-  double dist_correction_x_m = 0;  ///< Added instead, along x, at 2.40 m; used only if two_point.
-  double dist_correction_y_m = 0;  ///< Added instead, along y, at 1.93 m; used only if two_point.
+  double dist_correction_x_m = 0;  ///< Replaces dist_correction_m along x at 2.40 m if two_point.
+  double dist_correction_y_m = 0;  ///< Replaces dist_correction_m along y at 1.93 m if two_point.
   double vert_offset_m = 0;        ///< Height of the beam's start above the sensor's origin.
   double horiz_offset_m = 0;       ///< Sideways offset of the beam's start.
   double focal_distance_m = 0;     ///< Distance of the strongest return, for the intensity formula.
   double focal_slope = 0;
   int min_intensity = 0;    ///< Lowest intensity, 0 to 255.
   int max_intensity = 255;  ///< Highest intensity, min_intensity to 255.
-  bool two_point = false;   ///< True if X and Y corrections are present and to be used.
+  bool two_point = false;   ///< True if X and Y corrections are present and must be used.
 
   bool operator==(const Hdl64eLaser&) const = default;
 };

@@ -20,7 +20,7 @@ namespace terracut::hdl64e {
 /// file, the laser and the field. Files above 4 MiB are refused.
 [[nodiscard]] Expected<Hdl64eCalibration> read_hdl64e_xml(const std::filesystem::path& path);
 
-/// Parses the content of such a file; `name` stands for the file in errors and becomes the origin.
+/// Parses the content of a db.xml; `name` stands for the file in errors and becomes the origin.
 [[nodiscard]] Expected<Hdl64eCalibration> parse_hdl64e_xml(std::span<const char> text,
                                                            const std::string& name);
 

@@ -20,12 +20,12 @@ namespace terracut::mount {
 struct MountCheckConfig {
   double height_tolerance_m = 0.20;    ///< Right mounts are off by 0.12 m at most, on a hill.
   double pitch_tolerance_rad = 0.044;  ///< 2.5 degrees; right mounts are off by 1.0 at most.
-  /// 3.5 degrees; right mounts are off by up to 2.8, for a second.
+  /// 3.5 degrees; right mounts seem off by up to 2.8 degrees for a second.
   double roll_tolerance_rad = 0.061;
   /// A frame contradicts the mount only if the ground that the mount predicts is not seen: where
-  /// that ground and the plane found are apart, it has fewer points than this share of the plane's.
-  /// A roof, a lorry, a crest or a hollow makes another plane, but the road beside it is still
-  /// seen.
+  /// that ground and the plane found lie apart, the ground holds less than this share of the
+  /// plane's number of points. A roof, a lorry, a crest or a hollow makes another plane, but the
+  /// road beside it is still seen.
   double most_support = 0.15;
   std::size_t frames_kept = 10;  ///< How many of the newest frames are judged together.
   std::size_t least_frames = 3;  ///< With fewer frames there is no verdict.
@@ -43,8 +43,8 @@ class MountCheck {
   /// which no ground is found.
   void add_frame(std::span<const std::array<float, 3>> points);
 
-  /// Returns the mount that the ground shows, the median over the frames that contradict the given
-  /// mount; nothing while these are too few.
+  /// Returns the mount that the ground shows: the median over the frames that contradict the given
+  /// mount. Returns nothing while there are too few such frames.
   [[nodiscard]] std::optional<Mount> contradiction() const;
 
   /// Returns the mean mount over all frames whose ground is within the tolerances: a long drive

@@ -31,7 +31,7 @@ struct SensorSetup {
 /// message names the file and the line.
 [[nodiscard]] Expected<SensorSetup> read_sensor_setup(const std::filesystem::path& path);
 
-/// Parses the content of such a file; `name` stands for the file in errors.
+/// Parses the content of a setup file; `name` stands for the file in errors.
 [[nodiscard]] Expected<SensorSetup> parse_sensor_setup(std::span<const char> text,
                                                        const std::string& name);
 

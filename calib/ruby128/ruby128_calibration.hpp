@@ -44,12 +44,12 @@ struct Ruby128Calibration {
 /// radians.
 [[nodiscard]] std::int64_t angle_cdeg(double rad) noexcept;
 
-/// Checks that `calibration` is a plausible RS-Ruby128 table: every value finite; 128 elevations
-/// distinct in hundredths of a degree, neither ascending nor descending throughout by channel, the
-/// lowest within 1 degree of -25, the highest within 1 degree of +15; azimuth offsets of at most 10
-/// degrees and not all within 5. Fails with kMalformed, or kUnsupported for the table of a Ruby
-/// Plus, which passes these checks; the message names the channel by the maker's number (1 to 128),
-/// the value and the allowed span.
+/// Checks that `calibration` is a plausible RS-Ruby128 table: every value is finite; the 128
+/// elevations differ by hundredths of a degree and neither ascend nor descend throughout by
+/// channel; the lowest is within 1 degree of -25, the highest within 1 degree of +15; azimuth
+/// offsets are at most 10 degrees, and some exceed 5. Fails with kMalformed. A Ruby Plus would pass
+/// these checks; its table is recognised separately and fails with kUnsupported. The message names
+/// the channel by the maker's number (1 to 128), the value and the allowed span.
 [[nodiscard]] Status validate(const Ruby128Calibration& calibration);
 
 /// Returns a 64-bit fingerprint of all angles (not of `origin`), rounded by angle_cdeg(), so that a

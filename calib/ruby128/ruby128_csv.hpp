@@ -20,7 +20,8 @@ namespace terracut::ruby128 {
 /// the message names the file, and the line if one line is at fault. Files above 4 MiB are refused.
 [[nodiscard]] Expected<Ruby128Calibration> read_ruby128_csv(const std::filesystem::path& path);
 
-/// Parses the content of such a file; `name` stands for the file in errors and becomes the origin.
+/// Parses the content of an `angle.csv`; `name` stands for the file in errors and becomes the
+/// origin.
 [[nodiscard]] Expected<Ruby128Calibration> parse_ruby128_csv(std::span<const char> text,
                                                              const std::string& name);
 

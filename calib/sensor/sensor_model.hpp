@@ -29,10 +29,10 @@ enum class SensorModel : std::uint8_t {
   kOtherVelodyne,  ///< A Velodyne data packet with a product number not known here.
   /// Not a data packet: 512 bytes with NMEA text, from models below the HDL-64E.
   kVelodynePosition,
-  kRuby128,         ///< RS-Ruby128.
-  kRubyPlus,        ///< RS-Ruby128's layout, but other angles and firing times; told by type bytes.
-  kRubyLite,        ///< Ruby Lite / Ruby 80: packets have four blocks of 80 channels.
-  kOtherRoboSense,  ///< A RoboSense data packet of another model.
+  kRuby128,             ///< RS-Ruby128.
+  kRubyPlus,            ///< Has the RS-Ruby128's layout, but other angles and firing times.
+  kRubyLite,            ///< Ruby Lite / Ruby 80: packets have four blocks of 80 channels.
+  kOtherRoboSense,      ///< A RoboSense data packet of another model.
   kRoboSenseDeviceInfo  ///< A DIFOP packet about the sensor, sent about once a second.
 };
 

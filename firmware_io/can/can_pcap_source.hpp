@@ -16,9 +16,9 @@
 
 namespace terracut::can {
 
-/// Reads CAN frames from a capture file, in file order. The capture is of a CAN interface (link
-/// type 227) or of all interfaces ("cooked", 113 and 276), where other protocols are skipped. It
-/// does not say which bus a frame was on. Not thread-safe; blocks on the disk.
+/// Reads CAN frames from a capture file, in file order. The capture is of one CAN interface (link
+/// type 227) or of all interfaces ("cooked", 113 and 276); frames of other protocols are skipped. A
+/// capture does not say which bus a frame was on. Not thread-safe; blocks on the disk.
 class CanPcapSource {
  public:
   /// Opens the file. Fails as PcapFile::open() does, and with kUnsupported for a capture of another

@@ -46,7 +46,7 @@ class CloudToImage {
   /// Returns the image of the last cloud placed. The functions below refer to this cloud, too.
   [[nodiscard]] const frame::RangeImage& image() const noexcept { return image_; }
   [[nodiscard]] const scan::ScanToImage::Summary& placed() const noexcept { return placed_; }
-  /// Does the same as the function of scan::ScanToImage.
+  /// Returns what scan::ScanToImage::point_of_return() returns.
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
     return to_image_.point_of_return();
   }

@@ -59,11 +59,11 @@ class Decoder {
     /// True: frames keep their returns as measured, in less than a third of the memory;
     /// make_reader() turns these into points where needed. Ignored if `motion` is set.
     bool keeps_measured = false;
-    /// A packet up to this many packets late still finds its frame: a frame is handed over only
-    /// when the hindmost beam of the packet this many before the newest begins past the seam. Costs
-    /// the time of that many packets, plus one, as latency; with 0, frames are handed over with
-    /// their last packet. Of later packets, only returns of frames already handed over are lost,
-    /// and counted.
+    /// A packet that is up to this many packets late still finds its frame. To this end a frame is
+    /// handed over only when a later packet's hindmost beam begins past the seam and this many more
+    /// packets have come. The latency grows by the time of that many packets, plus one; with 0,
+    /// frames are handed over with their last packet. Of packets that are later still, only returns
+    /// of frames already handed over are lost, and counted.
     int reorder_packets = 2;
     /// If set, every frame is deskewed before it is handed over (FrameInfo::deskew). The decoder's
     /// thread becomes the reader of the motion, which must outlive the decoder. Null: returns are
@@ -200,7 +200,8 @@ class Decoder {
     return steps_ == 0 ? 0 : steps_ticks_ / steps_;
   }
 
-  /// Returns the number of complete columns of the oldest frame, less one for rounded beams.
+  /// Returns the number of complete columns of the oldest frame, minus one because beams are
+  /// rounded.
   [[nodiscard]] int complete_columns() const noexcept {
     const std::int64_t complete_ticks =
         placed_ticks_ - frames_.oldest() * packet::kRevolution_ticks;
@@ -209,8 +210,8 @@ class Decoder {
     return static_cast<int>(std::clamp<std::int64_t>(columns, 0, frames_.shape().columns));
   }
 
-  /// Returns which share of the packets missing over many frames a sensor sends while it is not
-  /// blind.
+  /// Returns how many of `packets` missing packets, over many frames, the sensor would have sent:
+  /// it sends none while it is blind.
   [[nodiscard]] std::int64_t seen_share(std::int64_t packets) const noexcept {
     return packets - packets * (blind_.sector().once.ticks() / packet::kTicksPerCdeg) /
                          beams::kRevolution_cdeg;

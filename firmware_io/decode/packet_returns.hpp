@@ -36,20 +36,25 @@ struct PacketPlace {
 ///   packet  --transposed-->  tile: what each laser found in 24 firings, next to the core
 ///   tile    --a laser's constants, 24 firings in vectors-->  points, next to each other in a row
 ///
-/// `Sensor` is a trait: all that differs from model to model, resolved at compile time. It has
-/// - `Calibration`, `Config`; `kRows` of the image; `kChannels`, the readings in a column, called
-///   lasers below: one a laser, or more if a laser fires more than once for one azimuth; a multiple
-///   of 8. Those of a group fire together, `kGroups`; `kPacketBytes`, the size of a data packet;
-///   `kClockWrap_us`, where the device clock wraps; `kDefaultColumns`, `kDefaultReturnsPerCell`:
-///   Decoder::Config for single return at 10 Hz;
+/// `Sensor` is a trait: it has all that differs from model to model, resolved at compile time:
+/// - the types `Calibration` and `Config`;
+/// - `kRows`, the rows of the image;
+/// - `kChannels`, the readings in a column, called lasers below: one for each laser, or more if a
+///   laser fires more than once for one azimuth; a multiple of 8;
+/// - `kGroups`, the number of groups of lasers that fire together;
+/// - `kPacketBytes`, the size of a data packet;
+/// - `kClockWrap_us`, where the device clock wraps;
+/// - `kDefaultColumns`, `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
 /// - a constructor (const Calibration&, const mount::Mount&, const Config&);
-/// - `check(Datagram, PacketAzimuths&)`: the reason to reject one, or nothing and its heads;
+/// - `check(Datagram, PacketAzimuths&)`: returns the reason to reject a packet, or reads its heads;
 /// - `spread(step_ticks)`: the packet::BeamSpread around the head;
 /// - `beam_ticks(laser)`: azimuth of a laser's beam minus the head's when it fires;
-/// - `group(laser)`, `advance_ticks(step_ticks, group, dual_return)`: how far the head has rotated
-///   since its firing's azimuth when the group fires, [0, 1e5];
-/// - `begin_packet(azimuths)`, for each packet in order of arrival, then `step_ticks(azimuths,
-///   column)` and `read_column(payload, column, FiringReturns<kChannels>)`, which fills them in;
+/// - `group(laser)`: the group of a laser;
+/// - `advance_ticks(step_ticks, group, dual_return)`: how far the head has rotated from a firing's
+///   azimuth when the group fires, [0, 1e5];
+/// - `begin_packet(azimuths)`, to be called for each packet in order of arrival;
+/// - `step_ticks(azimuths, column)`: the head's step at a column;
+/// - `read_column(payload, column, FiringReturns<kChannels>)`: fills in a column's returns;
 /// - `metres_per_count()`, and `compute_points(laser, LaserHeads, measured_m, frame::PointsOut)`;
 /// - `rows()`: the range image row of each laser.
 /// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp,
@@ -113,7 +118,7 @@ class PacketReturns {
  private:
   static constexpr auto kLasers = static_cast<std::size_t>(Sensor::kChannels);
 
-  /// Returns to be placed, and their frames.
+  /// The returns that are to be placed together, and their frames.
   struct Tile {
     std::size_t firings;
     std::int64_t first_frame;                  ///< Number of the older of the two frames.

@@ -91,7 +91,7 @@ class RangeImage {
   [[nodiscard]] std::uint32_t take_numbers(std::uint32_t count) noexcept {
     return std::exchange(returns_, returns_ + count);
   }
-  /// Does place() for a return that already has a number.
+  /// Places a return that already has a number, as place() does.
   bool place_numbered(int row, int column, const Return& point, CellOwner owner,
                       std::uint32_t number) noexcept {
     const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_) +

@@ -39,7 +39,7 @@ class Hdl64eSensor {
   static constexpr std::size_t kGroups = kLasersPerBlock;  ///< Both blocks fire together.
   using Returns = packet::FiringReturns<static_cast<std::size_t>(kRows)>;
   static constexpr std::int64_t kClockWrap_us = kDeviceHour_us;
-  static constexpr int kDefaultColumns = 2083;  ///< 2083.3 firings a frame, 48 us each.
+  static constexpr int kDefaultColumns = 2083;  ///< A frame has 2083.3 firings of 48 us.
   static constexpr int kDefaultReturnsPerCell = 2;
 
   Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);

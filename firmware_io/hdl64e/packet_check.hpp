@@ -12,9 +12,9 @@
 
 namespace terracut::hdl64e {
 
-/// Limits of the head's motion inside a packet. The allowed steps are those of 69 to 3400 rpm at
-/// the 48 us cycle (the sensor spins at 300 to 1200); a small backwards jitter is allowed. From
-/// first to last column; with less the head stands still.
+/// Limits of the head's motion inside a packet. If the head advances less than kMinSweep_cdeg from
+/// the first to the last column, it stands still. The allowed steps are those of 69 to 3400 rpm at
+/// the 48 us cycle (the sensor spins at 300 to 1200); a small backwards jitter is allowed.
 inline constexpr int kMinSweep_cdeg = 10;
 inline constexpr int kMaxColumnStep_cdeg = 100;
 inline constexpr int kMaxJitter_cdeg = 5;  ///< Largest backwards step from column to column.

@@ -22,8 +22,8 @@ namespace terracut::hdl64e {
 /// One stream, one thread. noexcept, O(1).
 class S1Reader {
  public:
-  /// Does check_hdl64e_s1_packet() for a packet that came at `host_ns`, and sets its stamp: if its
-  /// azimuths tell nothing, that of the next packet.
+  /// Checks a packet that came at `host_ns` by check_hdl64e_s1_packet(), and sets its device stamp.
+  /// If the packet's azimuths tell nothing, it gets the stamp that the next packet should have.
   [[nodiscard]] std::optional<frame::Reject> read(const wire::Packet& packet, std::int64_t host_ns,
                                                   packet::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;

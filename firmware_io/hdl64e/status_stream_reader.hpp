@@ -57,7 +57,7 @@ class StatusStreamReader {
   StatusPosition position_;
   StatusTableCollector collector_;
   StatusSnapshot latest_;
-  /// KS3 once a 'W' was seen, else kS2 once a table was accepted.
+  /// Is kS3 once a 'W' was seen, else kS2 once a table was accepted.
   std::optional<StatusFlavour> flavour_;
   bool warning_type_seen_ = false;
   std::int64_t newest_cycle_ = 0;

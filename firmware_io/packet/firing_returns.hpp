@@ -111,9 +111,9 @@ template <std::size_t kGroups>
           heads.cos_advance[group].data()};
 }
 
-/// Does beam_azimuth() and column_of() (beam_azimuth.hpp) in integers that fit vectors: adds the
-/// whole columns of head, advance and beam offset, then their rests. `advance_column` and
-/// `advance_rest` are those of the laser's group.
+/// Finds what beam_azimuth() and column_of() (beam_azimuth.hpp) find, but in integers that fit
+/// vectors: adds the whole columns of head, advance and beam offset, then the parts of a column.
+/// `advance_column` and `advance_rest` are those of the laser's group.
 void find_columns(const std::int32_t* __restrict rotor_column,
                   const std::int32_t* __restrict rotor_rest,
                   const std::int32_t* __restrict advance_column,

@@ -105,8 +105,8 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
   return packet;
 }
 
-/// Returns the payload to send. It shows later changes of `packet` and is valid as long as that
-/// exists.
+/// Returns a view of `packet` as the payload to send. The view shows later changes and is valid as
+/// long as `packet` exists.
 [[nodiscard]] inline std::span<const std::uint8_t, kHdl64ePacketBytes> payload_of(
     const wire::Packet& packet) noexcept {
   return std::span<const std::uint8_t, kHdl64ePacketBytes>(

@@ -112,8 +112,8 @@ static_assert(ruby_temperature_field(-18.75) == 0x92C0);
   return packet;
 }
 
-/// Returns the payload to send. It shows later changes of `packet` and is valid as long as that
-/// exists.
+/// Returns a view of `packet` as the payload to send. The view shows later changes and is valid as
+/// long as `packet` exists.
 [[nodiscard]] inline std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
     const ruby128_wire::Packet& packet) noexcept {
   return std::span<const std::uint8_t, kRubyPacketBytes>(

@@ -19,9 +19,9 @@ namespace terracut::sensor {
 [[nodiscard]] SensorModel recognise_sensor(std::span<const std::uint8_t> payload) noexcept
     TERRACUT_NONBLOCKING;
 
-/// Does the same if a user says that the sensor is a `named` one. Then Velodyne's data packets with
-/// a product number not known here, which simulators, old firmware and the VLP-32A send, are taken
-/// for that model's if their blocks are.
+/// Returns which sensor sent a payload, as recognise_sensor() does, if a user says that the sensor
+/// is a `named` one. Simulators, old firmware and the VLP-32A send Velodyne's data packets with
+/// product numbers not known here. Such packets count as the named model's if their blocks fit it.
 [[nodiscard]] SensorModel recognise_sensor_as(std::optional<SensorModel> named,
                                               std::span<const std::uint8_t> payload) noexcept
     TERRACUT_NONBLOCKING;

@@ -14,8 +14,8 @@ namespace terracut::packet {
 
 /// Converts measured distances of one laser to points of the vehicle frame by the formulas of
 /// beams::StraightGeometry and mount::Mount, in float: one loop, which compilers vectorise, for all
-/// firings of a tile. Agrees with these functions in double to within 1 mm + 1e-6 of the range,
-/// with the same bits on every machine, as the HDL-64E's PointKernel.
+/// firings of a tile. Agrees with these functions in double to within 1 mm + 1e-6 of the range.
+/// Like the HDL-64E's PointKernel, gives the same bits on every machine.
 ///
 /// Real-time safe except for the constructor. One thread.
 class StraightPointKernel {

@@ -90,9 +90,9 @@ static_assert(std::is_trivially_copyable_v<Difop> && std::is_standard_layout_v<D
 
 }  // namespace ruby128_wire
 
-/// True if the payload has the length and the first eight bytes of a DIFOP packet. Those of the
-/// Ruby Lite and the Ruby Plus have them, too. The last bytes are not checked: nobody relies on
-/// them.
+/// True if the payload has the length and the first eight bytes of a DIFOP packet. The Ruby Lite
+/// and the Ruby Plus send the same. The last bytes are not checked, because no known program relies
+/// on them.
 [[nodiscard]] bool is_difop(std::span<const std::uint8_t> payload) noexcept TERRACUT_NONBLOCKING;
 
 /// Returns a copy of the packet as fields; nothing unless is_difop().
@@ -102,8 +102,8 @@ static_assert(std::is_trivially_copyable_v<Difop> && std::is_standard_layout_v<D
 /// Returns a packet to fill in: magic, tail, angles unset, the rest zero.
 [[nodiscard]] ruby128_wire::Difop blank_difop() noexcept;
 
-/// Returns the payload to send. It shows later changes of `difop` and is valid as long as that
-/// exists.
+/// Returns a view of `difop` as the payload to send. The view shows later changes and is valid as
+/// long as `difop` exists.
 [[nodiscard]] std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
     const ruby128_wire::Difop& difop) noexcept;
 std::span<const std::uint8_t, kRubyPacketBytes> payload_of(ruby128_wire::Difop&&) = delete;

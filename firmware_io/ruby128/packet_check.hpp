@@ -12,9 +12,10 @@
 
 namespace terracut::ruby128 {
 
-/// Limits of the head's motion inside a packet. The head spins at 5 to 20 Hz and rotates 0.10 to
-/// 0.40 degrees from firing to firing. A blind sector (field of view) shows as a larger jump. From
-/// first to last firing; with less the head stands still.
+/// Limits of the head's motion inside a packet. If the head advances less than kRubyMinSweep_cdeg
+/// from the first to the last firing, it stands still. The head spins at 5 to 20 Hz and rotates
+/// 0.10 to 0.40 degrees from firing to firing. A blind sector (field of view) shows as a larger
+/// jump.
 inline constexpr int kRubyMinSweep_cdeg = 4;
 inline constexpr int kRubyMaxStep_cdeg = 100;
 inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Largest backwards step from firing to firing.

@@ -18,12 +18,12 @@ namespace terracut::scan {
 /// Puts clouds into range images without packets (`terracut segment`), and brings the labels of the
 /// returns back into the cloud's order.
 ///
-/// By the decoder's rule row = rows - 1 - ring (row 0 is the lowest) and column = azimuth / pitch
-/// clockwise from straight ahead. For a sensor upside down row = ring, and clockwise is seen from
-/// above the vehicle. The mount moves the coordinates into the vehicle frame. Of several points in
-/// a cell the nearest owns it, so that their order does not matter. Returns are numbered in the
-/// cloud's order. Points without a ring and points beyond the overflow list's end are counted and
-/// not placed.
+/// Rows and columns follow the decoder's rule: row = rows - 1 - ring (row 0 is the lowest) and
+/// column = azimuth / pitch, clockwise from straight ahead. For a sensor upside down row = ring,
+/// and clockwise is seen from above the vehicle. The mount moves the coordinates into the vehicle
+/// frame. If several points fall into a cell, the nearest owns it, so the order of points does not
+/// matter. Returns are numbered in the cloud's order. Points without a ring, and points for which
+/// the overflow list has no room, are counted but not placed.
 ///
 /// Allocates only for a cloud larger than all before and than reserve()d.
 class ScanToImage {

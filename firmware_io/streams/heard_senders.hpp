@@ -20,9 +20,9 @@ namespace terracut::streams {
 
 /// Collects the senders to the ports listened at, with evidence. A sensor is a sender of a steady
 /// stream of data packets of a rotating head; one packet is not enough. No flood of other senders
-/// can hide a sensor. When the memory is full, a newcomer replaces the sender with the fewest data
-/// packets, among equals the one silent longest; a sender without data packets replaces nobody.
-/// Time is that of the datagrams' stamps. Allocates; one thread.
+/// can hide a sensor. When the memory is full, a newcomer with data packets replaces the sender
+/// that has the fewest; if several have as few, the sender that has been silent longest. Time is
+/// that of the datagrams' stamps. Allocates; one thread.
 class HeardSenders {
  public:
   /// `wanted` is the only model that counts; empty: any that can be decoded.

@@ -42,7 +42,8 @@ class SenderStreams {
   /// A copy of a packet comes within this many packets.
   static constexpr std::size_t kMostPayloads = 64;
 
-  /// Counts the packets that followed one from elsewhere, and those that contradict it.
+  /// Counts packets that came from another source than the packet before, and how many of these
+  /// contradict the packet before.
   struct Turns {
     std::uint64_t all = 0, contradicting = 0;
 

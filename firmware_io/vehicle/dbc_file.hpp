@@ -28,8 +28,7 @@ enum class DbcMultiplex : std::uint8_t {
 /// A signal as stated in its SG_ line; checked only as far as the line itself needs.
 struct DbcSignal {
   std::string name;
-  int start_bit = 0;  ///< Bit n % 8 of byte n / 8: the lowest of an Intel, the highest of a
-                      ///< Motorola signal.
+  int start_bit = 0;  ///< Bit n % 8 of byte n / 8; lowest bit if Intel, highest if Motorola.
   int bit_count = 0;
   bool motorola = false;  ///< Big endian: continues at bit 7 of the next byte.
   DbcNumber number = DbcNumber::kUnsigned;

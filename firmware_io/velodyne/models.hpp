@@ -22,7 +22,8 @@ struct Vlp16 {
   static constexpr auto kModel = sensor::SensorModel::kVlp16;
   static constexpr double kMetresPerCount = 0.002;
 
-  /// From a firing of all lasers to the next, and from a laser to the next. They fire one by one.
+  /// The time from one firing of all lasers to the next, and from one laser to the next. Lasers
+  /// fire one by one.
   static constexpr std::int32_t kFiring_ns = 55'296, kLaser_ns = 2'304;
   /// Each block holds two firings of all lasers, and the azimuth of the first.
   static constexpr int kLasers = 16, kChannels = 2 * kLasers;
@@ -46,7 +47,7 @@ struct Hdl32e {
   static constexpr auto kModel = sensor::SensorModel::kHdl32e;
   static constexpr double kMetresPerCount = 0.002;
 
-  /// From a laser to the next; they fire one by one.
+  /// The time from one laser to the next; lasers fire one by one.
   static constexpr std::int32_t kLaser_ns = 1'152;
   static constexpr int kLasers = 32, kChannels = kLasers;
   static constexpr PacketLayout kLayout{.model = kModel,
@@ -68,7 +69,7 @@ struct Vlp32c {
   static constexpr auto kModel = sensor::SensorModel::kVlp32c;
   static constexpr double kMetresPerCount = 0.004;
 
-  /// From a pair of lasers to the next. Both of a pair fire together.
+  /// The time from one pair of lasers to the next. The two lasers of a pair fire together.
   static constexpr std::int32_t kPair_ns = 2'304;
   static constexpr int kLasers = 32, kChannels = kLasers;
   static constexpr PacketLayout kLayout{.model = kModel,
@@ -92,9 +93,10 @@ struct Vls128 {
   static constexpr auto kModel = sensor::SensorModel::kVls128;
   static constexpr double kMetresPerCount = 0.004;
 
-  /// A firing takes twenty steps: eight lasers fire in each of eight, two steps later in each of
-  /// eight more, and two are left. Steps are 2.67 us with firmware 5.1, 2.89 with 5.2, 2.76 in the
-  /// capture at hand: where beams point depends on their shares alone.
+  /// A firing of all lasers takes twenty steps. Eight lasers fire in each of the first eight steps;
+  /// after a pause of two steps, eight lasers fire in each of eight more steps; then two steps
+  /// pass. A step takes 2.67 us with firmware 5.1, 2.89 with 5.2, and 2.76 in the capture at hand;
+  /// the beams' directions depend only on the shares of the steps.
   static constexpr std::int32_t kStep_ns = 2'763;
   static constexpr int kSteps = 20;
   static constexpr int kLasers = 128, kChannels = kLasers;
@@ -127,8 +129,8 @@ struct ModelList {
   template <template <class...> class Template>
   using In = Template<First, Rest...>;
 
-  /// Calls `use` with the std::type_identity of the given model and returns its result; if the
-  /// model is not in the list, that of the last one is used.
+  /// Calls `use` with the std::type_identity of the given model and returns the result. If the
+  /// model is not in the list, calls `use` with that of the list's last model.
   template <class Use>
   static decltype(auto) with(sensor::SensorModel model, const Use& use) {
     if constexpr (sizeof...(Rest) == 0) {
@@ -140,9 +142,9 @@ struct ModelList {
   }
 };
 
-/// All models above, for code that folds over models ...
+/// All models above, for code that folds over models.
 using Models = ModelList<Vlp16, Hdl32e, Vlp32c, Vls128>;
-/// ... and for code that needs the preprocessor: DO(Template<model>) for each model.
+/// For code that needs the preprocessor: expands to DO(Template<model>) for each model above.
 #define TERRACUT_FOR_VELODYNE_MODELS(DO, Template) \
   DO(Template<terracut::velodyne::Vlp16>)          \
   DO(Template<terracut::velodyne::Hdl32e>)         \

@@ -75,7 +75,7 @@ template <class Model>
 
 /// Largest step back from column to column.
 inline constexpr int kMaxJitter_cdeg = 5;
-/// Smallest mean step from column to column; with less the head stands still.
+/// Smallest mean step from column to column; if the head advances less, it stands still.
 inline constexpr int kMinStep_cdeg = 2;
 
 }  // namespace terracut::velodyne

@@ -90,7 +90,7 @@ class VelodyneSensor {
   void read_column(std::span<const std::uint8_t> payload, std::size_t column,
                    const Returns& found) const noexcept TERRACUT_NONBLOCKING {
     const auto* packet = hdl64e::packet_in(payload);
-    if (packet == nullptr) return;  // never after check()
+    if (packet == nullptr) return;  // check() has ruled this out
     for (int part = 0; part < Model::kLayout.blocks_per_column; ++part) {
       const std::size_t block =
           Model::kLayout.block(static_cast<int>(column), part, is_dual_packet_);

@@ -21,7 +21,7 @@ struct HealthReport {
   std::int64_t latency_ns = -1;  ///< Time from the last packet to the labels; negative: unknown.
   bool ego_motion = false;       ///< True if the frame was deskewed.
   status::LinkState link = status::LinkState::kWaiting;
-  std::uint64_t misses = 0;  ///< Missed frames; all three count from the start.
+  std::uint64_t misses = 0;  ///< Missed frames. This and the next two counts are since the start.
   std::uint64_t skipped = 0;
   std::uint64_t losses = 0;
   std::uint32_t alive = 0;  ///< Counter that the caller increments with every report.

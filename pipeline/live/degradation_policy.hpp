@@ -18,16 +18,17 @@ namespace terracut::live {
 
 /// Decides how far a frame is refined before its deadline: by the whole method, by a min-cut that
 /// is stopped when time runs out, by the coarse stages alone, or not at all. It predicts a stage's
-/// cost from the last three frames that had it. A stage that is left out is not measured, so it is
-/// left out of at most two frames in a row and then tried, whatever the prediction:
+/// cost from the last three frames that ran the stage. A stage that is left out cannot be measured,
+/// so after some frames it is tried whatever the prediction:
 ///
-///   skipped       if even the cheapest of the three does not fit. A skipped frame has missed its
-///                 deadline as surely as a late one, so a trial costs no miss; if it is late, it
-///                 counts as skipped (end()).
-///   cut left out  if the most expensive of the three does not fit: a cut begun in vain only wastes
-///                 time, but labels that take longer than reserved are late. A trial that made a
-///                 frame late doubles the rest before the next one, to at most 32 frames: during a
-///                 long overload one frame in 33 pays for noticing its end.
+/// A frame is skipped if even the least of the three costs of its coarse stages does not fit. After
+/// two skipped frames the next one is tried. The trial costs no miss, because a skipped frame has
+/// missed its deadline as well; a late trial counts as skipped (end()).
+///
+/// The cut is left out if the greatest of its three costs does not fit, because a cut begun in vain
+/// delays the labels. After two frames without a cut the next one is tried. Each trial that makes
+/// its frame late doubles the number of frames before the next trial, up to 32: during a long
+/// overload one frame in 33 pays for noticing its end.
 ///
 /// So labels return within three frames after a slow frame or an overload, and so does the whole
 /// method, unless trials of the cut made frames late before.
@@ -43,7 +44,7 @@ class DegradationPolicyOf {
         unseen_stop_ns_(kMargin_ns + std::min(deadline_ns / 8, kUnseenStop_ns)),
         stopping_(unseen_stop_ns_) {}
 
-  /// Begins a frame. False: skip it, because not even its coarse stages would end in time.
+  /// Begins a frame. Returns false if not even its coarse stages would end in time: skip the frame.
   [[nodiscard]] bool begin(std::int64_t last_packet_ns) noexcept TERRACUT_NONBLOCKING {
     due_ns_ = last_packet_ns + deadline_ns_;
     before_cut_ = true;
@@ -69,7 +70,7 @@ class DegradationPolicyOf {
             },
             this};
   }
-  /// True if the frame's labels may be handed on; false for a late trial, counted as skipped.
+  /// True if the frame's labels may be handed on; false if the frame was a trial and is late.
   [[nodiscard]] bool may_hand_on() const noexcept TERRACUT_NONBLOCKING {
     return !is_trial_ || clock_.realtime_ns() <= due_ns_;
   }
@@ -84,7 +85,7 @@ class DegradationPolicyOf {
     labels_.add(labels_ns);
     coarse_.add(cost_ns(Stage::kElevationMap) + cost_ns(Stage::kAdjacentPoints) + labels_ns);
     if (before_cut_) return;
-    // Only a stopped cut shows the cost of labels after an unfinished one.
+    // How long labels take after an unfinished cut is known only if a cut was stopped.
     if (stopped_cpu_ns_ != 0) {
       stopping_.add(clock_.thread_cpu_ns() - stopped_cpu_ns_ + kMargin_ns);
     }
@@ -107,7 +108,7 @@ class DegradationPolicyOf {
   }
 
  private:
-  /// The costs of one kind of work in the last three frames that had it; at first an estimate.
+  /// The costs of one kind of work in the last three frames that did it; at first an estimate.
   class LastThree {
    public:
     explicit LastThree(std::int64_t expected_ns) noexcept {
@@ -133,7 +134,8 @@ class DegradationPolicyOf {
   [[nodiscard]] std::int64_t after_cut_ns() const noexcept {
     return std::max(labels_.most_ns(), stopping_.most_ns());
   }
-  /// The first call of a frame comes before seeds and cut, all others where the cut can be stopped.
+  /// Returns true if the cut must not begin or must stop. The first call in a frame comes before
+  /// the seeds and the cut, later calls come where the cut can be stopped.
   [[nodiscard]] bool expired() noexcept TERRACUT_NONBLOCKING {
     const std::int64_t left_ns = due_ns_ - clock_.realtime_ns();
     if (before_cut_) {
@@ -155,14 +157,14 @@ class DegradationPolicyOf {
     }
     cut_left_out_ = 0;
     tries_cut_ = true;
-    if (left_ns < after_cut_ns()) {  // else this would stop the cut at once
+    if (left_ns < after_cut_ns()) {  // otherwise the cut would be stopped at once
       stopping_ = LastThree(unseen_stop_ns_);
       labels_ = LastThree(labels_.least_ns());
     }
     return true;
   }
 
-  /// A stage that was left out of this many frames in a row is tried again.
+  /// The most skipped frames in a row, and the least number of frames between trials of the cut.
   static constexpr int kMostInARow = 2;
   static constexpr int kMostRest = 32;
   /// Time reserved for waking up late and for handing labels on.

@@ -105,7 +105,7 @@ class FrameReceiver {
   }
 
  private:
-  /// Bounds the loop, even if a sender never stops. More batches than any buffer holds.
+  /// Ends the loop even if a sender never stops; no buffer holds so many batches.
   static constexpr int kMostBatches = 10'000;
   /// One block has at least eight times the columns of a packet, so the coarse stages catch up.
   static constexpr int kBlocksAPacket = 1;
@@ -116,7 +116,7 @@ class FrameReceiver {
     if (to_.recorder != nullptr) to_.recorder->add(datagram);
     if (to_.told_table != nullptr) to_.told_table->add(datagram);
     if (!gate_.lets_in(datagram.stamp_ns, now_ns)) {
-      // Otherwise the decoder would count packets left out here as lost on the network.
+      // Without this, the decoder would count the packets left out here as lost on the network.
       if (!std::exchange(lets_go_, true)) {
         pipeline_.decoder.end_stream();
         hand_over_frames();

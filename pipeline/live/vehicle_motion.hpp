@@ -28,9 +28,9 @@ namespace terracut::live {
 ///                                 '-- LatestValue --> whoever calls show()
 ///
 /// The bus cannot delay a frame: the decoder uses the motion known so far and never waits. After
-/// every batch (64 CAN frames) the thread rests for a millisecond, so that a flood costs at most
-/// three times the load of a 1 Mbit/s bus; the kernel drops and counts the rest. CAN frames carry
-/// the kernel's stamps, so resting loses no precision.
+/// every batch (64 CAN frames) the thread pauses for a millisecond, so that a flood costs at most
+/// three times the load of a 1 Mbit/s bus; the kernel drops and counts further frames. CAN frames
+/// carry the kernel's stamps, so the pauses lose no precision.
 ///
 /// The thread allocates, locks and writes nothing.
 class VehicleMotion {

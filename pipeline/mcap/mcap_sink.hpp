@@ -59,7 +59,7 @@ class McapSink final : public publish::FrameSink {
     return returns * sizeof(points::LabelledPoint) * (kQueueFrames + 5) + kZstd_bytes;
   }
 
-  /// Frames of one and a half seconds, as disks stall at times.
+  /// The queue holds frames of 1.5 seconds, because disks stall at times.
   static constexpr std::size_t kQueueFrames = 16;
 
   /// Returns the path of the file or of the bag's folder.

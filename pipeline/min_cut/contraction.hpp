@@ -72,7 +72,8 @@ class Contraction {
   template <class Costs, class Weights>
   void take_cell(const Costs& costs, const Weights& weights, std::uint32_t cell, int column,
                  const NeighbourCells& around, frame::Label coarse) noexcept;
-  /// Does the same at an edge of the image; compiled separately, as few cells lie there.
+  /// Does the work of take_cell() for a cell at an edge of the image. It is compiled separately,
+  /// because few cells lie there.
   template <class Costs, class Weights>
   [[gnu::noinline]] void take_cell_at_edge(const Costs& costs, const Weights& weights,
                                            std::uint32_t cell, int column,
@@ -80,13 +81,14 @@ class Contraction {
                                            frame::Label coarse) noexcept {
     take_cell(costs, weights, cell, column, around, coarse);
   }
-  /// Returns the neighbours' seeds, one per lane; with three loads away from the image's edges.
+  /// Returns the neighbours' seeds, one per lane. Three loads suffice for a cell at no edge of the
+  /// image.
   [[nodiscard]] EightLanes seeds_around(const NeighbourCells& around) const noexcept;
   [[nodiscard]] static Side persistent_side(std::int32_t excess, int capacity) noexcept {
     return excess >= capacity ? Side::kObstacle : -excess > capacity ? Side::kGround : Side::kFree;
   }
   void add_node(std::uint32_t cell, int column, const OpenEnds& ends) noexcept;
-  /// Tells earlier nodes next to a cell that it has been decided.
+  /// Tells the nodes of earlier cells next to a cell that this cell has been decided.
   void tell_nodes_before(int column, unsigned edges, Side side) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::uint32_t node_before(int column, int direction) const noexcept;
   /// Returns the directions to neighbours that come before the cell in `column`.

@@ -23,7 +23,8 @@ struct CutBudget {
   /// Operations between two readings of the clock, some 40 microseconds. Push-relabel does not read
   /// the clock while it measures distances, which visits each arc of the component once.
   static constexpr std::int64_t kOpsPerClockLook = 4096;
-  /// Nodes between two readings of the clock in steps that go node by node; as long a time.
+  /// Nodes between two readings of the clock in steps that go from node to node, which also takes
+  /// some 40 microseconds.
   static constexpr std::uint32_t kNodesPerClockLook = 1024;
 
   std::int64_t ops = kDefaultOps;

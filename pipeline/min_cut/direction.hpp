@@ -50,7 +50,7 @@ using NeighbourCells = std::array<std::uint32_t, kDirections>;
   return cells;
 }
 
-/// Returns the same, faster, for a cell that is at no edge of the image.
+/// Returns what neighbour_cells() returns, but faster, for a cell at no edge of the image.
 [[nodiscard]] constexpr NeighbourCells neighbours_inside(std::uint32_t cell,
                                                          std::uint32_t stride) noexcept {
   const std::uint32_t below = cell - stride, above = cell + stride;

@@ -11,8 +11,9 @@
 
 namespace terracut::min_cut {
 
-/// Eight 16-bit numbers, one a neighbour, processed together: without a branch for each, which
-/// would be mispredicted every other time. Every supported machine has registers of this width.
+/// Eight 16-bit numbers, one for each neighbour, that are processed together. A branch for each
+/// number would be mispredicted every other time. Every supported machine has registers of this
+/// width.
 struct EightLanes {
   static_assert(std::endian::native == std::endian::little, "lane d must be at bit 16 * d");
   using Numbers = std::int16_t __attribute__((vector_size(16)));

@@ -16,8 +16,8 @@
 
 namespace terracut::min_cut {
 
-/// The state of a cell; before the min-cut one of the first four. Each state has its own bit, so
-/// that many cells can be tested at once.
+/// The state of a cell. Before the min-cut it is one of the first four. Each state has its own bit,
+/// so that many cells can be tested at once.
 enum class Seed : std::uint8_t {
   kNone = 0,      ///< No return; the hole separates its neighbours.
   kGround = 1,    ///< High-confidence ground: the "background" terminal of paper section III-C.
@@ -57,7 +57,7 @@ template <class Visit>
 }
 
 /// Integer capacity of an energy of 1.0. With 1024 the labels equal those of double precision
-/// (measured on two scenes; 256 already changes some).
+/// (measured on two scenes; with 256 some labels differ).
 inline constexpr int kCapacityScale = 1024;
 /// Upper limit of edge weights: twice the largest B of Eq. 14, and low enough that a residual
 /// capacity, which can reach 2 * weight, fits 16 bits.

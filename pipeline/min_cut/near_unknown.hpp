@@ -47,7 +47,7 @@ class NearUnknown {
   int columns_;
   std::size_t rows_, groups_;
   std::span<std::uint8_t> unknown_;  // [row][group]: the group has an unknown cell
-  std::span<std::uint8_t> near_;     // [row][group]: this or an adjacent row has one
+  std::span<std::uint8_t> near_;     // [row][group]: this row or an adjacent one has one there
 };
 
 }  // namespace terracut::min_cut

@@ -24,7 +24,7 @@ class FrameFolder {
     std::string ending;            ///< Ending of the files, such as ".label".
     std::string made_of{};         ///< Name of the input, shown and compared; empty: unknown.
     bool replaces_others = false;  ///< True: also replaces files made from another input.
-    /// Called once with the number of files removed, if any were removed.
+    /// Called once with the number of files that were removed, if there were any.
     std::function<void(std::size_t)> on_replaced{};
   };
 

@@ -22,7 +22,7 @@ class RetriedSink final : public FrameSink {
  public:
   using Inner = std::unique_ptr<FrameSink>;
   struct Config {
-    std::string name;  ///< Of the inner sink, as is queue_frames.
+    std::string name;  ///< The inner sink's name.
     std::size_t queue_frames = 2;
     Reopened<Inner>::Config inner;
     /// True for a recording: finish() then fails if frames are missing.

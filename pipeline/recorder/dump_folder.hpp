@@ -17,8 +17,8 @@ namespace terracut::recorder {
 struct DumpFolderLimits {
   std::filesystem::path folder;                 ///< Folder of the dumps; made if missing.
   std::string name = "terracut";                ///< Start of our dumps' names; see is_dump_name().
-  std::size_t most_dumps = 20;                  ///< Most dumps kept of ours, [1, ...).
-  std::uint64_t most_bytes = 2ULL << 30;        ///< Most bytes of all our dumps together.
+  std::size_t most_dumps = 20;                  ///< Most dumps of this name kept, [1, ...).
+  std::uint64_t most_bytes = 2ULL << 30;        ///< Most bytes of all these dumps together.
   std::uint64_t least_free_bytes = 1ULL << 30;  ///< Least space left free on the file system.
 };
 

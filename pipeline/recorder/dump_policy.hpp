@@ -21,7 +21,8 @@ struct DumpRate {
 
 struct DumpLimits {
   DumpFolderLimits folder;
-  /// Limited, because a process that misses every deadline must not keep the disk busy.
+  /// This rate is limited, because a process that misses every deadline must not keep the disk
+  /// busy.
   DumpRate missed_deadline{.interval_s = 60, .burst = 1};
   DumpRate asked{.interval_s = 10, .burst = 3};
 };

@@ -39,9 +39,9 @@ class FlightRecorder {
   /// Adds a datagram; for the receive thread. Wait-free, allocates nothing, touches no file.
   void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING { ring_.add(datagram); }
 
-  /// Writes both files, each whole or not at all, and the capture never without its times. Not for
-  /// real-time threads: blocks on the disk. Fails with kNothingCameOut if no datagram is held, else
-  /// with the errors of PcapWriter.
+  /// Writes the capture and its times, each whole or not at all; no capture stays without its
+  /// times. Not for real-time threads: blocks on the disk. Fails with kNothingCameOut if no
+  /// datagram is held, else with the errors of PcapWriter.
   [[nodiscard]] Expected<DumpReport> dump(const std::filesystem::path& capture, DumpReason reason,
                                           const DumpFrames& frames);
 

@@ -82,7 +82,7 @@ class GroundPatches {
   };
 
  private:
-  /// Finds the seam in a row and resets the bends there. `returns` is the number in the frame.
+  /// Finds the seam in a row and resets the bends there. The frame has `returns` returns.
   void find_seam(std::size_t row, std::uint32_t returns) noexcept;
   void smooth_roughness(std::size_t row) noexcept;
 

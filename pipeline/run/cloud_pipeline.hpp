@@ -42,7 +42,8 @@ class CloudPipeline {
   [[nodiscard]] Status label(const cloud::CloudView& cloud, status::FrameRecord& record,
                              const min_cut::CutBudget& budget = {});
 
-  /// Like all that follows, of the cloud labelled last: returns one label per point, in order.
+  /// Returns one label per point, in order. This and all following functions are about the cloud
+  /// labelled last.
   [[nodiscard]] const std::vector<frame::Label>& point_labels() const noexcept {
     return point_labels_;
   }

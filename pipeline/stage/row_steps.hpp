@@ -21,7 +21,8 @@ class RowSteps {
   /// Returns the first row at least `steps` rows and `steps` times step_deg above `row`; the number
   /// of rows if there is none. steps >= 0.
   [[nodiscard]] int up(int row, int steps) const noexcept TERRACUT_NONBLOCKING;
-  /// Returns the first row at least as far below `row`; -1 if there is none.
+  /// Returns the first row at least `steps` rows and `steps` times step_deg below `row`; -1 if
+  /// there is none. steps >= 0.
   [[nodiscard]] int down(int row, int steps) const noexcept TERRACUT_NONBLOCKING;
 
  private:

@@ -50,7 +50,7 @@ struct MotionFigures {
   /// Stamp of the newest sample when a frame was handed over, minus the instant of the frame's last
   /// firing: about 0 if both use one clock; 0 without a sample.
   std::int64_t newest_sample_after_frame_ns = 0;  ///< Of the newest frame.
-  /// The least and the greatest of these differences over all deskewed frames.
+  /// The least and the greatest newest_sample_after_frame_ns over all deskewed frames.
   std::int64_t least_sample_after_frame_ns = 0, most_sample_after_frame_ns = 0;
   double sum_sample_after_frame_ns = 0;
 

@@ -65,7 +65,8 @@ struct FrameRecord {
 
   /// How long the frame's threads waited for a core, from its last packet to the labels.
   std::int64_t run_queue_wait_ns = 0;
-  /// Time that the hypervisor took from the machine meanwhile; 0 if the deadline was met.
+  /// Time that the hypervisor took from the machine between last packet and labels; 0 if the
+  /// deadline was met.
   std::int64_t steal_ns = 0;
 
   stage::SegmentationReport segmentation;

@@ -10,7 +10,7 @@ namespace terracut::status {
 struct MountFigures {
   std::uint64_t frames = 0;       ///< Frames in which ground was seen.
   std::uint8_t contradicted = 0;  ///< 1: the ground shows another mount, the `seen` one.
-  std::uint8_t guessed = 0;       ///< 1: figures not stated were not found either.
+  std::uint8_t guessed = 0;       ///< 1: some figures were neither stated nor found.
   double height_m = 0, roll_deg = 0, pitch_deg = 0;  ///< The mount in use.
   /// Number of frames that gave the figures not stated; 0 if all were stated or guessed.
   std::uint64_t found_in_frames = 0;

@@ -37,8 +37,8 @@ struct LabelledFrame {
   std::span<const points::LabelledPoint> points{};
 };
 
-/// Counts since the start. Each connected reader was sent each frame taken, missed it, lost it when
-/// the reader left, or is being sent it.
+/// Counts since the start. For each connected reader, every frame taken was sent, was missed, was
+/// cut short when the reader left, or is being sent.
 struct FrameStreamFigures {
   std::uint64_t frames = 0;            ///< Frames taken by serve().
   std::uint64_t frames_too_large = 0;  ///< Frames not taken, with more than max_points.

@@ -35,7 +35,7 @@ class UsedAgain {
   }
 
  private:
-  /// Spares kept: the one just dropped and the one in work.
+  /// The most spares kept: one just dropped, and one that the next user fills.
   static constexpr std::size_t kMostSpare = 2;
   struct Spare {
     Spare() { things.reserve(kMostSpare); }

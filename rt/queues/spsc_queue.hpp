@@ -41,8 +41,8 @@ namespace terracut::queues {
 /// the queue look fuller (or emptier) than it is, never the reverse. What the two sides write lies
 /// on different cache lines.
 ///
-/// Thread contract: try_push from one thread, try_pop from one thread (the same or another), the
-/// rest from any. Wait-free: every call ends after a bounded number of instructions.
+/// Thread contract: try_push from one thread, try_pop from one thread (the same or another), other
+/// functions from any. Wait-free: every call ends after a bounded number of instructions.
 template <class T>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>, "values are copied between threads bit by bit");

@@ -65,8 +65,8 @@ class RingTableFit {
   [[nodiscard]] Expected<FittedRings> fit(const RingTable* offsets = nullptr) const;
 
   /// Returns the table when rings may have seen little or nothing, as those above the horizon of an
-  /// open field, or all of a narrow view: a ring's elevation takes ten points. Error kMalformed
-  /// when these rings are fewer than four or do not hold half of the points.
+  /// open field, or all of a narrow view: a ring's elevation takes ten points. Fails with
+  /// kMalformed when these rings are fewer than four or do not hold half of the points.
   [[nodiscard]] Expected<FittedRings> fit_seen(const RingTable& offsets) const;
 
  private:

@@ -57,8 +57,8 @@ class StatusPageFile {
   ~StatusPageFile();
 
   /// For the publisher: makes `name`.terracut in `folder`, whole or not at all, readable for all. A
-  /// page that a dead process left behind is replaced. Errors: kInvalidArgument for a name that is
-  /// not made of 1 to 64 letters, digits, '-', '_' and '.', or used by a living process (the
+  /// page that a dead process left behind is replaced. Fails with kInvalidArgument for a name that
+  /// is not made of 1 to 64 letters, digits, '-', '_' and '.', or used by a living process (the
   /// message says which); kUnsupported for a folder on a disk, where publishing could wait;
   /// kWriteFailed with the system's reason.
   [[nodiscard]] static Expected<StatusPageFile> create(const std::filesystem::path& folder,
@@ -66,9 +66,9 @@ class StatusPageFile {
                                                        std::uint32_t layout,
                                                        std::size_t value_bytes);
 
-  /// For readers. Errors: kNotFound if there is no such page; kUnreadable with the system's reason,
-  /// or if anybody could have made it (trusted_file.hpp); kMalformed for a file that is no status
-  /// page; kUnsupported for another layout or size.
+  /// For readers. Fails with kNotFound if there is no such page; kUnreadable with the system's
+  /// reason, or if anybody could have made it (trusted_file.hpp); kMalformed for a file that is no
+  /// status page; kUnsupported for another layout or size.
   [[nodiscard]] static Expected<StatusPageFile> open(const std::filesystem::path& folder,
                                                      const std::string& name, std::uint32_t layout,
                                                      std::size_t value_bytes);

@@ -28,7 +28,8 @@ struct DriveInput {
 [[nodiscard]] Expected<nlohmann::ordered_json> stamps_of(const FleetDrive& drive);
 
 /// Returns the SHA-256 of an input's content, for a folder of its clouds' names and contents; path
-/// and times do not count. kNotFound, kUnreadable, or kNothingCameOut when stop_wanted().
+/// and times do not count. Fails with kNotFound, kUnreadable, or kNothingCameOut when
+/// stop_wanted().
 [[nodiscard]] Expected<std::string> content_of(const DriveInput& input);
 
 }  // namespace terracut::cli

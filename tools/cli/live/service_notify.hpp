@@ -15,8 +15,9 @@ namespace terracut::cli {
 /// sd_notify(3)). Outside a service it does nothing. From normal threads only; never blocks.
 class ServiceNotify {
  public:
-  /// Reads $NOTIFY_SOCKET, $WATCHDOG_USEC and $WATCHDOG_PID. kInvalidArgument if the socket's
-  /// address is neither a path nor an abstract name, or is too long; kNotFound if nobody listens.
+  /// Reads $NOTIFY_SOCKET, $WATCHDOG_USEC and $WATCHDOG_PID. Fails with kInvalidArgument if the
+  /// socket's address is neither a path nor an abstract name, or is too long; kNotFound if nobody
+  /// listens.
   [[nodiscard]] static Expected<ServiceNotify> from_environment();
 
   [[nodiscard]] bool connected() const noexcept { return static_cast<bool>(socket_); }

@@ -20,7 +20,7 @@ struct DdsTopics {
 
 /// Fails with kUnsupported, and what to install, if the program was built without DDS.
 [[nodiscard]] Status check_dds();
-/// Opens the output of --dds and prints its topics. Errors of check_dds() and of
+/// Opens the output of --dds and prints its topics. Fails with the errors of check_dds() and of
 /// dds::DdsSink::open().
 [[nodiscard]] Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(
     const DdsOptions& options, const publish::RunFacts& facts);

@@ -6,8 +6,8 @@
 #include "tools/lab/packets/encoder_traits.hpp"
 
 /// Returns the table of the unit whose packets are made: that of --calibration, otherwise the
-/// nominal one. Errors of the file; kInvalidArgument if a file is given for a sensor with a
-/// built-in table.
+/// nominal one. Fails with the errors of the file; kInvalidArgument if a file is given for a sensor
+/// with a built-in table.
 namespace terracut::cli {
 
 [[nodiscard]] Expected<hdl64e::Hdl64eCalibration> made_calibration(const CaptureOptions& options,

@@ -9,8 +9,8 @@
 
 namespace terracut::cli {
 
-/// Returns the configured signals of the configured DBC file. kInvalidArgument if no file is given;
-/// errors of read_dbc() and MotionSignals::make().
+/// Returns the configured signals of the configured DBC file. Fails with kInvalidArgument if no
+/// file is given; errors of read_dbc() and MotionSignals::make().
 [[nodiscard]] Expected<vehicle::MotionSignals> motion_signals_of(const MotionOptions& options);
 
 [[nodiscard]] vehicle::EgoMotion::Config ego_motion_config_of(const MotionOptions& options);

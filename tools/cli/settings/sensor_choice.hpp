@@ -30,8 +30,8 @@ struct SensorChoice {
 [[nodiscard]] std::vector<streams::SensorStream> sensors_in(const CaptureOptions& options,
                                                             capture::PcapSource& source);
 
-/// Reads the beginning of `source` and identifies its sensor. Errors: kUnsupported, naming what was
-/// found instead; kInvalidArgument for several sensors, naming them and the options that choose
+/// Reads the beginning of `source` and identifies its sensor. Fails with kUnsupported, naming what
+/// was found instead; kInvalidArgument for several sensors, naming them and the options that choose
 /// one; those of `source` if it breaks off before a sensor shows. Leaves `source` at any position;
 /// rewind it.
 [[nodiscard]] Expected<SensorChoice> choose_sensor(const CaptureOptions& options,

@@ -27,7 +27,7 @@ namespace terracut::cli {
                                                            const MountOptions& options);
 
 /// Checks that each setting, itself checked, belongs to a method among `kinds`: otherwise it would
-/// silently have no effect. kInvalidArgument, naming the setting and its method.
+/// silently have no effect. Fails with kInvalidArgument, naming the setting and its method.
 [[nodiscard]] Status check_used(std::span<const std::string> settings,
                                 std::span<const baselines::MethodKind> kinds);
 

@@ -27,8 +27,8 @@ class CapturePlayer : public ViewedCapture {
   explicit CapturePlayer(PlayedRecording& recording);
   ~CapturePlayer() override;
 
-  /// Plays until stop_wanted(), each frame at its time. Errors of the recording and of on_frame;
-  /// kNothingCameOut if it has no frame.
+  /// Plays until stop_wanted(), each frame at its time. Fails with the errors of the recording and
+  /// of on_frame; kNothingCameOut if it has no frame.
   [[nodiscard]] Status run(const OnFrame& on_frame);
 
   void obey(const PlayerCommand& command) override;

@@ -16,8 +16,8 @@ namespace terracut::cli {
 /// A folder of clouds, or one cloud, played at ten a second: files have no stamps.
 class PlayedClouds : public PlayedRecording {
  public:
-  /// Finds the lasers' rows and the mount. Errors of CloudReader::open(), rows_of(), choose_mount()
-  /// and ring_profile_of().
+  /// Finds the lasers' rows and the mount. Fails with the errors of CloudReader::open(), rows_of(),
+  /// choose_mount() and ring_profile_of().
   [[nodiscard]] static Expected<std::unique_ptr<PlayedClouds>> open(
       const std::filesystem::path& clouds, const Options& options);
 

@@ -21,7 +21,8 @@ struct PlayerCommand {
   std::optional<double> rate;    ///< Speed relative to the recording, [kLeastRate, kMostRate].
 };
 
-/// Parses JSON: {"playing": false, "seek_s": 12.5}. kInvalidArgument, with what was expected.
+/// Parses JSON: {"playing": false, "seek_s": 12.5}. Fails with kInvalidArgument, with what was
+/// expected.
 [[nodiscard]] Expected<PlayerCommand> parse_player_command(std::string_view json);
 
 /// The state of a capture's player.

@@ -22,7 +22,7 @@ namespace terracut::cli {
 class ViewSink : public publish::FrameSink {
  public:
   /// `endpoint` is like "127.0.0.1:8480". `capture` is its player, which outlives this object; null
-  /// in live runs. Errors of HttpServer::start().
+  /// in live runs. Fails with the errors of HttpServer::start().
   [[nodiscard]] static Expected<std::unique_ptr<ViewSink>> open(const std::string& endpoint,
                                                                 const publish::RunFacts& facts,
                                                                 ViewedCapture* capture,

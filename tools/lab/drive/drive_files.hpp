@@ -26,8 +26,8 @@ template <class EncoderTraits>
 /// same file system, until put_in_place(); without it nothing is left. One thread.
 class DriveFiles {
  public:
-  /// Errors: kInvalidArgument if an existing truth folder holds anything but NNNNNN.label files:
-  /// only one that is surely a drive's may be replaced. kWriteFailed.
+  /// Fails with kInvalidArgument if an existing truth folder holds anything but NNNNNN.label files:
+  /// only one that is surely a drive's may be replaced. Fails with kWriteFailed.
   [[nodiscard]] static Expected<DriveFiles> create(const std::filesystem::path& pcap_path);
 
   DriveFiles(DriveFiles&&) noexcept;
@@ -36,7 +36,7 @@ class DriveFiles {
 
   /// Returns the path at which the table is to be written.
   [[nodiscard]] std::filesystem::path staged_calibration() const;
-  /// Writes NNNNNN.label of the truth, little-endian. kWriteFailed.
+  /// Writes NNNNNN.label of the truth, little-endian. Fails with kWriteFailed.
   [[nodiscard]] Status write_truth(std::uint64_t frame, std::span<const std::uint32_t> labels);
 
   /// Repeats the check of create(), as the folder may have changed since.

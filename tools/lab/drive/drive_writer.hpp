@@ -61,11 +61,12 @@ class DriveWriter {
   /// Adds the next firing of all lasers; `stamp_ns` is that of its first laser. Dual return takes
   /// two calls per firing, with the same stamp and azimuth: HDL-64E strongest, then last; others
   /// last, then strongest. Firings must be those of a rotating head that a decoder can follow.
-  /// kWriteFailed.
+  /// Fails with kWriteFailed.
   [[nodiscard]] Status add_column(std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
                                   std::span<const packets::LabelledReturn, kLasers> by_laser);
 
-  /// Moves all files to their places. kInvalidArgument if the columns do not fill whole packets.
+  /// Moves all files to their places. Fails with kInvalidArgument if the columns do not fill whole
+  /// packets.
   [[nodiscard]] Expected<DriveSummary> finish();
 
  private:

@@ -25,7 +25,7 @@ namespace terracut::drive {
 [[nodiscard]] std::filesystem::path can_log_path_of(const std::filesystem::path& pcap_path);
 [[nodiscard]] std::filesystem::path can_dbc_path_of(const std::filesystem::path& pcap_path);
 
-/// Writes both files, each whole or not at all. kWriteFailed. Not real-time safe.
+/// Writes both files, each whole or not at all. Fails with kWriteFailed. Not real-time safe.
 [[nodiscard]] Status write_vehicle_log(const std::filesystem::path& pcap_path,
                                        std::span<const vehicle::MotionSample> samples);
 

@@ -28,9 +28,9 @@ class SensorMotion {
   /// Reads poses.txt (a line a frame: 3x4 row-major pose of the left camera in that of frame 0),
   /// times.txt (a line a frame: seconds) and the sensor's pose from the line "Tr:" of calib.txt
   /// (3x4, sensor to camera). Without that line the pose is the KITTI car drawing's: axes parallel,
-  /// camera 0.27 m in front of the sensor and 0.08 m below. Line n is frame n. Errors: kNotFound,
-  /// kUnreadable, kMalformed with file and line (wrong count of numbers, not finite, times that do
-  /// not rise, unequal lengths, faster than any car).
+  /// camera 0.27 m in front of the sensor and 0.08 m below. Line n is frame n. Fails with
+  /// kNotFound, kUnreadable, kMalformed with file and line (wrong count of numbers, not finite,
+  /// times that do not rise, unequal lengths, faster than any car).
   [[nodiscard]] static Expected<SensorMotion> read(
       const std::filesystem::path& poses, const std::filesystem::path& times,
       const std::optional<std::filesystem::path>& calib);
@@ -38,7 +38,7 @@ class SensorMotion {
   [[nodiscard]] std::size_t frames() const noexcept { return times_s_.size(); }
 
   /// Returns the mean motion from the frame before to the frame after (at the ends, to the one
-  /// neighbour). Error kInvalidArgument for a frame that the files do not have.
+  /// neighbour). Fails with kInvalidArgument for a frame that the files do not have.
   [[nodiscard]] Expected<SensorTwist> twist(std::uint32_t frame) const;
 
   /// Returns the motion that takes a static point from the sensor frame at frame `from` to that at

@@ -40,7 +40,7 @@ struct SceneExtent {
 };
 
 /// Makes a scene. The same name and seed give the same world; a longer drive sees what a shorter
-/// one sees, and more. kInvalidArgument for a name not in scene_names(), which it lists.
+/// one sees, and more. Fails with kInvalidArgument for a name not in scene_names(), which it lists.
 [[nodiscard]] Expected<Scene> make_scene(std::string_view name, const SceneExtent& extent);
 
 /// A box of the scene "flat", standing on the plane.

@@ -48,7 +48,8 @@ using FaultScript = std::vector<Fault>;
 ///   foreign@7s:50 truncate@9s:5 clock@8s:+2.0s
 ///
 /// Times take s or ms, [0, 1e6] s; counts may carry "packets", [1, 1e9]; a clock needs its sign.
-/// kInvalidArgument names the fault and what was expected. An empty text means no faults.
+/// Fails with kInvalidArgument names the fault and what was expected. An empty text means no
+/// faults.
 [[nodiscard]] Expected<FaultScript> parse_fault_script(std::string_view text);
 
 }  // namespace terracut::send

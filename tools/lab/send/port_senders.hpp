@@ -18,7 +18,7 @@ namespace terracut::send {
 class PortSenders {
  public:
   /// `to` is "ADDRESS:PORT", or "ADDRESS" for each datagram's own port. `memory` must outlive this
-  /// object. Errors of parse_ipv4_endpoint() and UdpSender::open().
+  /// object. Fails with the errors of parse_ipv4_endpoint() and UdpSender::open().
   [[nodiscard]] static Expected<PortSenders> open(const std::string& to, UdpSenderConfig config,
                                                   memory::FixedMemory& memory);
 

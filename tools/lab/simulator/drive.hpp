@@ -79,20 +79,20 @@ struct SimulationSummary {
 /// In dual return a beam has a width: a surface behind an edge, a pole or a few leaves gives a
 /// second echo. With a single echo both returns are that one.
 ///
-/// Errors: kInvalidArgument naming the setting, its value and the allowed range; those of `sink`.
-/// Not real-time safe; allocates. A frame at 10 Hz takes 0.1 to 0.8 s on one core.
+/// Fails with kInvalidArgument naming the setting, its value and the allowed range; those of
+/// `sink`. Not real-time safe; allocates. A frame at 10 Hz takes 0.1 to 0.8 s on one core.
 template <class EncoderTraits>
 [[nodiscard]] Expected<SimulationSummary> simulate_drive(
     const SimulationConfig<EncoderTraits>& config,
     const std::type_identity_t<ColumnSink<EncoderTraits>>& sink);
 
 /// Returns the motion of a drive's vehicle every `period_ns`, from before the first firing to after
-/// the last, with stamps like those of firings. Errors as simulate_drive().
+/// the last, with stamps like those of firings. Fails as simulate_drive() does.
 template <class EncoderTraits>
 [[nodiscard]] Expected<std::vector<vehicle::MotionSample>> simulated_motion(
     const SimulationConfig<EncoderTraits>& config, std::int64_t period_ns = 10'000'000);
 
-/// Returns T_world_vehicle by stamps of the drive. Errors as simulate_drive().
+/// Returns T_world_vehicle by stamps of the drive. Fails as simulate_drive() does.
 template <class EncoderTraits>
 [[nodiscard]] Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(
     const SimulationConfig<EncoderTraits>& config);

@@ -36,8 +36,8 @@ struct MethodName {
 /// Returns all names in the order of the paper's tables: baselines, rows of Table III, ours.
 [[nodiscard]] std::span<const MethodName> method_names() noexcept;
 
-/// Returns the method of that name with default parameters. kInvalidArgument, naming all, for any
-/// other name.
+/// Returns the method of that name with default parameters. Fails with kInvalidArgument, naming
+/// all, for any other name.
 [[nodiscard]] Expected<MethodConfig> method_named(std::string_view name);
 
 /// True if the method needs the points of an image.

@@ -46,8 +46,8 @@ struct ClassEntry {
 /// tools/research/datasets/semantickitti_classes.yaml).
 class ClassTable {
  public:
-  /// `name` stands for the text in messages. kMalformed, with the line: no list `classes`, an
-  /// unknown key or role, an id out of [0, 65535] or repeated, or an invalid layout.
+  /// `name` stands for the text in messages. Fails with kMalformed, with the line: no list
+  /// `classes`, an unknown key or role, an id out of [0, 65535] or repeated, or an invalid layout.
   [[nodiscard]] static Expected<ClassTable> parse(std::string_view text, const std::string& name);
   [[nodiscard]] static Expected<ClassTable> read(const std::filesystem::path& path);
 

@@ -19,7 +19,7 @@ class Dataset {
   /// Fails with kUnsupported if rings follow from the order and the sensor lacks 64 of them.
   [[nodiscard]] static Expected<Dataset> at(const CloudLayout& layout, std::filesystem::path root);
 
-  /// Returns the names of the sequences with labels, sorted. kNotFound if there is none.
+  /// Returns the names of the sequences with labels, sorted. Fails with kNotFound if there is none.
   [[nodiscard]] Expected<std::vector<std::string>> sequences() const;
   [[nodiscard]] std::filesystem::path folder(const std::string& sequence) const {
     return root_ / layout_.sequences.path(sequence);

@@ -26,7 +26,8 @@ struct LabelledScan {
 [[nodiscard]] Status read_points(const CloudLayout& layout, const std::filesystem::path& file,
                                  LabelledScan& to);
 
-/// Reads the labels of the points from a file of their own. Errors of scan::read_label_file().
+/// Reads the labels of the points from a file of their own. Fails with the errors of
+/// scan::read_label_file().
 [[nodiscard]] Status read_labels(LabelFormat format, const std::filesystem::path& file,
                                  scan::KittiScan& to);
 

@@ -24,7 +24,7 @@ class FrameLabeller {
   FrameLabeller(std::span<const MethodChoice> methods, const datasets::Sequence& sequence,
                 const mount::RingProfile& profile, bool through_packets);
 
-  /// Sets the scan for label(); both arguments must not change meanwhile. Errors of
+  /// Sets the scan for label(); both arguments must not change meanwhile. Fails with the errors of
   /// PacketWay::place().
   [[nodiscard]] Status place(const scan::KittiScan& scan, const scan::RingRecovery& rings);
 

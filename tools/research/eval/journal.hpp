@@ -22,14 +22,15 @@ class Journal {
   /// Reads the existing lines, cuts off an incomplete one, and appends after it. `settings` is all
   /// that results depend on, words in one line of text. kInvalidArgument: the file has other
   /// settings (the message names the words that differ), or another process is writing it.
-  /// kMalformed: a whole line that is no result. kWriteFailed.
+  /// kMalformed: a whole line that is no result. Fails with kWriteFailed.
   [[nodiscard]] static Expected<Journal> open(const std::filesystem::path& path,
                                               const std::string& settings);
 
   /// Returns the results found by open().
   [[nodiscard]] FrameResults take_results() { return std::move(results_); }
 
-  /// Writes a result, whole or not at all, and flushes it to disk. From any thread. kWriteFailed.
+  /// Writes a result, whole or not at all, and flushes it to disk. From any thread. Fails with
+  /// kWriteFailed.
   [[nodiscard]] Status add(const FrameKey& key, const FrameResult& result);
 
  private:

@@ -39,7 +39,8 @@ class FramePictures {
   FramePictures(const eval::EvaluationConfig& config, FrameReader& reader)
       : config_(config), reader_(reader) {}
 
-  /// Sets the frame of all pictures. Errors of FrameReader::read() and FrameLabeller::place().
+  /// Sets the frame of all pictures. Fails with the errors of FrameReader::read() and
+  /// FrameLabeller::place().
   [[nodiscard]] Status open(const std::string& sequence, const std::string& frame);
 
   /// `with_road` gives road its own colour.

@@ -13,7 +13,7 @@ void catch_stop_signals(void (*also)() noexcept = nullptr);
 
 [[nodiscard]] bool stop_wanted() noexcept;
 
-// Returns an error if stop_wanted(). For work that is whole or not at all.
+// Returns an error if stop_wanted(): for work that must be done whole or not at all.
 [[nodiscard]] Status go_on();
 /// Prints why the work was not done: `error`, or that it was stopped. Returns the exit code.
 [[nodiscard]] ExitCode refuse_work(const Error& error);

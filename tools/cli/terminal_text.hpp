@@ -11,7 +11,7 @@ namespace terracut::cli {
 /// Replaces control characters except line ends, and invalid UTF-8, by '?': a text cannot move the
 /// cursor, set a title or clear a line.
 [[nodiscard]] std::string for_terminal(std::string_view text);
-/// Replaces line ends too: the text stays one line.
+/// Does what for_terminal() does and replaces line ends as well, so that the text stays one line.
 [[nodiscard]] std::string line_for_terminal(std::string_view text);
 
 /// Returns one word of a POSIX shell, quoted. A text with control characters or invalid UTF-8 is

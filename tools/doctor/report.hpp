@@ -11,7 +11,8 @@ namespace terracut::doctor {
 /// Returns the number of findings with that verdict.
 [[nodiscard]] int count_of(const Findings& findings, Verdict verdict);
 
-/// Returns the report for people: a line per finding; those not ok also with reason and remedy.
+/// Returns the report for people: a line per finding; findings that are not ok also have the reason
+/// and the remedy.
 [[nodiscard]] std::string text_of(const Findings& findings);
 
 /// Returns the report for programs: {"problems", "warnings", "findings": [{"check", "verdict",

@@ -55,7 +55,8 @@ class SystemView {
 [[nodiscard]] std::vector<std::string> words_of(std::string_view line);
 /// Returns the numbers of a kernel list: 0, 1, 2, 5 for "0-2,5". Empty for anything else.
 [[nodiscard]] std::set<int> numbers_of_list(std::string_view list);
-/// Returns the rest of the line of `text` that begins with `start`, without leading white space.
+/// Returns what follows `start` in the line of `text` that begins with `start`, without leading
+/// white space.
 [[nodiscard]] std::optional<std::string> line_after(std::string_view text, std::string_view start);
 
 }  // namespace terracut::doctor

@@ -10,7 +10,7 @@
 
 namespace terracut::python {
 
-/// Returns dictionaries and lists, as parsed from the report's file.
+/// Converts JSON to Python's dictionaries and lists, as Python would parse the report's file.
 [[nodiscard]] inline pybind11::object json_object(const nlohmann::ordered_json& json) {
   return pybind11::module_::import("json").attr("loads")(cli::json_text(json));
 }

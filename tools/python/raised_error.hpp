@@ -12,7 +12,7 @@
 /// Passes errors and messages of C++ to Python.
 namespace terracut::python {
 
-/// Raises the exception of terracut/errors.py for it.
+/// Raises the exception of terracut/errors.py that belongs to the error.
 [[noreturn]] void raise(const Error& error);
 
 template <class T>

@@ -21,8 +21,9 @@ struct Arguments {
   std::filesystem::path configuration;  ///< File given by --config; may be empty.
 };
 
-/// Reads the command line and the configuration file that it names. A wrong command line gives
-/// kInvalidArgument, naming command and option, a wrong file read_configuration()'s errors.
+/// Reads the command line and the configuration file that it names. Fails with kInvalidArgument,
+/// naming command and option, if the command line is wrong, and with the errors of
+/// read_configuration() if the file is wrong.
 [[nodiscard]] Expected<Arguments> parse_arguments(const std::vector<std::string>& words);
 
 }  // namespace terracut::cli

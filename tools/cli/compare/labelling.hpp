@@ -16,10 +16,10 @@ struct Labelling {
   std::filesystem::path state;  ///< State of their job (RelabelJob::state()), or empty.
 };
 
-/// Finds the labels in a folder. A folder of `terracut relabel` has those of its newest job,
-/// FOLDER/.relabel/ID those of that job; in any other folder, each subfolder with .label files is a
-/// drive, named by its path below. Fails with kNotFound if there are no label files, kUnreadable if
-/// a folder cannot be listed, or as read_job() does.
+/// Finds the labels in a folder. In a folder of `terracut relabel` these are the labels of its
+/// newest job, in FOLDER/.relabel/ID those of that job. In any other folder, each subfolder with
+/// .label files is a drive, named by its path below the folder. Fails with kNotFound if there are
+/// no label files, kUnreadable if a folder cannot be listed, or as read_job() does.
 [[nodiscard]] Expected<Labelling> find_labelling(const std::filesystem::path& folder);
 
 }  // namespace terracut::cli

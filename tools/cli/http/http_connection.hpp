@@ -2,8 +2,8 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <utility>  // before Asio, which lacks it (chriskohlhoff/asio#944)
-// This line keeps the includes apart.
+#include <utility>  // must precede Asio, which forgets to include it (chriskohlhoff/asio#944)
+// This line keeps clang-format from sorting the first include below into the block above.
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>

@@ -29,7 +29,7 @@ struct HttpBounds {
   std::chrono::milliseconds stall_time{10'000};
   /// Most new connections per second; others wait in the system's queue of 64 or beyond it.
   int connections_a_second = 250;
-  /// Most bytes read from one connection per second; the rest waits.
+  /// Most bytes read from one connection per second; further bytes wait.
   std::size_t bytes_a_second = 8 << 10;
 
   static constexpr std::size_t kHeaderBytes = 8 << 10, kBodyBytes = 4 << 10;

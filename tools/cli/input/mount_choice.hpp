@@ -20,7 +20,7 @@ struct MountChoice {
   /// The result of the search, in which stated figures have no uncertainty. Empty if all figures
   /// were stated or the mount is a guess.
   std::optional<mount::FoundMount> found{};
-  bool is_guess = false;  ///< Figures not stated were not seen in the ground.
+  bool is_guess = false;  ///< True if the ground did not show the figures that were not stated.
 };
 
 /// Returns the stated figures, with those not stated taken from the mount found.

@@ -30,8 +30,8 @@ class LiveWatch {
             live::LiveParts& parts, FiguresDisplay& display);
 
   /// Opens health reports on a CAN bus; if that fails it warns, and the run goes on without them.
-  /// Shows the losses of `outlet`, which may be null, and of `publisher`, and hands both the
-  /// figures every second; both must outlive this object.
+  /// Shows the losses of `outlet`, which may be null, and of `publisher`, and hands the figures to
+  /// both every second. Both must outlive this object.
   void open(const std::string& sensor, const std::string& input, const live::FrameOutlet* outlet,
             publish::Publisher& publisher);
 

@@ -16,8 +16,8 @@ namespace terracut::cli {
 /// True if an output is requested that needs every frame with its points, not only labels.
 [[nodiscard]] bool wants_sinks(const OutputOptions& options);
 
-/// Opens these outputs: creates files and binds ports, and prints them. Returns the first error.
-/// `facts` gets its names of coordinate frames from `options`.
+/// Opens the requested outputs: creates files and binds ports, and prints them. Returns the first
+/// error. `facts` gets its names of coordinate frames from `options`.
 [[nodiscard]] Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
                                                              publish::RunFacts facts);
 
@@ -28,8 +28,8 @@ namespace terracut::cli {
 /// Checks the options of outputs, not ports and disks. Fails with kInvalidArgument or kUnsupported.
 [[nodiscard]] Status check_sinks(const OutputOptions& options);
 
-/// Opens only Foxglove's output, of a capture that viewers may play (null: they cannot); same
-/// errors.
+/// Opens only Foxglove's output. `capture` is the capture that viewers may play; null if they may
+/// not. Fails as open_sinks() does.
 [[nodiscard]] Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(
     const OutputOptions& options, publish::RunFacts facts, ViewedCapture* capture);
 

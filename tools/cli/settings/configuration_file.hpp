@@ -15,8 +15,9 @@ namespace terracut::cli {
 /// parameters by stage under `method`. A key that is left out keeps its default. Relative paths
 /// start at the file's folder.
 ///
-/// Errors name file and line: kMalformed for invalid YAML, an unknown or repeated key, a value of
-/// the wrong kind or out of range; otherwise those of calib/text/bounded_file.hpp.
+/// Errors name file and line. Fails with kMalformed for invalid YAML, an unknown or repeated key, a
+/// value of the wrong kind or out of range; otherwise with the errors of
+/// calib/text/bounded_file.hpp.
 [[nodiscard]] Expected<Options> read_configuration(const std::filesystem::path& path);
 
 /// Reads a configuration from text; `name` stands for the file in messages, `base` for its folder.

@@ -38,8 +38,8 @@ enum class TextForm : std::uint8_t {
   kSender,  ///< An address, with or without port.
   kVlan,
   kMac,
-  kEndpoint,      ///< To listen at; a port alone means any address.
-  kServing,       ///< To serve at; a port alone means loopback.
+  kEndpoint,      ///< An address to listen at; a port alone means any.
+  kServing,       ///< An address to serve at; a port alone: loopback.
   kServingOrOff,  ///< Like kServing, or "off".
   kStream,        ///< Like kServing, or the path of a socket.
   kName,
@@ -62,7 +62,7 @@ struct Setting {
   std::string_view help{};
   double least = 0, most = 0;  ///< Valid range of a number, ends included.
   TextForm form = TextForm::kAny;
-  std::string_view bare{};      ///< Value of the option alone; empty: it needs one.
+  std::string_view bare{};      ///< Value if the option has none; empty: it needs one.
   std::string_view needs{};     ///< Option that must have a value, if the command has it.
   std::string_view excludes{};  ///< Option that must not be given together with this one.
   std::string_view reads{};     ///< For a path to be read: its role, "the calibration".

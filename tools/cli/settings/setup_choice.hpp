@@ -19,15 +19,16 @@ namespace terracut::cli {
 /// m.
 [[nodiscard]] Expected<mount::Mount> mount_of(const MountOptions& options);
 
-/// Returns the ring profile of a unit so mounted. The ring distances measured for a setup count
-/// only if no --mount-... option moves the sensor away from there.
+/// Returns the ring profile of a unit at the mount of the options. The ring distances measured for
+/// a setup count only if no --mount-... option moves the sensor away from the setup's mount.
 [[nodiscard]] Expected<mount::RingProfile> ring_profile_of(
     const calib::SensorCalibration& calibration, const MountOptions& options);
 [[nodiscard]] Expected<mount::RingProfile> ring_profile_of(const scan::RingTable& rings,
                                                            const MountOptions& options);
 
-/// Checks that each setting, itself checked, belongs to a method among `kinds`: otherwise it would
-/// silently have no effect. Fails with kInvalidArgument, naming the setting and its method.
+/// Checks that each setting, whose name and value are already checked, belongs to a method among
+/// `kinds`: otherwise it would silently have no effect. Fails with kInvalidArgument, naming the
+/// setting and its method.
 [[nodiscard]] Status check_used(std::span<const std::string> settings,
                                 std::span<const baselines::MethodKind> kinds);
 

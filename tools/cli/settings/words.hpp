@@ -68,7 +68,7 @@ inline constexpr std::array kDdsPresetWords{Word{"ros", DdsPreset::kRos},
 inline constexpr std::array kThroughWords{Word<std::optional<bool>>{"image", false},
                                           Word<std::optional<bool>>{"packets", true}};
 
-// Words whose settings stay texts in Options.
+// Words of settings whose values are stored as texts in Options.
 using TextWord = Word<std::string_view>;
 inline constexpr std::array kSpeedUnitWords{TextWord{"file", ""}, TextWord{"m/s", "m/s"},
                                             TextWord{"km/h", "km/h"}, TextWord{"mph", "mph"}};

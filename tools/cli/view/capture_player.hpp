@@ -23,7 +23,7 @@ class CapturePlayer : public ViewedCapture {
  public:
   using OnFrame = std::function<Status(const publish::LabelledFrame& frame)>;
 
-  /// `recording` must outlive this object; a thread measures it meanwhile.
+  /// `recording` must outlive this object, which measures its length on a thread of its own.
   explicit CapturePlayer(PlayedRecording& recording);
   ~CapturePlayer() override;
 

@@ -36,7 +36,7 @@ class PlayedCapture : public PlayedRecording {
   const Options& options_;
   const run::Frame* frame_ = nullptr;
   Span span_{};
-  /// The decoder's frame number, which never restarts, less that of its files.
+  /// The decoder's frame number, which never restarts, minus the number in file names.
   std::optional<std::uint32_t> ahead_;
   bool begins_ = false;                ///< True if the next frame is the first.
   std::vector<std::int64_t> ends_ns_;  ///< Ends of the first frames, by number.

@@ -26,7 +26,7 @@ class PlayedClouds : public PlayedRecording {
   [[nodiscard]] const mount::Mount& sensor_mount() const noexcept { return mount_; }
 
   [[nodiscard]] double frame_s() const override;
-  /// A cloud that cannot be labelled is warned of and left out.
+  /// Leaves out clouds that cannot be labelled, with a warning.
   [[nodiscard]] std::optional<Span> next() override;
   void take(publish::LabelledFrame& frame) override;
   [[nodiscard]] Status go_to(double seek_s) override;

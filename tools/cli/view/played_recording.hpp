@@ -28,7 +28,7 @@ class PlayedRecording {
   };
   /// Labels the next frame. Returns nothing at the end, at a break, and when stop_wanted().
   [[nodiscard]] virtual std::optional<Span> next() = 0;
-  /// Copies the frame labelled last. Its number is that in its files' names, even after a seek.
+  /// Copies the frame labelled last, numbered as in the names of its files, even after a seek.
   virtual void take(publish::LabelledFrame& frame) = 0;
   /// Seeks: next() then gives the frame of that time, perhaps after some earlier ones.
   [[nodiscard]] virtual Status go_to(double seek_s) = 0;

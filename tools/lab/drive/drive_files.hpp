@@ -11,9 +11,10 @@
 
 namespace terracut::drive {
 
-/// Return the names of a drive's parts beside "<folder>/<name>.pcap".
+/// truth_folder_of() and calibration_path_of() return where a drive's parts are stored beside
+/// "<folder>/<name>.pcap".
 [[nodiscard]] std::filesystem::path truth_folder_of(const std::filesystem::path& pcap_path);
-/// Empty for a sensor with a built-in table.
+/// Returns an empty path for a sensor with a built-in table.
 template <class EncoderTraits>
 [[nodiscard]] std::filesystem::path calibration_path_of(const std::filesystem::path& pcap_path) {
   if (EncoderTraits::kCalibrationSuffix.empty()) return {};
@@ -26,8 +27,9 @@ template <class EncoderTraits>
 /// same file system, until put_in_place(); without it nothing is left. One thread.
 class DriveFiles {
  public:
-  /// Fails with kInvalidArgument if an existing truth folder holds anything but NNNNNN.label files:
-  /// only one that is surely a drive's may be replaced. Fails with kWriteFailed.
+  /// Fails with kInvalidArgument if an existing truth folder holds anything but NNNNNN.label files,
+  /// because only a folder that is surely a drive's may be replaced; kWriteFailed if no folder can
+  /// be made.
   [[nodiscard]] static Expected<DriveFiles> create(const std::filesystem::path& pcap_path);
 
   DriveFiles(DriveFiles&&) noexcept;

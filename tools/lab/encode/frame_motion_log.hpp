@@ -26,7 +26,7 @@ class FrameMotionLog {
   [[nodiscard]] std::vector<vehicle::MotionSample> samples() const;
 
  private:
-  /// Begin of the run-up, then of each frame.
+  /// The times at which the run-up begins and then each frame.
   std::vector<std::int64_t> seams_ns_;
   std::int64_t frame_ = 0;  ///< Number of the frame, by azimuth.
   std::int64_t last_ns_ = 0;

@@ -80,7 +80,7 @@ struct EncodedFiring {
 /// alone; its error is reported.
 ///
 /// Firings start 11 degrees before the first seam and end as far after the last one. The head's
-/// azimuth of the first frame starts at 36000.  Allocates; one thread; deterministic.
+/// azimuth in the first frame starts at 36000. Allocates; one thread; deterministic.
 class ScanEncoder {
  public:
   static constexpr double kFarthest_steps = 4;

@@ -13,25 +13,31 @@
 #include "tools/lab/packets/velodyne_encoder_traits.hpp"
 
 /// An `EncoderTraits` describes a sensor to the makers of packets (DriveWriter, the simulator), as
-/// `Sensor` does to a decoder. The templates are instantiated for those in
-/// TERRACUT_FOR_ENCODER_TRAITS. It has
-/// - `Calibration`, `Geometry`, `Offsets` (of the beams), `Config` with `returns`, and `Column`, a
-///   LabelledColumn of its `kLasers`;
-/// - `columns_per_packet(returns)`; `firings_per_group(returns)`, the fewest that fill whole
-///   packets, which share a firing where they are several; `firing_ns(returns)`, from firing to
-///   firing; `laser_period_ns(returns)`, from a laser's firing to its next;
+/// `Sensor` does to a decoder. Templates are instantiated for those in TERRACUT_FOR_ENCODER_TRAITS.
+/// An `EncoderTraits` has
+/// - the types `Calibration`, `Geometry`, `Offsets` (of the beams), `Config` with `returns`, and
+///   `Column`, a LabelledColumn of its `kLasers`;
+/// - `columns_per_packet(returns)`;
+/// - `firings_per_group(returns)`: the fewest firings that fill whole packets. A group of several
+///   packets shares a firing between them;
+/// - `firing_ns(returns)`: the time from firing to firing;
+/// - `laser_period_ns(returns)`: the time from a laser's firing to its next;
 /// - `step_ticks(rotor, place, returns)`: the step by which the decoder computes the beams of
 ///   the firing at `place` of a group, given the group's azimuths;
-/// - `advance_ticks(step_ticks, laser, returns)`, `offset_ticks(offsets, step_ticks, laser,
-///   returns)`: the head's and the beam's azimuth at the laser's firing over its column's;
+/// - `advance_ticks(step_ticks, laser, returns)`: the head's azimuth at the laser's firing, minus
+///   that of its column;
+/// - `offset_ticks(offsets, step_ticks, laser, returns)`: the beam's azimuth, minus that of its
+///   column;
 /// - `offsets(calibration)`, `geometry(calibration, config)`, `nominal()`,
 ///   `metres_per_count(calibration)`, `widest_offset_rad(calibration)`;
-/// - `kStrongestFirst`: the order of two returns; `kBeamHalfWidth_rad`: of the light;
+/// - `kStrongestFirst`: the order of two returns; `kBeamHalfWidth_rad`: half the width of the
+/// light;
 /// - `kCalibrationSuffix`, `read_calibration(path)`, `write_calibration(path, calibration)`: the
-///   unit's table as a file; no suffix, and neither of these: the decoder has nominal() built in;
-/// - `sender(calibration, config)`: a `Sender`, which makes the packets and puts them into a
-/// capture
-///   (hdl64e/packet_sender.hpp).
+///   unit's table as a file. If the decoder has nominal() built in, the suffix is empty and the two
+///   functions are missing;
+/// - `sender(calibration, config)`: returns a `Sender`, which makes the packets and writes them
+/// into
+///   a capture (packets/hdl64e_packet_sender.hpp).
 
 /// Expands INSTANTIATE(EncoderTraits) for each sensor whose packets are made.
 #define TERRACUT_FOR_ENCODER_TRAITS(INSTANTIATE)       \

@@ -52,7 +52,8 @@ struct Ruby128EncoderTraits {
     return ruby128::kRubyBlocksPerPacket;
   }
 
-  /// In dual return the packets hold A A B and B C C; B keeps its step from the first.
+  /// In dual return two packets hold the firings A A B and B C C; B keeps the step of the first
+  /// packet.
   [[nodiscard]] static constexpr std::int32_t step_ticks(const GroupAzimuths& rotor, int place,
                                                          ReturnMode returns) noexcept {
     const std::int32_t a = rotor.cdeg[0], b = rotor.cdeg[1], c = rotor.cdeg[2];

@@ -52,7 +52,7 @@ struct VelodyneEncoderTraits {
     return Model::kLayout.columns(is_dual(returns));
   }
 
-  /// A packet with one firing has no step of its own: it is the one from the previous packet.
+  /// A packet with one firing shows no step: the decoder takes the step from the previous packet.
   [[nodiscard]] static constexpr std::int32_t step_ticks(const GroupAzimuths& rotor, int,
                                                          ReturnMode returns) noexcept {
     const int firings = firings_per_group(returns);

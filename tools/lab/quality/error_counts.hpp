@@ -13,7 +13,7 @@ namespace terracut::quality {
 /// Percentiles of absolute errors, from a fixed number of counts for any length of drive.
 class ErrorCounts {
  public:
-  /// Resolution is `width`; errors beyond `bins` widths count as that limit.
+  /// Errors are counted to within `width`; an error beyond `bins` * `width` counts as that limit.
   ErrorCounts(double width, std::size_t bins) : width_(width), counts_(bins + 1) {}
 
   void add(double error) {
@@ -26,7 +26,8 @@ class ErrorCounts {
   [[nodiscard]] double rms() const {
     return count_ == 0 ? 0 : std::sqrt(squares_ / static_cast<double>(count_));
   }
-  /// Returns the error exceeded by at most 100 - `percent` of the errors; 0 without any.
+  /// Returns the error that at most 100 - `percent` percent of the errors exceed; 0 if there are no
+  /// errors.
   [[nodiscard]] double percentile(std::uint64_t percent) const {
     std::uint64_t not_above = 0;
     for (std::size_t bin = 0; count_ != 0 && bin < counts_.size(); ++bin) {

@@ -27,8 +27,8 @@ struct Quality {
   std::uint64_t ground_as_obstacle = 0;
   std::uint64_t obstacle_as_ground = 0;
   std::uint64_t obstacle_as_obstacle = 0;
-  std::uint64_t key_as_ground = 0;    ///< Part of obstacle_as_ground.
-  std::uint64_t key_as_obstacle = 0;  ///< Part of obstacle_as_obstacle.
+  std::uint64_t key_as_ground = 0;    ///< Also counted in obstacle_as_ground.
+  std::uint64_t key_as_obstacle = 0;  ///< Also counted in obstacle_as_obstacle.
 
   void add(frame::Label label, std::uint32_t semantic_kitti_id) noexcept;
   void add(TruthClass truth, std::uint64_t as_ground, std::uint64_t as_obstacle) noexcept;

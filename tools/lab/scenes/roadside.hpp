@@ -10,24 +10,24 @@ namespace terracut::scenes {
 /// Makers of things beside a road. The origin is on the ground in their middle; long ones lie along
 /// x and reach below the origin, so that no gap shows on slopes.
 
-/// Makes one `length_m` along the road, `depth_m` across, `height_m` high, with a plinth.
+/// Makes a building `length_m` along the road, `depth_m` across, `height_m` high, with a plinth.
 [[nodiscard]] world::SceneObject make_building(double length_m, double depth_m, double height_m);
 
-/// Makes a trunk of 0.1 to 0.25 m radius, with a crown of leaves from 2.2 m or higher up.
+/// Makes a tree: a trunk of 0.1 to 0.25 m radius, and a crown of leaves from 2.2 m or higher up.
 [[nodiscard]] world::SceneObject make_tree(world::Random& random);
 
 /// Makes a bush of leaves down to the ground, 0.5 to 1.6 m across.
 [[nodiscard]] world::SceneObject make_bush(world::Random& random);
 
-/// Make a lamp post, a sign post with its plate, or a bollard.
+/// These make a lamp post, a sign post with its plate, and a bollard.
 [[nodiscard]] world::SceneObject make_lamp_post(world::Random& random);
 [[nodiscard]] world::SceneObject make_sign_post(world::Random& random);
 [[nodiscard]] world::SceneObject make_bollard();
 
-/// Makes leaves from the ground up, 0.8 m thick.
+/// Makes a hedge of leaves from the ground up, 0.8 m thick.
 [[nodiscard]] world::SceneObject make_hedge(double length_m, double height_m);
 
-/// Makes posts and wire mesh that lets 6 of 10 beams through, 1.2 m high.
+/// Makes a fence 1.2 m high: posts, and wire mesh that lets 6 of 10 beams through.
 [[nodiscard]] world::SceneObject make_mesh_fence(double length_m);
 
 /// Makes a steel rail at 0.45 to 0.76 m on posts every 2 m.

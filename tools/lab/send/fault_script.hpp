@@ -47,9 +47,9 @@ using FaultScript = std::vector<Fault>;
 ///   loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s burst@6s:50ms
 ///   foreign@7s:50 truncate@9s:5 clock@8s:+2.0s
 ///
-/// Times take s or ms, [0, 1e6] s; counts may carry "packets", [1, 1e9]; a clock needs its sign.
-/// Fails with kInvalidArgument names the fault and what was expected. An empty text means no
-/// faults.
+/// Times take s or ms, [0, 1e6] s; counts may carry "packets", [1, 1e9]; a clock needs its sign. An
+/// empty text means no faults. Fails with kInvalidArgument; the message names the fault and what
+/// was expected.
 [[nodiscard]] Expected<FaultScript> parse_fault_script(std::string_view text);
 
 }  // namespace terracut::send

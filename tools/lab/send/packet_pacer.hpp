@@ -15,8 +15,7 @@
 namespace terracut::send {
 
 /// Sends datagrams at the times of their stamps, as a sensor would, and measures how late each one
-/// was. Due times are instants of CLOCK_MONOTONIC, so that one late datagram does not delay the
-/// rest.
+/// was. Due times are instants of CLOCK_MONOTONIC, so that one late datagram does not delay others.
 ///
 /// The first datagram is due `start_delay_ns` after it is added; one stamped 1 s later is due 1 s /
 /// rate after that. A datagram with an earlier stamp than the previous one is due with it.

@@ -7,8 +7,9 @@
 
 namespace terracut::send {
 
-/// The stamps of a capture played repeatedly, as one continuous stream: passes are as far apart as
-/// its packets are on average. PacketPacer would send a second pass with the old stamps at once.
+/// Makes the stamps of a capture that is played repeatedly one continuous stream: passes are as far
+/// apart as the capture's packets are on average. With the old stamps, PacketPacer would send a
+/// second pass at once.
 class PassStamps {
  public:
   /// Returns the stamp, in ns, of a packet in this pass.

@@ -36,7 +36,7 @@ class PortSenders {
 
   UdpSenderConfig config_;  ///< Port 0: each datagram's own.
   memory::FixedMemory* memory_;
-  std::map<std::uint16_t, UdpSender> by_port_;  ///< A single one for all is at 0.
+  std::map<std::uint16_t, UdpSender> by_port_;  ///< One sender for all ports has key 0.
   std::uint64_t refused_ = 0;
 };
 

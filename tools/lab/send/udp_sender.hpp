@@ -40,9 +40,9 @@ class UdpSender {
  public:
   static constexpr std::size_t kBatch = 64;
 
-  /// kInvalidArgument: no address or port to send to. kNotFound: `from` is no address of this
-  /// machine, or there is no such interface. kUnreadable: another refusal of the system. Takes all
-  /// its memory here.
+  /// Takes all its memory. Fails with kInvalidArgument if there is no address or port to send to;
+  /// kNotFound if `from` is no address of this machine, or there is no such interface; kUnreadable
+  /// if the system refuses for another reason.
   [[nodiscard]] static Expected<UdpSender> open(const UdpSenderConfig& config,
                                                 memory::FixedMemory& memory);
 

@@ -13,10 +13,11 @@ namespace terracut::simulator {
 struct SideLine {
   world::SightLine line;
   double share = 0;           ///< Its light relative to that along the axis.
-  std::uint64_t ray_key = 0;  ///< Key of its random leaves and wires, not the axis's.
+  std::uint64_t ray_key = 0;  ///< Its own key, for random leaves and wires.
 };
 
-/// Returns a line at a random place of the beam's disc, the same for the same axis `ray_key`.
+/// Returns a line at a random place of the beam's disc. The same `ray_key`, that of the axis, gives
+/// the same line.
 [[nodiscard]] SideLine side_line(const world::SightLine& axis, double half_width_rad,
                                  std::uint64_t ray_key) noexcept;
 

@@ -79,8 +79,8 @@ struct SimulationSummary {
 /// In dual return a beam has a width: a surface behind an edge, a pole or a few leaves gives a
 /// second echo. With a single echo both returns are that one.
 ///
-/// Fails with kInvalidArgument naming the setting, its value and the allowed range; those of
-/// `sink`. Not real-time safe; allocates. A frame at 10 Hz takes 0.1 to 0.8 s on one core.
+/// Fails with kInvalidArgument, naming the setting, its value and the allowed range, or with the
+/// error of `sink`. Not real-time safe; allocates. A frame at 10 Hz takes 0.1 to 0.8 s on one core.
 template <class EncoderTraits>
 [[nodiscard]] Expected<SimulationSummary> simulate_drive(
     const SimulationConfig<EncoderTraits>& config,

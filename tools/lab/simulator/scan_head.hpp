@@ -66,10 +66,12 @@ class ScanHead {
   [[nodiscard]] std::optional<Sighting> echo_of(const world::SightLine& line,
                                                 const std::optional<world::Hit>& hit,
                                                 std::uint64_t ray_key, double share) const;
-  /// Returns the echo on the wire. The sensor takes all light as coming along the beam's axis.
+  /// Returns the echo in units of the wire. The sensor assumes that all light comes along the
+  /// beam's axis.
   [[nodiscard]] std::optional<Measured> measure(const Beam& beam, const Moment& moment,
                                                 const Sighting& sighting) const;
-  /// Does the same as measure() without the beam's bend, where only the depth counts.
+  /// Does what measure() does, but ignores the beam's bend; for surfaces of which only the depth
+  /// counts.
   [[nodiscard]] std::optional<Measured> measure_along(const Beam& beam, const Sighting& sighting,
                                                       const Eigen::Vector3d& normal) const;
   void cast_single(const Beam& beam, const Moment& moment, Column& column) const;

@@ -13,7 +13,7 @@ struct SensorEffects {
   double min_range_m = 0.9;          ///< Nearer and farther echoes are not reported.
   double max_range_m = 120.0;
 
-  /// Returns only the range limits: measurements are exact.
+  /// Returns effects without any imperfection: only the range limits remain.
   [[nodiscard]] static constexpr SensorEffects none() noexcept {
     return {
         .range_noise_m = 0, .rough_surfaces = false, .random_drop_share = 0, .weak_drop = false};

@@ -14,8 +14,8 @@ namespace terracut::simulator {
 /// a time since the start of the drive (which may be negative).
 [[nodiscard]] Eigen::Isometry3d ego_pose(const scenes::Scene& scene, double time_s);
 
-/// Returns the readings of the vehicle's own sensors at that time; no stamp. The point without
-/// sideways slip is the one below the sensor.
+/// Returns the readings of the vehicle's own sensors at that time, without a stamp. The vehicle's
+/// point that does not slip sideways is the one below the sensor.
 [[nodiscard]] vehicle::MotionSample ego_motion(const scenes::Scene& scene, double time_s);
 
 /// Returns mount::T_vehicle_lidar() as an Eigen transform.

@@ -26,10 +26,11 @@ class CrossSection {
 
   /// Returns the height of `band` above the centre line without bumps, also beyond its edges.
   [[nodiscard]] double height_m(const Band& band, double s_m, double distance_m) const noexcept;
-  /// Returns the height of bumps here: they fade in from those of the band inside.
+  /// Returns the height of a band's bumps at a distance from the centre line. They fade in from
+  /// those of the band inside.
   [[nodiscard]] static double bumps_m(const Band& band, double distance_m) noexcept;
 
-  /// Bounds the slope of any band in any direction, without steps.
+  /// Returns an upper bound of the slope of any band in any direction, without steps.
   [[nodiscard]] double steepest() const noexcept;
   /// Returns the highest rise by steps alone.
   [[nodiscard]] double highest_step_m() const noexcept;

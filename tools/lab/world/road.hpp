@@ -29,8 +29,8 @@ struct Strip {
 struct RoadSide {
   std::vector<Strip> strips;   ///< At least one.
   double dropped_every_m = 0;  ///< Distance between dropped kerbs; 0 = none.
-  double dropped_at_m = 0;     ///< s of one of them.
-  double dropped_share = 1;    ///< Height of the steps there, as a share.
+  double dropped_at_m = 0;     ///< The s of one dropped kerb.
+  double dropped_share = 1;    ///< The share of the step's height left there.
 };
 
 /// The shape of a road: its plan, its grade, and the strips beside it.
@@ -41,7 +41,7 @@ struct Road {
   RoadSide left, right;
   double lane_mark_d_m = -1;  ///< Dashed paint at this |d|; < 0 = none.
 
-  /// Return the centre line's y at s, and its slope there.
+  /// These return the centre line's y at s, and its slope there.
   [[nodiscard]] double centre_y_m(double s_m) const noexcept;
   [[nodiscard]] double centre_slope(double s_m) const noexcept;
   /// Returns the road's direction at s, from the x axis to the left.

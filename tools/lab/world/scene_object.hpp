@@ -30,7 +30,8 @@ struct SceneObject {
   double heading_rad = 0;  ///< Angle to the left of the road's direction at that place.
   double along_mps = 0;    ///< Speed along the road and to its left, while it moves.
   double across_mps = 0;
-  double moves_from_s = -std::numeric_limits<double>::infinity();  ///< Still before and after.
+  /// The object stands still before and after.
+  double moves_from_s = -std::numeric_limits<double>::infinity();
   double moves_until_s = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool moves() const noexcept { return along_mps != 0 || across_mps != 0; }

@@ -13,7 +13,7 @@ struct Substance {
   double density_per_m = 0;  ///< See Shape::density_per_m.
 };
 
-/// Make shapes by their bottom: `bottom` is the middle of the foot.
+/// These make shapes that stand on `bottom`, the middle of their foot.
 [[nodiscard]] inline Shape box(const Eigen::Vector3d& bottom, const Eigen::Vector3d& size,
                                const Substance& substance) {
   Shape shape;

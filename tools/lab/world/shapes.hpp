@@ -36,7 +36,7 @@ struct Chord {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Outward normal at the entry, length 1.
 };
 
-/// Intersects `line`, in the object's frame; nothing if it misses.
+/// Intersects the shape with `line`, given in the object's frame; nothing if the line misses.
 [[nodiscard]] std::optional<Chord> intersect(const Shape& shape, const SightLine& line) noexcept;
 
 }  // namespace terracut::world

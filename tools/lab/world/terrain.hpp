@@ -52,7 +52,7 @@ class Terrain {
     return spot(at.x(), at.y(), at.z());
   }
   [[nodiscard]] Zone zone(const Spot& spot) const noexcept;
-  /// Returns the height that the zone's band would have here.
+  /// Returns the height that the zone's band would have at `spot`.
   [[nodiscard]] double height_m(const Zone& zone, const Spot& spot) const noexcept;
   [[nodiscard]] double clearance_m(const Zone& zone, const Spot& spot) const noexcept {
     return spot.z_m - height_m(zone, spot);

@@ -14,10 +14,10 @@
 
 namespace terracut::baselines {
 
-/// A method compared with ours. Does nothing ahead and remembers nothing.
+/// A method that is compared with ours. It works on whole frames only and remembers none.
 class Baseline : public ground::FrameMethod {
  public:
-  /// Ignores the budget; reports the stage most like its own.
+  /// Ignores the budget. Reports the stage of our method that is most like its own.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, const min_cut::CutBudget& /*budget*/ = {},
       stage::StageObserver* observer = nullptr) noexcept override {
@@ -37,8 +37,8 @@ class Baseline : public ground::FrameMethod {
   [[nodiscard]] const stage::CellPlanes& planes() const noexcept override { return planes_; }
 
  protected:
-  /// `last_stage` is the stage of ours most like it. `obstacle_height_m` applies to a cell's second
-  /// returns.
+  /// `last_stage` is the stage of our method that this method resembles most. `obstacle_height_m`
+  /// applies to a cell's second returns.
   Baseline(stage::Stage last_stage, float obstacle_height_m, frame::ImageShape shape,
            std::size_t return_capacity, memory::FixedMemory& memory)
       : planes_(shape, memory),

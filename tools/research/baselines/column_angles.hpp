@@ -27,15 +27,15 @@ class ColumnAngles final : public Baseline {
     int smoothing_window = 5;      ///< Rows of the Savitzky-Golay filter, odd, [1, 15].
     int repair_rows = 5;           ///< Most rows to a return that bridges a hole, [0, 32].
     float repair_range_m = 1.0F;   ///< Largest difference of the ranges bridged, [0, 100].
-    int margin_rows = 0;           ///< Ground finally grows by so many rows up and down, [0, 16].
+    int margin_rows = 0;           ///< Rows by which ground grows up and down at the end, [0, 16].
   };
 
   /// Takes all memory. `profile` is not used: the angles are measured.
   ColumnAngles(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                std::size_t return_capacity, memory::FixedMemory& memory);
 
-  /// Returns the smoothed angle by cell, degrees in [0, 90] (smoothing may overshoot); NaN without
-  /// a return or repaired hole.
+  /// Returns the smoothed angle of each cell, degrees in [0, 90] (smoothing may overshoot); NaN for
+  /// cells without a return or a repaired hole.
   [[nodiscard]] std::span<const float> angle_deg() const noexcept { return angle_deg_; }
 
  private:

@@ -39,7 +39,7 @@ class FixedGridElevationMap final : public Baseline {
     kVertical,  ///< An upright object.
   };
   struct Square {
-    SquareKind kind = SquareKind::kEmpty;  ///< The lowest interval's.
+    SquareKind kind = SquareKind::kEmpty;  ///< The kind of the lowest interval.
     /// Elevation, metres above the mount's ground plane: the fused height of a level, the lowest
     /// return of a vertical object.
     float elevation_m = 0;

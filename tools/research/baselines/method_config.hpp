@@ -15,10 +15,10 @@
 
 namespace terracut::baselines {
 
-/// The class that does the work.
+/// The class that runs a method: our segmenter or one of the baselines.
 enum class MethodKind : std::uint8_t { kSegmenter, kPfaff, kBogoslavskyi, kZhang };
 
-/// A method with every parameter, also of the others. The default is the `terracut` profile.
+/// A method with the parameters of all methods. The default is the `terracut` profile.
 struct MethodConfig {
   MethodKind kind = MethodKind::kSegmenter;
   ground::SegmenterConfig segmenter = {};
@@ -33,7 +33,8 @@ struct MethodName {
   std::string_view about;  ///< "Column angles in the range image (Bogoslavskyi, Stachniss 2017)"
 };
 
-/// Returns all names in the order of the paper's tables: baselines, rows of Table III, ours.
+/// Returns all methods in the order of the paper's tables: the baselines, the rows of Table III,
+/// then our profiles.
 [[nodiscard]] std::span<const MethodName> method_names() noexcept;
 
 /// Returns the method of that name with default parameters. Fails with kInvalidArgument, naming

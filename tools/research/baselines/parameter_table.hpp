@@ -19,8 +19,7 @@ using Parameter = ground::ParameterOf<MethodConfig>;
 /// Sets a parameter of a baseline or of our method, as ground::apply_setting() does for ours.
 [[nodiscard]] Status apply_setting(MethodConfig& config, std::string_view setting);
 
-/// Returns the kind of method that uses a parameter, a baseline's or ours; it has no effect on the
-/// others.
+/// Returns the kind of method that uses a parameter. The parameter has no effect on other kinds.
 [[nodiscard]] MethodKind kind_that_uses(std::string_view key) noexcept;
 
 }  // namespace terracut::baselines

@@ -42,16 +42,18 @@ struct ClassEntry {
   }
 };
 
-/// A dataset's files, its classes and their roles: a file that users can copy and edit (format:
+/// Describes a dataset: where its files lie, its classes, and the role of each class. It is read
+/// from a YAML file that users can copy and edit (format:
 /// tools/research/datasets/semantickitti_classes.yaml).
 class ClassTable {
  public:
-  /// `name` stands for the text in messages. Fails with kMalformed, with the line: no list
-  /// `classes`, an unknown key or role, an id out of [0, 65535] or repeated, or an invalid layout.
+  /// Parses a table; `name` stands for the text in messages. Fails with kMalformed, and the line,
+  /// if there is no list `classes`, a key or role is unknown, an id is repeated or out of [0,
+  /// 65535], or the layout is invalid.
   [[nodiscard]] static Expected<ClassTable> parse(std::string_view text, const std::string& name);
   [[nodiscard]] static Expected<ClassTable> read(const std::filesystem::path& path);
 
-  /// Returns none if the table has only classes.
+  /// Returns where the dataset's files lie; nothing if the table has only classes.
   [[nodiscard]] const std::optional<CloudLayout>& layout() const noexcept { return layout_; }
   /// Returns a note to users of the dataset; mostly empty.
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
@@ -59,9 +61,9 @@ class ClassTable {
   void take_layout(const ClassTable& other);
   /// Returns the entries in order of ids.
   [[nodiscard]] const std::vector<ClassEntry>& entries() const noexcept { return entries_; }
-  /// Returns null for an unknown id.
+  /// Returns the class with that id; null if the id is unknown.
   [[nodiscard]] const ClassEntry* find(std::uint16_t id) const noexcept;
-  /// Returns kIgnored for an unknown id.
+  /// Returns the role of a class; kIgnored for an unknown id.
   [[nodiscard]] Role role(std::uint16_t id, GroundDefinition definition) const noexcept {
     const ClassEntry* const entry = find(id);
     return entry == nullptr ? Role::kIgnored : entry->role(definition);

@@ -28,7 +28,7 @@ struct CloudLayout {
   FilePattern sequences;
   FilePattern points;
   PointFormat point_format = PointFormat::kKittiBin;
-  std::optional<FilePattern> labels;  ///< Label files; none: the points' files have labels.
+  std::optional<FilePattern> labels;  ///< Label files; empty: the files of points hold labels.
   LabelFormat label_format = LabelFormat::kUint32;
   int rings = 0;
   int columns = frame::ImageShape{}.columns;  ///< Firings of a laser in one revolution.

@@ -20,9 +20,9 @@ struct LabelledScan {
   scan::RingRecovery rings;                   ///< The ring of every point.
 };
 
-/// Reads the points of a file, with their lasers and labels if those are fields of it. Errors name
-/// the file: those of its format, and kMalformed for a missing field, impossible numbers of lasers
-/// or labels, or no valid point.
+/// Reads the points of a file, with their lasers and labels if the file has fields for them. Errors
+/// name the file. Fails with the errors of its format, and with kMalformed for a missing field,
+/// impossible numbers of lasers or labels, or no valid point.
 [[nodiscard]] Status read_points(const CloudLayout& layout, const std::filesystem::path& file,
                                  LabelledScan& to);
 

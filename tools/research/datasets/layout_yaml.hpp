@@ -12,8 +12,8 @@
 // Only for .cpp files of this folder: keeps yaml-cpp out of other includes.
 namespace terracut::datasets {
 
-/// Fails with kMalformed, with the line in `name`: an unknown or missing key, an invalid value, or
-/// an impossible combination.
+/// Fails with kMalformed, and the line in `name`, for an unknown or missing key, an invalid value,
+/// or an impossible combination.
 [[nodiscard]] Expected<CloudLayout> layout_from_yaml(const YAML::Node& node,
                                                      const std::string& name);
 

@@ -20,9 +20,10 @@ namespace terracut::datasets {
 /// The frames of one unit, in order of names.
 class Sequence {
  public:
-  /// Lists the frames in `folder` and learns the rings of the unit. Errors name file or folder:
-  /// kNotFound, those of reading if no frame can be read, kMalformed also if the points of a laser
-  /// do not lie on its cone around the origin, as in a map's frame.
+  /// Lists the frames in `folder` and learns the rings of the unit. Errors name file or folder.
+  /// Fails with kNotFound if there are no frames, with the error of reading if no frame can be
+  /// read, and with kMalformed if the points of a laser do not lie on its cone around the origin,
+  /// as in a map's frame.
   [[nodiscard]] static Expected<Sequence> open(const CloudLayout& layout,
                                                std::filesystem::path folder);
 

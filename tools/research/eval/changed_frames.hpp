@@ -28,10 +28,10 @@ struct LabelledByAll {
   std::function<std::span<const frame::Label>(std::size_t)> labels_of;  ///< By index of the method.
 };
 
-/// Keeps, for every method but the first, the frame with most returns that are ground to one and
-/// obstacle to the other, as a picture from above. The left half shows the method, the right half
-/// the first one; returns with equal labels are dim, the others green where right, red where wrong,
-/// white where their class is ignored. From any thread.
+/// Keeps one frame for every method but the first, as a picture from above: the frame in which most
+/// returns are ground to one of the two methods and obstacle to the other. The left half shows the
+/// method, the right half the first one; returns with equal labels are dim, the others green where
+/// right, red where wrong, white where their class is ignored. From any thread.
 class ChangedFrames {
  public:
   static constexpr int kSide = 320;  ///< Pixels of each half.
@@ -39,11 +39,13 @@ class ChangedFrames {
   /// Both arguments must outlive this object.
   ChangedFrames(std::span<const MethodChoice> methods, const datasets::ClassTable& classes);
 
-  /// The order of calls does not matter: of equal frames the first by name is kept.
+  /// Looks at a frame. The order of calls does not matter: if frames are equal, the first by name
+  /// is kept.
   void look(const LabelledByAll& frame);
 
-  /// Writes `<folder>/<method>.png` for every method that ever differed, and changes.json: its
-  /// frame, what changed there, and how much of it the first method has right and wrong.
+  /// Writes `<folder>/<method>.png` for every method that ever differed, and changes.json: the
+  /// method's frame, what changed there, and how many of these returns the first method has right
+  /// and wrong.
   [[nodiscard]] Status write(const std::filesystem::path& folder) const;
 
  private:

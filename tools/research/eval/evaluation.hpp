@@ -58,16 +58,17 @@ struct EvaluationOutcome {
 };
 
 /// Labels every frame of a dataset with every method and counts the labels. A sequence without a
-/// found mount is a fault as a whole. An unreadable file is a fault, and the rest goes on. Results
-/// in `journal` are kept; in a run with other frames (32 successive ones, labelled in order by one
-/// thread) they are labelled again because of their effect on these. Faulty ones are not in the
-/// journal. Predictions are at `<predictions>/<method>/sequences/NN/predictions/NNNNNN.label`.
+/// found mount is a fault as a whole. An unreadable file is a fault, and the work goes on. Results
+/// in `journal` are kept; their frames are labelled again only if the same run of 32 successive
+/// frames, which one thread labels in order, has others to be labelled, because methods remember
+/// earlier frames. Faulty frames are not in the journal. Predictions are written to
+/// `<predictions>/<method>/sequences/NN/predictions/NNNNNN.label`.
 ///
-/// `on_progress(done, of)`, from any thread, one at a time; `stop_wanted()` is asked between
-/// frames. Results depend neither on the number of jobs nor on interruptions; times do.
+/// `on_progress(done, of)` is called from any thread, one call at a time; `stop_wanted()` is asked
+/// between frames. Results depend neither on the number of jobs nor on interruptions; times do.
 ///
-/// kNotFound: no sequence there. kUnsupported: see Dataset::at(), or packets of another sensor than
-/// an HDL-64E. kWriteFailed: predictions or journal.
+/// Fails with kNotFound if there is no sequence; kUnsupported as Dataset::at() does, or for packets
+/// of another sensor than an HDL-64E; kWriteFailed if predictions or journal cannot be written.
 [[nodiscard]] Expected<EvaluationOutcome> evaluate(
     const EvaluationConfig& config, Journal* journal,
     const std::function<void(std::size_t, std::size_t)>& on_progress,

@@ -28,8 +28,8 @@ class FrameLabeller {
   /// PacketWay::place().
   [[nodiscard]] Status place(const scan::KittiScan& scan, const scan::RingRecovery& rings);
 
-  /// Labels with methods[index]. Its labels are points() until the next call. `place` is the
-  /// sensor's, for methods that remember earlier frames.
+  /// Labels the scan with methods[index]; points() then returns the labels until the next call.
+  /// `place` is the sensor's, for methods that remember earlier frames.
   [[nodiscard]] FrameResult label(std::size_t index, const frame::Place& place = {});
 
   /// Returns one label per point of the file: kNone for invalid points; kObstacle, the safe side,

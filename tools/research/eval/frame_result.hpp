@@ -35,13 +35,13 @@ struct FrameResult {
   statistics::FlipCounts flips;  ///< Zero if the previous frame or the motion is unknown.
   std::uint64_t points = 0;      ///< Points of the file.
   std::uint64_t non_finite = 0;  ///< Invalid points: not labelled, not counted.
-  std::uint64_t no_ring = 0;     ///< Points without a known laser: called obstacle.
-  std::uint64_t not_placed = 0;  ///< Points lost otherwise: called obstacle.
-  bool rings_realigned = false;  ///< The file did not have 64 rings.
+  std::uint64_t no_ring = 0;     ///< Points without a known laser; they count as obstacle.
+  std::uint64_t not_placed = 0;  ///< Points lost otherwise; they count as obstacle.
+  bool rings_realigned = false;  ///< True if the file did not have 64 rings.
   FrameTimes times;
 };
 
-/// In order of sequence, frame, method, whatever the order of the work.
+/// The results in order of sequence, frame and method, whatever the order of the work.
 using FrameResults = std::map<FrameKey, FrameResult>;
 
 }  // namespace terracut::eval

@@ -15,14 +15,14 @@
 namespace terracut::eval {
 
 /// Keeps results on disk as they come, one line of JSON each, so that a killed run can continue: at
-/// most the frames in work are lost. The first line states what was run; a journal of something
-/// else is refused.
+/// most the frames in work are lost. The first line states what was run; a journal of another run
+/// is refused.
 class Journal {
  public:
   /// Reads the existing lines, cuts off an incomplete one, and appends after it. `settings` is all
-  /// that results depend on, words in one line of text. kInvalidArgument: the file has other
-  /// settings (the message names the words that differ), or another process is writing it.
-  /// kMalformed: a whole line that is no result. Fails with kWriteFailed.
+  /// that results depend on, words in one line of text. Fails with kInvalidArgument if the file has
+  /// other settings (the message names the words that differ) or another process is writing it;
+  /// kMalformed if a whole line is no result; kWriteFailed if the file cannot be written.
   [[nodiscard]] static Expected<Journal> open(const std::filesystem::path& path,
                                               const std::string& settings);
 

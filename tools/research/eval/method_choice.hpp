@@ -19,13 +19,15 @@ struct MethodChoice {
   baselines::MethodConfig config;
 };
 
-/// Returns one of baselines::method_names(); kInvalidArgument, naming them, for any other name.
+/// Returns one of baselines::method_names(). Fails with kInvalidArgument, naming them, for any
+/// other name.
 [[nodiscard]] Expected<MethodChoice> method_named(std::string_view name);
 
 /// Returns a variant: a method under a name of its own with other parameters,
 /// "no_bands=terracut,grid.max_band_m=1e9". `settings`, KEY=VALUE each, are applied before its own.
-/// kInvalidArgument: invalid form, method, parameter or value; a name that is a method's or has
-/// other characters than letters, digits, `_` and `-`; a parameter of another method.
+/// Fails with kInvalidArgument for an invalid form, method, parameter or value, for a parameter of
+/// another method, and for a name that is a method's or has characters other than letters, digits,
+/// `_` and `-`.
 [[nodiscard]] Expected<MethodChoice> method_variant(std::string_view text,
                                                     std::span<const std::string> settings);
 

@@ -28,8 +28,8 @@ class ResultKeeper {
   ResultKeeper(std::span<const MethodChoice> methods, std::filesystem::path predictions,
                Journal* journal);
 
-  /// Adds a frame of this run. Frames in the journal that are not expected are not in
-  /// take_results().
+  /// Notes that a frame belongs to this run. take_results() returns only such frames, whatever the
+  /// journal holds.
   void expect(const std::string& sequence, const std::string& frame);
 
   /// Returns the methods, by index, that have not labelled this frame yet, or whose wanted

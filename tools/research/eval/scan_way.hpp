@@ -50,8 +50,8 @@ class PacketWay {
 
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return decoder_.shape(); }
   [[nodiscard]] std::size_t return_capacity() const noexcept { return decoder_.return_capacity(); }
-  /// Places a scan; valid until the next call. Fails with kMalformed if the decoder makes not one
-  /// frame of it.
+  /// Places a scan; valid until the next call. Fails with kMalformed if the decoder does not make
+  /// exactly one frame of it.
   [[nodiscard]] Expected<PlacedScan> place(std::span<const scan::ScanPoint> points,
                                            std::span<const std::int16_t> ring_of_point);
 

@@ -45,13 +45,15 @@ struct SimulatedProgress {
 
 /// Simulates each drive, sends it through packets and the decoder, labels every frame with every
 /// method and counts against the simulator's truth (SemanticKITTI ids; in dual return both returns
-/// count). Otherwise as evaluate(): frames in `journal` are not labelled again, and a drive all of
-/// whose frames it has is not simulated. Range bands are those of the vehicle frame. Frames are
-/// labelled one after the other on one pinned core, rays cast on all.
+/// count). Otherwise it works as evaluate(): frames in `journal` are not labelled again, and a
+/// drive is not simulated if the journal has all of its frames. Range bands are those of the
+/// vehicle frame. Frames are labelled one after the other on one pinned core; rays are cast on all
+/// cores.
 ///
-/// kInvalidArgument: of the simulator. kMalformed: a mount is not found. kWriteFailed: predictions,
-/// journal, or the current drive, which lies in the temporary folder (about 10 MB a second of the
-/// HDL-64E, 16 of the RS-Ruby128, up to twice that in dual return).
+/// Fails with kInvalidArgument if the simulator refuses a setting; kMalformed if a mount is not
+/// found; kWriteFailed if predictions, journal or the current drive cannot be written. The drive
+/// lies in the temporary folder (about 10 MB a second of the HDL-64E, 16 of the RS-Ruby128, up to
+/// twice that in dual return).
 [[nodiscard]] Expected<EvaluationOutcome> evaluate_simulated(
     const SimulatedConfig& config, Journal* journal, const SimulatedProgress& progress,
     const std::function<bool()>& stop_wanted);

@@ -51,7 +51,7 @@ namespace visualization {
 class PCLVisualizer {};
 }  // namespace visualization
 
-/// One pass in float, relative to the first point.
+/// Computes mean and covariance in one pass in float, relative to the first point.
 template <class Point>
 unsigned computeMeanAndCovarianceMatrix(const PointCloud<Point>& cloud, Eigen::Matrix3f& covariance,
                                         Eigen::Vector4f& mean) {

@@ -25,7 +25,8 @@ inline std::int64_t process_cpu_ns() {
   return now.tv_sec * INT64_C(1'000'000'000) + now.tv_nsec;
 }
 
-/// Returns an empty list if there is no such file, or it does not hold points.
+/// Returns the points of a file; an empty list if there is no such file, or it does not hold
+/// points.
 inline std::vector<Point> read_scan(const char* path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file || file.tellg() % static_cast<std::streamoff>(sizeof(Point)) != 0) return {};

@@ -23,8 +23,9 @@ struct ChosenFrame {
 
 /// Returns the middle frame of every sequence.
 [[nodiscard]] std::vector<ChosenFrame> middle_frames(const Json& method);
-/// Returns each sequence's frames with the lowest Recall_o and the lowest IoU_g (all ground): two,
-/// or one that is both; the first of equals. An undefined measure is never the lowest.
+/// Returns each sequence's frame with the lowest Recall_o and its frame with the lowest IoU_g (all
+/// ground), which may be the same. If frames are equal, the first one counts. An undefined measure
+/// is never the lowest.
 [[nodiscard]] std::vector<ChosenFrame> worst_frames(const Json& method);
 
 }  // namespace terracut::report

@@ -22,10 +22,12 @@ class DrawnFrames {
         folder_(std::move(folder)),
         on_frame_(std::move(on_frame)) {}
 
-  /// Draws the truth and every method side by side (Fig. 13, 14). Returns a list of sequence,
-  /// frame, why, side_m, files truth and methods{name}; or fault for an unreadable frame.
+  /// Draws the truth and every method side by side (as in the paper's Fig. 13, 14). Returns a list
+  /// of sequence, frame, why, side_m, and the files truth and methods{name}; an unreadable frame
+  /// has a fault instead.
   [[nodiscard]] Expected<Json> side_by_side(const std::vector<ChosenFrame>& frames);
-  /// Draws frames of method_in_question() (Fig. 16, 17), with the files truth, result, panorama.
+  /// Draws frames of method_in_question() (as in the paper's Fig. 16, 17), with the files truth,
+  /// result and panorama.
   [[nodiscard]] Expected<Json> worst(const std::vector<ChosenFrame>& frames);
 
  private:

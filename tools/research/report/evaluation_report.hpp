@@ -30,8 +30,8 @@ struct ReportInput {
 ///   worst_of, worst[]  a method, and the frames where it is worst
 ///   colours          of the pictures (colours_json())
 ///
-/// Each of the evaluation's `methods` must have a frame, otherwise kNothingCameOut; also
-/// kWriteFailed. `on_progress(done, of)` counts frames.
+/// `on_progress(done, of)` counts frames. Fails with kNothingCameOut unless each of the
+/// evaluation's `methods` has a frame; kWriteFailed if a file cannot be written.
 [[nodiscard]] Status write_report(const std::filesystem::path& folder, const ReportInput& input,
                                   const std::function<void(std::size_t, std::size_t)>& on_progress);
 

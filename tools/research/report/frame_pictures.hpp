@@ -43,7 +43,7 @@ class FramePictures {
   /// FrameLabeller::place().
   [[nodiscard]] Status open(const std::string& sequence, const std::string& frame);
 
-  /// `with_road` gives road its own colour.
+  /// Draws the truth; `with_road` gives road its own colour.
   [[nodiscard]] pictures::Picture truth(const pictures::BirdEyeView& view, bool with_road) const;
   /// Draws the labels of one of config.methods, with its mistakes on top.
   [[nodiscard]] pictures::Picture result(std::string_view method,
@@ -51,10 +51,12 @@ class FramePictures {
   /// Returns a view that shows all key obstacles that the method missed: the sensor in the middle,
   /// 60 to 160 m wide, drawn in about `side` pixels.
   [[nodiscard]] pictures::BirdEyeView view_of_misses(std::string_view method, int side);
-  /// As result(), with a ring around missed key obstacles: single returns are hard to see.
+  /// Draws what result() draws, with a ring around missed key obstacles: single returns are hard to
+  /// see.
   [[nodiscard]] pictures::Picture marked_result(std::string_view method,
                                                 const pictures::BirdEyeView& view);
-  /// As result(), as a panorama (range_image_picture.hpp); missed obstacles red, false ones yellow.
+  /// Draws the labels as a panorama (range_image_picture.hpp); missed obstacles are red, false ones
+  /// yellow.
   [[nodiscard]] pictures::Picture panorama(std::string_view method);
 
  private:

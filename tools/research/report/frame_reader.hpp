@@ -29,15 +29,16 @@ class FrameReader {
               const datasets::ClassTable& classes)
       : dataset_(dataset), mount_(mount), classes_(classes) {}
 
-  /// `frame` is a name, "000009". After an error there is no frame. kNotFound: no such sequence or
-  /// frame; other errors as Sequence::read().
+  /// Reads the frame with that name, such as "000009". After an error there is no frame. Fails with
+  /// kNotFound if there is no such sequence or frame, otherwise as Sequence::read() does.
   [[nodiscard]] Status read(const std::string& sequence, const std::string& frame);
 
   /// Returns the image of the last frame; valid until the next.
   [[nodiscard]] const frame::RangeImage& image() const noexcept { return *placed_.image; }
-  /// Returns the roles by return index of image(), with all physical ground as ground.
+  /// Returns the role of each return, by return index of image(). All physical ground counts as
+  /// ground.
   [[nodiscard]] std::span<const datasets::Role> truth() const noexcept { return truth_; }
-  /// Returns 1 for road, with the road alone as ground, by return index.
+  /// Returns 1 for each return whose class is road, else 0, by return index.
   [[nodiscard]] std::span<const std::uint8_t> is_road() const noexcept { return is_road_; }
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
     return placed_.point_of_return;
@@ -55,7 +56,7 @@ class FrameReader {
   mount::Mount mount_;
   const datasets::ClassTable& classes_;
 
-  std::string sequence_;  ///< The open one; empty: none.
+  std::string sequence_;  ///< The open sequence; empty: none.
   std::optional<datasets::Sequence> open_;
   std::map<std::string, std::size_t> scan_of_frame_;
   mount::RingProfile profile_;

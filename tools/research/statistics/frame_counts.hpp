@@ -34,8 +34,8 @@ struct LabelCounts {
   friend bool operator==(const LabelCounts&, const LabelCounts&) = default;
 };
 
-/// Points of key obstacles more than 0.30 m above the true ground around them, if any is there:
-/// their number, and how many of them were called ground.
+/// Counts the points of key obstacles that lie more than 0.30 m above the true ground around them
+/// (if there is any), and how many of these were called ground.
 struct TallCounts {
   std::uint64_t returns = 0, as_ground = 0;
 
@@ -47,8 +47,8 @@ struct TallCounts {
   friend bool operator==(const TallCounts&, const TallCounts&) = default;
 };
 
-/// Points that the previous frame also has within 10 cm, of immobile classes: their number, and how
-/// many changed from ground to obstacle or back, as labelled and in truth.
+/// Counts the points of immobile classes for which the previous frame has a point within 10 cm, and
+/// how many of these changed from ground to obstacle or back: by their labels and in truth.
 struct FlipCounts {
   std::uint64_t returns = 0, flips = 0, true_flips = 0;
 

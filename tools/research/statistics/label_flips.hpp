@@ -18,14 +18,14 @@
 namespace terracut::statistics {
 
 /// Measures the steadiness of labels: every point is compared with the nearest point of the
-/// previous frame, within 10 cm, after removal of the sensor's motion. Both must be of a class that
-/// is in the table, is not ignored and does not move (SemanticKITTI's "moving-..." do).
+/// previous frame, within 10 cm, after removal of the sensor's motion. Both points must be of a
+/// class that is in the table, is not ignored and does not move (SemanticKITTI's "moving-..." do).
 class LabelFlips {
  public:
   LabelFlips(const datasets::ClassTable& classes, std::size_t methods);
 
-  /// Takes the next frame. `before_this` transforms its points to the previous frame; none if there
-  /// is none or its motion is unknown.
+  /// Takes the next frame. `before_this` transforms its points to the previous frame; it is empty
+  /// if there is no previous frame or the motion since is unknown.
   void look_at(const scan::KittiScan& scan, const std::optional<encode::RigidMotion>& before_this);
 
   /// Counts the flips of one method, given a label per point of the latest frame.

@@ -33,7 +33,7 @@ struct Scope {
                                               const datasets::ClassTable& classes,
                                               const Scope& scope);
 
-/// Returns the harmonic mean of precision and recall; 0 if both are.
+/// Returns the harmonic mean of precision and recall; 0 if both are 0.
 [[nodiscard]] double f1_ground(const quality::Quality& quality) noexcept;
 
 }  // namespace terracut::statistics

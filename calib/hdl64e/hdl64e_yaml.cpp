@@ -40,7 +40,8 @@ Expected<YAML::Node> value_at(const YAML::Node& map, std::string_view key,
   return found;
 }
 
-/// Returns the finite number at `key`; if the key is absent, `fallback` (null: an error).
+/// Returns the finite number at `key`. If the key is absent, returns `fallback`, or an error if
+/// that is null.
 Expected<double> number_at(const YAML::Node& map, std::string_view key, const std::string& where,
                            const double* fallback) {
   const auto node = value_at(map, key, where);

@@ -35,7 +35,7 @@ struct CloudView {
   std::span<const std::uint16_t> laser = {};
   /// The number of rows of an organised cloud, all of equal length; 1 if not organised.
   std::size_t rows = 1;
-  /// For messages: see Cloud::laser_note. May be empty.
+  /// A note for messages, as in Cloud::laser_note; may be empty.
   std::string_view laser_note = {};
 
   [[nodiscard]] bool is_organised() const noexcept {
@@ -71,7 +71,7 @@ struct Cloud {
   std::vector<scan::ScanPoint> points;
   std::vector<std::uint16_t> laser;
   std::size_t rows = 1;
-  /// For messages about files with named fields: which field gives the laser numbers ("field
+  /// A note for messages about files with named fields: which field gives the laser numbers ("field
   /// ring"), or why there are none ("its fields are x y z").
   std::string laser_note;
   bool has_viewpoint = false;  ///< True if the file states the sensor's place among the points.

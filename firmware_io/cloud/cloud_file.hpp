@@ -20,7 +20,7 @@ inline constexpr scan::ScanKind kCloudFiles{
 /// Where the sensor is among the points of a file.
 enum class SensorPlace : std::uint8_t {
   kOrigin,
-  kViewpoint,  ///< At the VIEWPOINT of a PCD file; at the origin if it has none.
+  kViewpoint,  ///< At a PCD file's VIEWPOINT; without one, at the origin.
 };
 
 /// Reads a cloud by the ending of its name:

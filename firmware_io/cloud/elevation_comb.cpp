@@ -21,7 +21,8 @@ constexpr std::uint32_t kGapShare = 50;
 /// The least share of the points that must lie in teeth narrower than the gaps beside them.
 constexpr double kLeastInTeeth = 0.95;
 
-/// With fewer points in a row on average, the cloud is a curve or a drawing, not a revolution.
+/// If rows have fewer points than this on average, the cloud is a curve or a drawing, not a
+/// revolution.
 constexpr std::size_t kFewestPointsARow = 10;
 
 }  // namespace

@@ -17,9 +17,9 @@ class NearestRing {
   /// Needs a table of at least two rings.
   explicit NearestRing(const scan::RingTable& table);
 
-  /// Returns the ring; scan::kNoRing for a point without a valid position, and for one farther
-  /// outside the outermost rings than both a degree and the distance to the next ring. Allocates
-  /// nothing.
+  /// Returns the ring. Returns scan::kNoRing for a point without a valid position, and for a point
+  /// outside the outermost rings by more than a degree and by more than the distance to the next
+  /// ring. Allocates nothing.
   [[nodiscard]] std::int16_t operator()(const scan::ScanPoint& point) const noexcept;
 
  private:

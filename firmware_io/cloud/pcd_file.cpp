@@ -314,7 +314,7 @@ class PcdReader {
     return {};
   }
 
-  /// Most values of one field; histograms have hundreds.
+  /// The most values that one field may have; histograms have hundreds.
   static constexpr std::size_t kMostValues = 4096;
 
   HeaderLines lines_;

@@ -15,7 +15,7 @@
 namespace terracut::cloud {
 namespace {
 
-/// The type and size of a property, found by either of two names.
+/// The type and the size of a property; PLY files call it by one of two names.
 struct TypeName {
   std::string_view name, other_name;
   char type;

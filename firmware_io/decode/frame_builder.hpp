@@ -39,7 +39,7 @@ class FrameBuilder {
  public:
   struct Config {
     frame::ImageShape shape;
-    std::size_t overflow_capacity = 0;  ///< Most returns that find their cell taken.
+    std::size_t overflow_capacity = 0;  ///< The most returns of a frame whose cell is taken.
     int images = 3;                     ///< >= 3: two open, one handed out.
     std::int64_t revolution_ticks = 0;  ///< Ticks of azimuth in 360 degrees.
     /// If not 0, frames are kept as measured, with memory for this many tiles; 0: kept as points.
@@ -100,7 +100,7 @@ class FrameBuilder {
 
   /// Ends all frames before `frame`. next() must then be called until it returns null.
   void roll_to(std::int64_t frame) noexcept TERRACUT_NONBLOCKING;
-  /// Ends the stream and both open frames. next() must then be called until it returns null, then
+  /// Ends the stream and both open frames. Afterwards call next() until it returns null, then
   /// start().
   void flush() noexcept TERRACUT_NONBLOCKING;
 

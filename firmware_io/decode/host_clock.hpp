@@ -58,7 +58,7 @@ class HostClock {
   // A longer step is an outage or a step back.
   static constexpr std::int64_t kLongestStep_us = 100'000'000;
   static constexpr std::int64_t kDrift = 1'000;  // 1000 ppm: NTP slews by 500, quartz drifts by 100
-  static constexpr std::int64_t kDecay = 250;    // 4000 ppm, faster than both of these
+  static constexpr std::int64_t kDecay = 250;    // 4000 ppm, faster than NTP and quartz
 
   std::int64_t wrap_us_;
   bool known_ = false;

@@ -18,7 +18,8 @@
 /// text.
 namespace terracut::hdl64e {
 
-/// Number of columns: each block is one, in which lasers of the other bank have no return.
+/// Number of columns of a packet. Each block is a column, in which the lasers of the other bank
+/// have no return.
 inline constexpr int kColumnsPerPacketS1 = kBlocksPerPacket;
 /// Packet period, measured on a capture by the host's stamps. ROS drivers assume 2600 packets a
 /// second, 384.6 us.

@@ -35,7 +35,8 @@ struct UdpSourceConfig {
   /// HDL-64E broadcasts until configured otherwise. Port 0 lets the system choose (see
   /// UdpSource::local()).
   Ipv4Endpoint bind{};
-  /// Group to join, on `interface` if set, else by the routes.
+  /// The multicast group to join: on `interface` if that is set, else on the interface that the
+  /// routing table names.
   std::optional<std::uint32_t> multicast_group{};
   std::string interface{};         ///< The only interface to receive on; empty: any.
   std::optional<Sender> sender{};  ///< The only sender accepted; others count as foreign.

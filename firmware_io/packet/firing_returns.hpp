@@ -61,8 +61,8 @@ inline void measure(const std::uint16_t* __restrict raw, float metres_per_count,
   }
 }
 
-/// An angle in columns of the range image: the whole columns, and the rest in parts of a column,
-/// [0, kRevolution_ticks), of which kRevolution_ticks make one.
+/// An angle in columns of the range image: whole columns, and a remainder in parts of a column, [0,
+/// kRevolution_ticks). A column has kRevolution_ticks parts.
 struct ColumnAngle {
   std::int32_t whole = 0, rest = 0;
 };

@@ -16,9 +16,9 @@ struct SinCos {
   float sin = 0, cos = 1;
 };
 
-/// A table of sine and cosine of every azimuth that can be sent, 36000 steps of 0.01 degrees.
-/// Computed in double at start, so that the packet path needs no library function and every machine
-/// gets the same bits.
+/// A table of the sine and cosine of every azimuth that can be sent, 36000 steps of 0.01 degrees.
+/// It is computed in double at start, so that the packet path needs no library function and every
+/// machine gets the same bits.
 class RotorDirections {
  public:
   explicit RotorDirections(memory::FixedMemory& memory)

@@ -99,7 +99,8 @@ static_assert(std::is_trivially_copyable_v<Difop> && std::is_standard_layout_v<D
 [[nodiscard]] std::optional<ruby128_wire::Difop> read_difop(
     std::span<const std::uint8_t> payload) noexcept;
 
-/// Returns a packet to fill in: magic, tail, angles unset, the rest zero.
+/// Returns a packet to fill in. Magic and tail are set, all angles are marked unset, other bytes
+/// are 0.
 [[nodiscard]] ruby128_wire::Difop blank_difop() noexcept;
 
 /// Returns a view of `difop` as the payload to send. The view shows later changes and is valid as

@@ -38,10 +38,11 @@ class Ruby128Sensor {
   static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
   static constexpr std::size_t kGroups = kRubyGroups;
   using Returns = packet::FiringReturns<static_cast<std::size_t>(kRows)>;
-  /// Larger than all device stamps, which count from 1970, so that they never wrap.
+  /// This is larger than all device stamps, which count from 1970 and so never wrap.
   static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
   static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a frame at 10 Hz.
-  /// Enough for dual return, where two firings may share a column: more than two for some cells.
+  /// Three are enough for dual return: some cells get more than two returns, because two firings
+  /// may share a column.
   static constexpr int kDefaultReturnsPerCell = 3;
 
   Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);

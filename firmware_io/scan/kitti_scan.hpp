@@ -13,7 +13,7 @@
 
 namespace terracut::scan {
 
-/// Most points of a scan: more than any HDL-64E frame can have (64 lasers x 4167 firings at 5 Hz,
+/// The most points of a scan. No HDL-64E frame can have so many (64 lasers x 4167 firings at 5 Hz,
 /// two returns).
 inline constexpr std::size_t kMaxScanPoints = std::size_t{1} << 20;
 

@@ -36,9 +36,9 @@ struct RingLine {
 /// The rings of one unit (64 for an HDL-64E); elevations fall strictly from ring to ring.
 using RingTable = std::vector<RingLine>;
 
-/// Returns the laser number of a ring in the numbering of most units (docs/reference/sensors.md):
-/// rings 0..31 are the upper block, lasers 0..31, rings 32..63 the lower one, lasers 32..63, each
-/// in interleaved groups.
+/// Returns the laser number of a ring in the numbering of most units (docs/reference/sensors.md).
+/// Rings 0..31 have lasers 0..31 (the upper block), rings 32..63 have lasers 32..63 (the lower
+/// block), each block in interleaved groups.
 [[nodiscard]] int usual_laser_of_ring(int ring) noexcept;
 
 /// Returns the rings of a calibration, sorted by elevation; distance corrections are not used.

@@ -12,7 +12,8 @@ namespace terracut::sensor {
 namespace {
 
 constexpr std::int64_t kJump_us = 10'000'000;
-/// Less than half a revolution at the fastest spin (20 Hz): the short way round is the true one.
+/// In this time the head makes less than half a revolution even at 20 Hz, so the shorter way round
+/// is the true one.
 constexpr std::int64_t kSurelyUnderHalfARevolution_us = 20'000;
 constexpr std::int64_t kShortestPeriod_us = 50;
 constexpr std::int64_t kLongestPeriod_us = 1'500;  ///< A VLP-16's are 1327 us in single return.

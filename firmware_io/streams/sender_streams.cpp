@@ -28,7 +28,7 @@ std::uint64_t hash_of(std::span<const std::uint8_t> payload) {
       {reinterpret_cast<const char*>(payload.data()), payload.size()});
 }
 
-/// True if no single head can send a packet so long after another one.
+/// True if a single head cannot send a packet `step_us` after another one: so soon, or so late.
 bool is_contradiction(std::int64_t step_us, const packet::PacketAzimuths& azimuths) {
   const std::int64_t least_ns = std::int64_t{azimuths.nominal_period_ns} * 3 / 4;
   return step_us * 1000 < least_ns || step_us > kLongestStep_us;

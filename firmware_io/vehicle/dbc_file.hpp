@@ -52,7 +52,7 @@ struct DbcMessage {
 };
 
 /// The parts of a DBC file that are used: messages (BO_), their signals (SG_) and which of those
-/// are floating-point numbers (SIG_VALTYPE_). The rest is skipped.
+/// are floating-point numbers (SIG_VALTYPE_). Other parts are skipped.
 struct DbcFile {
   std::string name;  ///< Name of the file, for messages.
   std::vector<DbcMessage> messages;

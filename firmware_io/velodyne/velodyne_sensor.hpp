@@ -48,7 +48,8 @@ class VelodyneSensor {
   static constexpr std::size_t kGroups = Model::kGroups;
   static constexpr std::int64_t kClockWrap_us = velodyne::kClockWrap_us;
   static constexpr int kDefaultColumns = Model::kDefaultColumns;
-  /// Enough for dual return, where two firings may share a column: more than two for some cells.
+  /// Three are enough for dual return: some cells get more than two returns, because two firings
+  /// may share a column.
   static constexpr int kDefaultReturnsPerCell = 3;
   using Returns = packet::FiringReturns<static_cast<std::size_t>(kChannels)>;
 

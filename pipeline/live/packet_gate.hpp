@@ -11,15 +11,15 @@ namespace terracut::live {
 
 /// Decides which packets to decode when more come than this machine can handle. The kernel's buffer
 /// is a queue of more than a second; without the gate every label would be that late throughout an
-/// overload. Two rules:
+/// overload. There are two rules.
 ///
-///   a packet is dropped   when it is older than a frame and the deadline together: its frame is
-///                         late, whatever is done now. After a standstill this drops useless
-///                         packets and no others.
-///   the backlog is        when three frames in a row were handed over after their deadline. After
-///   dropped               a standstill this thread catches up within two frames; otherwise it is
-///                         too slow for the load. It goes on with the newest packets; frames after
-///                         that are in time until the lag has grown again.
+/// A packet is dropped when it is older than a frame and the deadline together: its frame is late,
+/// whatever is done now. After a standstill this drops useless packets and no others.
+///
+/// The backlog is dropped when three frames in a row were handed over after their deadline. After a
+/// standstill this thread catches up within two frames, so three late frames mean that it is too
+/// slow for the load. It goes on with the newest packets; frames after that are in time until the
+/// lag has grown again.
 ///
 /// Ages are measured by CLOCK_REALTIME, like the kernel's stamps: a step of the clock costs at most
 /// the packets then waiting in the buffer. One thread; reads no clock.

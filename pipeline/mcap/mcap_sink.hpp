@@ -52,8 +52,9 @@ class McapSink final : public publish::FrameSink {
   [[nodiscard]] static Expected<std::unique_ptr<McapSink>> open(Config config,
                                                                 publish::RunFacts facts);
 
-  /// Returns the memory for frames of this many returns while the queue is full: the queue, the
-  /// frames in work at either end, the message, its chunk, the compressed chunk, and zstd's own.
+  /// Returns the memory used while the queue is full of frames with this many returns: the queue, a
+  /// frame before it and a frame behind it, the message, its chunk, the compressed chunk, and
+  /// zstd's own.
   [[nodiscard]] static constexpr std::size_t memory_bytes(std::size_t returns) noexcept {
     constexpr std::size_t kZstd_bytes = std::size_t{2} << 20;
     return returns * sizeof(points::LabelledPoint) * (kQueueFrames + 5) + kZstd_bytes;

@@ -39,9 +39,9 @@ class DumpFolder {
   /// Throws std::invalid_argument for an invalid name or a limit out of range.
   explicit DumpFolder(DumpFolderLimits limits);
 
-  /// Makes room for a dump of `bytes` (both files) and returns the path of its capture. Deletes old
-  /// dumps as the limits require, but only if the new dump can then be written: kOverQuota,
-  /// kDiskLow and kFolderUnusable change nothing.
+  /// Makes room for a dump whose files have `bytes` together, and returns the path of its capture.
+  /// Deletes old dumps as the limits require, but only if the new dump can then be written: a
+  /// failure with kOverQuota, kDiskLow or kFolderUnusable changes nothing.
   [[nodiscard]] tl::expected<std::filesystem::path, RefusedDump> make_room(std::uint64_t bytes,
                                                                            DumpReason reason,
                                                                            std::int64_t now_ns);

@@ -38,7 +38,7 @@ struct DumpCounters {
 /// Decides by rate limits, the folder's quota and the least free space whether a dump may be
 /// written. Counts each dump as written or as refused for its reason: wanted = written + refused.
 ///
-/// For one thread, the one that dumps.
+/// For one thread: the thread that writes dumps.
 class DumpPolicy {
  public:
   /// Throws std::invalid_argument for a limit out of range.

@@ -88,8 +88,9 @@ TERRACUT_VECTOR_CLONES void find_slopes(const Sums left, const Sums right,
   }
 }
 
-/// Counts for each patch the rings with ground on both sides within `most_range_m`, and those that
-/// rise or fall across it by more than `step_m`, also relative to their slope beside it.
+/// Counts for each patch the rings with ground on both sides within `most_range_m`, and how many of
+/// these rise or fall across the patch by more than `step_m`, also relative to their slope beside
+/// it.
 TERRACUT_VECTOR_CLONES void add_steps(const Row row, float most_range_m, float step_m, int count,
                                       float* __restrict rings, float* __restrict rises,
                                       float* __restrict falls) noexcept {

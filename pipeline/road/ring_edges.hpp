@@ -20,7 +20,7 @@ class RingEdges {
   struct Config {
     float width_m = 0.60F;  ///< Length of a ring over which heights are compared.
     float slope = 0.06F;    ///< Least slope of an edge, relative to the terrain.
-    float bend = 0.04F;     ///< An edge is steeper than both its sides by this.
+    float bend = 0.04F;     ///< An edge is this much steeper than the ground on each side.
   };
 
   /// Takes memory for patches like those of `ground`.

@@ -21,8 +21,7 @@ constexpr int kAround = 2;
 /// columns, which is longer than a straight line.
 constexpr float kGrowBack = 1.3F;
 
-/// Counts the ones among 2 kAround + 1 successive values, for each value that may begin such a
-/// window.
+/// Counts, for each value, how many ones are among it and the 2 kAround values after it.
 TERRACUT_VECTOR_CLONES void count_around(const std::uint8_t* values, std::size_t count,
                                          std::uint8_t* around) noexcept {
   for (std::size_t i = 0; i < count; ++i) {

@@ -17,7 +17,7 @@ namespace terracut::status {
 /// only a new row. The figures refer to `snapshot`, which may have any content.
 [[nodiscard]] std::vector<Figure> figures_of(const MonitorSnapshot& snapshot);
 
-/// These return the groups of figures that runs over files have, too.
+/// These return groups of figures that runs over files also have.
 [[nodiscard]] std::vector<Figure> figures_of(const MountFigures& mount);
 [[nodiscard]] std::vector<Figure> figures_of(const frame::BlindAzimuths& blind);
 

@@ -12,7 +12,8 @@ namespace terracut::stream {
 /// may (CAP_NET_ADMIN), else up to that limit. Returns the bytes granted. Allocates nothing.
 std::size_t request_send_buffer(int socket, std::size_t bytes) noexcept;
 
-/// Describes for people that `granted_bytes` of `bytes` were granted, and how to get the rest.
+/// Describes for people that `granted_bytes` of `bytes` were granted, and how to get the missing
+/// ones.
 [[nodiscard]] threads::Grant send_buffer_grant(std::size_t bytes, std::size_t granted_bytes);
 
 /// Returns how many bytes written to a stream socket wait in it: not yet sent by TCP, or not yet

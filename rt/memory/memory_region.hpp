@@ -11,7 +11,7 @@
 
 namespace terracut::memory {
 
-/// What to ask for a region besides present pages; the system may refuse either.
+/// What to ask for a region besides present pages; the system may refuse each of the two requests.
 struct RegionRequest {
   /// True: locks the region in memory, however much others need.
   bool lock = false;

@@ -8,7 +8,8 @@
 
 namespace terracut {
 
-/// The kinds of error that a program may need to tell apart. The message tells a person the rest.
+/// The kinds of error that a program may need to tell apart. The message tells a person the
+/// details.
 enum class ErrorCode {
   kNotFound,    ///< A named file, folder or stream does not exist.
   kUnreadable,  ///< The file or folder exists, but the system refused to read it.

@@ -255,7 +255,7 @@ struct Options {
   std::string view_at = "127.0.0.1:8480";  ///< Address for a capture in a browser.
   std::filesystem::path can_recording;     ///< Recording of the vehicle's bus; empty: none.
   int bench_repeat = 10;                   ///< Passes over the capture's frames.
-  int bench_core = -1;                     ///< Core to be pinned to; -1: the last allowed one.
+  int bench_core = -1;                     ///< Core to run on; -1: the last allowed core.
   bool keep_mount = false;  ///< Calibrate: use the given mount instead of estimating it.
 
   SimulateOptions simulate;

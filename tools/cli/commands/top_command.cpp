@@ -35,8 +35,8 @@ status::LineStyle style_of_stdout() {
   return style;
 }
 
-/// Overwrites the screen instead of clearing it, which would flicker. Clears the rest of each line,
-/// and of the screen below.
+/// Overwrites the screen instead of clearing it, which would flicker. Clears what is left of each
+/// line, and the screen below the text.
 std::string redrawn(const std::string& text) {
   std::string result = "\x1b[H";
   for (const char c : text) {

@@ -39,7 +39,8 @@ struct DriveChange {
 /// The differences between two labellings of recordings.
 struct LabelChanges {
   std::uint64_t drives_before_alone = 0, drives_after_alone = 0;
-  std::uint64_t frames_in_one_alone = 0;   ///< Frames in only one labelling of a drive in both.
+  /// Frames that only one labelling has; its drive is in both.
+  std::uint64_t frames_in_one_alone = 0;
   std::uint64_t frames_of_other_size = 0;  ///< Frames not compared: numbers of returns differ.
   std::uint64_t frames_by_sum = 0;         ///< Frames not read, as their sums agree.
   DriveChange all;

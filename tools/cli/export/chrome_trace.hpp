@@ -15,9 +15,9 @@ namespace terracut::cli {
 /// earliest stamp, whose time of day is otherData.origin_ns.
 ///
 /// Stages are measured in processor time, so their slices follow one another from the start of the
-/// frame, each as wide as that time; the rest of the frame's slice is time off the core. A frame's
-/// slice begins at its first packet, but not before the previous frame was handed over, because two
-/// frames are open at once around the seam.
+/// frame, each as wide as that time; where the frame's slice has no stage, its thread was off the
+/// core. A frame's slice begins at its first packet, but not before the previous frame was handed
+/// over, because two frames are open at once around the seam.
 ///
 /// `figures` gives the stages' names and the deadline; `frames` are in the order of judging.
 [[nodiscard]] nlohmann::ordered_json chrome_trace(const status::MonitorSnapshot& figures,

@@ -10,8 +10,8 @@
 namespace terracut::cli {
 
 /// Returns several lines for people about the newest job in a folder of `terracut relabel`: what is
-/// done, missing or failed and why, speed and expected end, and the command for the rest. Fails
-/// with kNotFound if there is no job, else kMalformed.
+/// done, missing or failed and why, speed and expected end, and the command for the missing drives.
+/// Fails with kNotFound if there is no job, else kMalformed.
 [[nodiscard]] Expected<std::string> relabel_status(const std::filesystem::path& folder);
 
 }  // namespace terracut::cli

@@ -56,8 +56,8 @@ struct HttpConnection {
   boost::beast::http::request<boost::beast::http::string_body> request;
 };
 
-/// A connection that stays after its request: a stream of frames, a WebSocket. Its handlers keep
-/// the guest alive. For the server's thread.
+/// A connection that stays open after its request, such as a stream of frames or a WebSocket. Its
+/// handlers keep the guest alive. For the server's thread.
 class HttpGuest {
  public:
   HttpGuest() = default;

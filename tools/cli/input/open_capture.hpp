@@ -43,7 +43,7 @@ void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounte
 
 /// The datagrams of a capture between --start and --duration, by the capture's running time
 /// (CaptureClock). Without these options all datagrams belong to the part, whatever their stamps.
-/// Datagrams outside are counted, except for the rest of the file after the part's end.
+/// Datagrams outside are counted, but reading stops soon after the part's end.
 class CapturePart {
  public:
   /// Reads `source`, which must be at its beginning and outlive this object.

@@ -124,7 +124,7 @@ std::optional<PlayedRecording::Span> CapturePlayer::next_due() {
 void CapturePlayer::end_or_begin_anew() {
   const auto frame_ns = static_cast<std::int64_t>(recording_.frame_s() * 1e9);
   std::unique_lock lock(mutex_);
-  if (seek_s_ || stop_wanted()) return;  // a seek came meanwhile: not the end
+  if (seek_s_ || stop_wanted()) return;  // a seek came, so this is not the end
   const bool is_stepped = steps_ > 0;
   if (state_.loop && has_frames_) {
     lock.unlock();

@@ -28,7 +28,7 @@ class FiringPlan {
   [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }
   [[nodiscard]] std::int64_t firings() const noexcept { return firings_; }
   [[nodiscard]] Firing firing(std::int64_t index) const noexcept;
-  /// Returns the time from the first firing to this one.
+  /// Returns the time from the first firing to the firing `index`.
   [[nodiscard]] std::int64_t after_ns(std::int64_t index) const noexcept {
     return index * EncoderTraits::firing_ns(returns_);
   }

@@ -22,11 +22,11 @@ struct ScanDriveOptions {
   /// The unit's table; without one it is fitted from the scans.
   std::optional<hdl64e::Hdl64eCalibration> calibration;
   PutMotionBack motion = PutMotionBack::kWhereKnown;
-  /// Also write the restored motion as a CAN log beside the capture (motion/vehicle_log.hpp);
-  /// kInvalidArgument if none was restored. A recorded frame begins behind, a frame of packets
-  /// straight ahead, so the sensor is reversed: it looks backwards, and its vehicle drives
-  /// backwards. Each frame is then one scan as it was measured; deskewed to its middle it is the
-  /// recorded one, rotated by 180 degrees.
+  /// Also write the restored motion as a CAN log beside the capture (drive/vehicle_log.hpp); fails
+  /// with kInvalidArgument if none was restored. A recorded frame begins behind the sensor, but a
+  /// frame of packets straight ahead. So the sensor is reversed: it looks backwards, and its
+  /// vehicle drives backwards. Each frame is then one scan as it was measured; deskewed to its
+  /// middle it is the recorded scan, rotated by 180 degrees.
   bool can_log = false;
   std::int64_t first_stamp_ns = 1'600'000'000'000'000'000;  ///< Capture time of the first firing.
   /// Reports progress; may be empty. An error ends the work, is returned, and nothing is written.

@@ -12,9 +12,10 @@
 
 namespace terracut::packets {
 
-/// Writes six columns as one data packet: six firings, or in dual return three firings with their
-/// strongest and last return, each pair with one azimuth. The device stamp marks the packet's end
-/// (docs/reference/sensors.md): `end_stamp_ns` (since 1970), as microseconds of its hour.
+/// Writes six columns as one data packet: six firings or, in dual return, three firings with two
+/// columns each (the strongest and the last return) that have the same azimuth. `end_stamp_ns`
+/// (since 1970) is the time at which the packet ends; the device stamp states it in microseconds of
+/// the hour (docs/reference/sensors.md).
 void encode_hdl64e_packet(std::span<const FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
                           std::int64_t end_stamp_ns, hdl64e::StatusPair status,
                           hdl64e::wire::Packet& packet) noexcept;

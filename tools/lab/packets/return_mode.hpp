@@ -9,7 +9,7 @@ namespace terracut::packets {
 /// How many returns of a pulse a sensor sends.
 enum class ReturnMode : std::uint8_t {
   kSingle,  ///< The strongest return.
-  kDual,    ///< The strongest and the last; the same one twice if there is only one.
+  kDual,    ///< The strongest and the last return, which may be the same.
 };
 
 [[nodiscard]] constexpr int returns_per_firing(ReturnMode mode) noexcept {

@@ -77,7 +77,7 @@ struct SimulationSummary {
 /// frame; beams outside the whole frames have no return, so all frames are whole for every laser.
 ///
 /// In dual return a beam has a width: a surface behind an edge, a pole or a few leaves gives a
-/// second echo. With a single echo both returns are that one.
+/// second echo. If there is only one echo, the two returns are equal.
 ///
 /// Fails with kInvalidArgument, naming the setting, its value and the allowed range, or with the
 /// error of `sink`. Not real-time safe; allocates. A frame at 10 Hz takes 0.1 to 0.8 s on one core.

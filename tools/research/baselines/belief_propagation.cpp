@@ -123,8 +123,8 @@ void BeliefPropagation::deliver(const FourCosts& costs, Side to, float limit,
   }
 }
 
-/// Returns the label of the least belief. Several labels may be equally good but for rounding,
-/// within a free slope; then the middle one.
+/// Returns the label of the least belief. Within a free slope several labels may be equally good
+/// but for rounding; then returns the middle one.
 int BeliefPropagation::least_label(std::span<const float> belief) const noexcept {
   constexpr float kEqual = 1e-4F;
   const auto least = std::min_element(belief.begin(), belief.end());

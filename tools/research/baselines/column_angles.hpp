@@ -14,11 +14,11 @@
 namespace terracut::baselines {
 
 /// The range image method of Bogoslavskyi and Stachniss ("Efficient online segmentation for sparse
-/// 3D laser scans", PFG 85, 2017). Takes the inclination of the line from each return to the one
-/// above it in its column, smoothed along the column. Ground is reached from the lowest returns by
-/// steps to one of four neighbours over which that angle changes little. It knows no ground height:
-/// `height_m` is 0 where the label is ground, else the height above the mount's ground plane.
-/// Reports kAdjacentPoints and kLabels.
+/// 3D laser scans", PFG 85, 2017). For each return it computes the inclination of the line to the
+/// return above it in its column, smoothed along the column. Ground is reached from the lowest
+/// returns by steps to one of four neighbours over which that angle changes little. The method
+/// knows no ground height: `height_m` is 0 where the label is ground, else the height above the
+/// mount's ground plane. Reports kAdjacentPoints and kLabels.
 class ColumnAngles final : public Baseline {
  public:
   struct Config {

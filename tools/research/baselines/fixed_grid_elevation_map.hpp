@@ -23,9 +23,9 @@ namespace terracut::baselines {
 class FixedGridElevationMap final : public Baseline {
  public:
   struct Config {
-    float cell_m = 0.5F;             ///< Side of a square, [0.05, 10].
-    float extent_m = 120.0F;         ///< Half the side of the map, [10, 250]; returns farther out
-                                     ///< belong to its outermost squares.
+    float cell_m = 0.5F;  ///< Side of a square, [0.05, 10].
+    /// Half the side of the map, [10, 250]; returns farther out count to its outermost squares.
+    float extent_m = 120.0F;
     float sigma_m = 0.02F;           ///< Standard deviation of a height at range 0, (0, 1].
     float sigma_per_metre = 0.001F;  ///< Growth of sigma_m with range, [0, 0.1].
     float vertical_sigma_m = 0.06F;  ///< Heights that vary more are not one level, (0, 5].

@@ -15,8 +15,8 @@ class SavitzkyGolay {
  public:
   static constexpr int kMaxWindow = 15;
 
-  /// `window` in [1, kMaxWindow]; an even one counts as the next odd one. A window of up to 3
-  /// smooths nothing: three values fix a quadratic.
+  /// `window` is in [1, kMaxWindow]; an even width counts as the next odd width. A window of up to
+  /// 3 values smooths nothing: three values fix a quadratic.
   explicit SavitzkyGolay(int window) noexcept : reach_(window / 2) {
     assert(window >= 1 && window <= kMaxWindow);
     weights_[0] = 1.0F;

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using quality::Quality;
 
-/// A scope whose measures are always shown side by side with the others.
+/// A scope with its name in the report; all scopes are shown side by side.
 struct NamedScope {
   std::string_view name;
   statistics::Scope scope;

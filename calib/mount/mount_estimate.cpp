@@ -111,7 +111,7 @@ class CellOf {
   std::size_t across_;
 };
 
-/// Thins the points: keeps all points of sparse cells and evenly spaced ones of the others.
+/// Thins the points: keeps all points of sparse cells and evenly spaced points of crowded cells.
 std::vector<Eigen::Vector3d> evened_out(const std::vector<Eigen::Vector3d>& points) {
   const CellOf cell_of(kCell_m);
   std::vector<int> count(cell_of.cells()), seen(cell_of.cells());

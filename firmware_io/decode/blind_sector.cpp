@@ -98,7 +98,7 @@ bool BlindSector::follows(const packet::RotorInterval& gap) const noexcept {
   return packet::intersection(again, gap).ticks() >= least_ticks();
 }
 
-/// True if the head has not come round to the newest gap again.
+/// True if `gap` comes before the head has returned to the azimuth of the newest known gap.
 bool BlindSector::is_between(const packet::RotorInterval& gap) const noexcept {
   return gaps_known_ > 0 &&
          gap.to_ticks <= gaps_.back().head.from_ticks + sector_.revolution_ticks + least_ticks();

@@ -295,7 +295,7 @@ bool MeasuredReturns::has_shared(int row, ColumnRange columns) const noexcept {
 
 MeasuredReturns::Place MeasuredReturns::owner_before(const Place& newest, int row, int column,
                                                      TileReader& reader) const noexcept {
-  // Usually the owner is of the same firing or the one before.
+  // Usually the return that owns the cell comes from the same firing or from the firing before.
   const std::uint32_t owned = this->row(newest.tile, newest.laser).owned;
   for (std::size_t f = newest.firing; f-- > 0;) {
     const bool is_owner = (owned >> f & 1U) != 0;

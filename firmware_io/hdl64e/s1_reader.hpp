@@ -13,9 +13,9 @@ namespace terracut::hdl64e {
 
 /// Reads the packets of one HDL-64E S1 and makes up the device stamps that it does not send, so
 /// that its packets are ordered and counted like those of other sensors. The number of a packet
-/// grows by the head's rotation since the last packet over the rotation in one packet: exact up to
-/// whole revolutions, which the host's stamps tell. The stamp is the number times the packet
-/// period.
+/// grows by the head's rotation since the last packet, divided by the rotation in one packet. This
+/// is exact up to whole revolutions, which are taken from the host's stamps. The stamp is the
+/// number times the packet period.
 ///
 /// Packets lost while the head stands still are not noticed.
 ///

@@ -15,7 +15,7 @@
 #include "firmware_io/packet/ruby128_wire.hpp"
 
 /// Computes the azimuths of the RS-Ruby128's beams when its channels fire, in whole numbers (see
-/// firmware_io/decode/beam_azimuth.hpp).
+/// firmware_io/packet/beam_azimuth.hpp).
 ///
 /// A block carries one azimuth for 128 channels: the head's at the block's first firing. Channels
 /// fire in groups of four, both halves of 64 in parallel; meanwhile the head rotates on by almost a

@@ -11,7 +11,7 @@
 
 namespace terracut::streams {
 
-/// Where several sensors were heard, which says what options choose one.
+/// Where several sensors were heard. This decides which options can choose one of them.
 enum class HeardIn : std::uint8_t { kCapture, kLiveRun };
 
 /// What one of several sensors is called, and the options that choose it from the others.

@@ -15,7 +15,7 @@
 namespace terracut::velodyne {
 
 /// The offsets of a model's beams from their column's azimuth, by channel, in whole numbers
-/// (firmware_io/decode/beam_azimuth.hpp), for decoder and encoder. Allocation-free.
+/// (firmware_io/packet/beam_azimuth.hpp), for decoder and encoder. Allocation-free.
 template <class Model>
 class BeamOffsets {
  public:

@@ -283,8 +283,8 @@ Status McapFile::close() {
     records_.add(group.bytes);
     records_.end();
   }
-  // The footer ends with a checksum over the summary and the footer itself, its record's length
-  // included.
+  // The footer ends with a checksum over the summary and the footer itself, including the length of
+  // the footer's record.
   constexpr std::uint64_t kFooterBytes = 8 + 8 + 4;
   records_.add(static_cast<std::uint8_t>(Opcode::kFooter));
   records_.add(kFooterBytes);

@@ -32,8 +32,8 @@ class FrameFolder {
   explicit FrameFolder(Config config) : config_(std::move(config)) {}
 
   /// Fails with kInvalidArgument if the folder has files of that ending that no run has listed
-  /// (they may be truth labels) or that a run made from another input; with kUnreadable if the list
-  /// is not a list.
+  /// (they may be truth labels) or that a run made from another input; with kUnreadable if the
+  /// folder's list of files cannot be understood.
   [[nodiscard]] Status check() const;
 
   /// Returns the path for `name`, which must have the ending, and lists the file. Before the first

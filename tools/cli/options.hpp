@@ -103,7 +103,7 @@ struct OutputOptions {
   std::string foxglove;                       ///< ADDRESS:PORT or PORT; empty: not served.
   std::vector<std::string> foxglove_origins;  ///< Foreign pages that may connect to it.
   std::string view;  ///< Address for frames in a browser; empty or off: none.
-  /// Names of coordinate frames (pipeline/publish/stream.hpp); the sensor's may be "off": none.
+  /// Names of coordinate frames (pipeline/publish/run_facts.hpp); the sensor's may be "off": none.
   std::string frame_id = "terracut_ground", sensor_frame_id = "terracut_lidar";
   std::filesystem::path truth;  ///< Folder of NNNNNN.label files against which labels are scored.
   DdsOptions dds;
@@ -152,7 +152,7 @@ struct RealtimeOptions {
   bool lock_memory = true;
 };
 
-/// The last seconds of packets, kept and written on events.
+/// The recorder that keeps the last seconds of packets and writes them when an event asks for it.
 struct RecorderOptions {
   double seconds = 10;           ///< Seconds kept; 0: no packets are kept.
   std::filesystem::path folder;  ///< Folder of dumps; empty: none are written.

@@ -56,8 +56,8 @@ std::set<int> interrupts_of(const SystemView& system, const std::string& interfa
   return numbers;
 }
 
-/// Returns a counter from a line of names and one of numbers that begin with a protocol, as in
-/// proc/net/snmp.
+/// Returns a counter of proc/net/snmp. That file has two lines for each protocol, which both begin
+/// with its name: first the names of the counters, then their values.
 std::optional<std::int64_t> protocol_counter(const SystemView& system, std::string_view protocol,
                                              std::string_view name) {
   std::vector<std::string> names;

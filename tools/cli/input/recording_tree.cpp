@@ -27,7 +27,7 @@ constexpr std::array kOthersFolders{"@eaDir",       "@Recycle",   "@Recently-Sna
                                     "#recycle",     "#snapshot",  "System Volume Information",
                                     "$RECYCLE.BIN", "lost+found", "__MACOSX"};
 
-/// Endings of files beside recordings, sometimes millions, which are not opened.
+/// Endings of files that are not opened. Millions of them may lie beside recordings.
 constexpr std::array kNoRecordings{".label", ".txt", ".json", ".yaml", ".yml", ".xml",
                                    ".csv",   ".md",  ".log",  ".dbc",  ".png", ".jpg",
                                    ".jpeg",  ".svg", ".html", ".py",   ".sh",  ".parquet"};

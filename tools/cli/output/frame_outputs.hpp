@@ -37,7 +37,7 @@ class FrameOutputs {
     return !options.pcd.empty() || !options.png.empty() || wants_sinks(options);
   }
 
-  /// Opens the outputs that get frames as they come (export/output_sinks.hpp), before the first
+  /// Opens the outputs that get frames as they come (output/output_sinks.hpp), before the first
   /// frame.
   [[nodiscard]] Status open(const publish::RunFacts& facts);
 

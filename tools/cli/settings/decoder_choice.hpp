@@ -12,7 +12,7 @@ namespace terracut::cli {
 /// What the frames are used for. For labels alone they may keep their returns as measured.
 enum class FramesAreFor : std::uint8_t { kLabels, kPoints };
 
-/// Returns the decoder for the options. `columns` is the range image's width, 0 for the sensor's
+/// Returns the decoder's configuration. `columns` is the range image's width, 0 for the sensor's
 /// default. `motion` is the vehicle's, for deskewing; null: frames are not deskewed.
 [[nodiscard]] decode::Decoder::Config decoder_config_of(const Options& options, int columns,
                                                         FramesAreFor purpose,

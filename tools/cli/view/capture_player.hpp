@@ -53,7 +53,7 @@ class CapturePlayer : public ViewedCapture {
   bool is_measured_ = false;
 
   bool has_frames_ = false;
-  /// Frames that end earlier are not shown.
+  /// Frames that end before this time are not shown.
   std::int64_t skip_to_ns_ = std::numeric_limits<std::int64_t>::min();
   /// When a frame was due, with its time in the capture.
   std::optional<std::pair<Clock::time_point, std::int64_t>> pace_;

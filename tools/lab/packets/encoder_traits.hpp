@@ -30,14 +30,13 @@
 ///   column;
 /// - `offsets(calibration)`, `geometry(calibration, config)`, `nominal()`,
 ///   `metres_per_count(calibration)`, `widest_offset_rad(calibration)`;
-/// - `kStrongestFirst`: the order of two returns; `kBeamHalfWidth_rad`: half the width of the
-/// light;
+/// - `kStrongestFirst`: the order of two returns;
+/// - `kBeamHalfWidth_rad`: half the width of the light;
 /// - `kCalibrationSuffix`, `read_calibration(path)`, `write_calibration(path, calibration)`: the
 ///   unit's table as a file. If the decoder has nominal() built in, the suffix is empty and the two
 ///   functions are missing;
-/// - `sender(calibration, config)`: returns a `Sender`, which makes the packets and writes them
-/// into
-///   a capture (packets/hdl64e_packet_sender.hpp).
+/// - `sender(calibration, config)`: returns a `Sender`, which makes packets and writes them into a
+///   capture (tools/lab/packets/hdl64e_packet_sender.hpp).
 
 /// Expands INSTANTIATE(EncoderTraits) for each sensor whose packets are made.
 #define TERRACUT_FOR_ENCODER_TRAITS(INSTANTIATE)       \

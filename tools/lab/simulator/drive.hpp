@@ -41,7 +41,7 @@ struct DriveConfig {
   int threads = 1;  ///< Threads that cast rays, without influence on results; [1, 64].
 };
 
-/// A drive with its sensor (tools/lab/drive/encoder_traits.hpp).
+/// A drive with its sensor (tools/lab/packets/encoder_traits.hpp).
 template <class EncoderTraits>
 struct SimulationConfig : DriveConfig {
   typename EncoderTraits::Calibration calibration = EncoderTraits::nominal();

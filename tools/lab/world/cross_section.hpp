@@ -32,7 +32,7 @@ class CrossSection {
 
   /// Returns an upper bound of the slope of any band in any direction, without steps.
   [[nodiscard]] double steepest() const noexcept;
-  /// Returns the highest rise by steps alone.
+  /// Returns how far steps alone lift or lower any place, at most, against the centre line.
   [[nodiscard]] double highest_step_m() const noexcept;
 
  private:

@@ -30,7 +30,7 @@ class Sequence {
   [[nodiscard]] std::size_t size() const { return frames_.size(); }
   /// Returns "000042", the name of a frame's results and predictions.
   [[nodiscard]] const std::string& frame(std::size_t index) const { return frames_[index]; }
-  /// Returns the file with its points, for messages.
+  /// Returns the file with the frame's points, for messages.
   [[nodiscard]] std::filesystem::path file(std::size_t index) const {
     return folder_ / layout_.points.path(frames_[index]);
   }

@@ -18,7 +18,8 @@ namespace terracut::peers {
 
 using Point = std::array<float, 4>;  ///< x, y, z in metres, remission; as in the file.
 
-/// Returns the time of all threads: some peers start their own in every call.
+/// Returns the processor time of all threads of the process: some peers start threads in every
+/// call.
 inline std::int64_t process_cpu_ns() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

@@ -13,7 +13,7 @@ ChosenFrame chosen(const Json& frames, std::size_t index, std::string why) {
           frames[index].at("frame").get<std::string>(), std::move(why)};
 }
 
-/// Returns the indices in the list of frames, by sequence.
+/// Returns the indices of the frames in the list, grouped by sequence.
 std::map<std::string, std::vector<std::size_t>> by_sequence(const Json& frames) {
   std::map<std::string, std::vector<std::size_t>> sequences;
   for (std::size_t i = 0; i < frames.size(); ++i) {

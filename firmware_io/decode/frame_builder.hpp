@@ -136,8 +136,7 @@ class FrameBuilder {
     bool touched = false;
   };
 
-  /// Takes another image in place of the one just handed over: the one that was handed out longest
-  /// ago.
+  /// Exchanges the image just handed over for the image that was handed over the longest time ago.
   [[nodiscard]] frame::RangeImage& exchange(frame::RangeImage& handed_over) noexcept
       TERRACUT_NONBLOCKING;
   void open(std::size_t slot, std::int64_t frame, frame::RangeImage& image) noexcept;

@@ -260,7 +260,8 @@ class PacketReturns {
     return true;
   }
 
-  /// Places returns one by one: for firings that share or skip a column, late ones, and the seam.
+  /// Places returns one by one. Needed for firings that share or skip a column, come late or cross
+  /// the seam.
   void place_one_by_one(const Tile& tile, std::size_t laser, Numbers& numbers) noexcept {
     reader_.compute_points(laser, all_of(points_[laser]));
     const frame::TileRow<std::int32_t>& column = beams_[laser].column;

@@ -29,7 +29,8 @@ class ToldTable {
  public:
   explicit ToldTable(memory::FixedMemory& memory) : heard_("table bytes", kHeard, memory) {}
 
-  /// To be called on the receiving thread. After a whole table packets are no longer passed on.
+  /// To be called on the receiving thread. Once the table is complete, packets are no longer passed
+  /// on.
   void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
     if (told_.load(std::memory_order_relaxed)) return;
     const auto* packet = hdl64e::packet_in(datagram.payload);

@@ -94,8 +94,9 @@ std::optional<OwnFile> own_file(std::string_view file, std::string_view name) {
   return own;
 }
 
-/// True if the process that wrote a temporary file is gone. This process writes none while it makes
-/// room, so its own number counts as gone: in a container a dead predecessor often had it.
+/// True if the process that wrote a temporary file is gone. This process writes no file while it
+/// makes room, so its own process number counts as gone: in a container, a dead predecessor often
+/// had the same number.
 bool is_abandoned_by(::pid_t pid) noexcept {
   return pid == ::getpid() || (::kill(pid, 0) != 0 && errno == ESRCH);
 }

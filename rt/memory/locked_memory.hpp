@@ -28,9 +28,9 @@ struct MemoryRequest {
 };
 
 /// Makes later page faults unlikely: makes memory present, locks it, and keeps the heap from
-/// returning it. Call this first in main, from the main thread, before others start. The program
-/// can run even if the system refuses: the returned grants say what holds instead and how to mend
-/// it. Start-up only.
+/// returning it. Call this first in main, before other threads start. The program can run even if
+/// the system refuses: the returned grants say what holds instead and how to mend it. Start-up
+/// only.
 [[nodiscard]] std::vector<threads::Grant> hold_memory(const MemoryRequest& request);
 
 /// Touches up to `bytes` of the calling thread's stack below the current frame, so that later calls

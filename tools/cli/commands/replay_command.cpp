@@ -60,12 +60,13 @@ class Pace {
   std::chrono::steady_clock::time_point started_;
 };
 
-/// Reads the truth of successive frames, as far as it fits.
+/// Reads the true labels of successive frames, if a file fits the frame.
 class FrameTruth {
  public:
   explicit FrameTruth(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Returns one id a return; empty if no truth was asked for or none fits (reported once).
+  /// Returns the true class of each return. Empty if no truth was asked for or the frame's file
+  /// does not fit, which is reported once.
   std::span<const std::uint32_t> read(const std::string& name, std::size_t returns) {
     labels_.clear();
     if (folder_.empty()) return labels_;

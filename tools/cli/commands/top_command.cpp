@@ -54,7 +54,8 @@ ExitCode refuse_figures(const Reader& page, const std::string& name) {
                             name, page.publisher_pid()));
 }
 
-/// Waits for a publisher that was held up while writing, as happens on a busy machine.
+/// Reads the figures. Waits a while for a publisher that is held up while it writes, as happens on
+/// a busy machine.
 std::optional<status::MonitorSnapshot> read_patiently(const Reader& page) {
   constexpr int kLooks = 100;
   constexpr std::chrono::milliseconds kPause{10};

@@ -22,8 +22,8 @@ namespace terracut::cli {
 /// then no browser asks, or a page asks its own server.
 [[nodiscard]] bool is_own_origin(std::string_view origin, std::string_view host);
 
-/// True if a page from another server makes its browser send the request, unless by a link: whoever
-/// follows a link here sees a page of this server.
+/// True if a page of another server made the browser send the request. A followed link does not
+/// count, as it shows a page of this server.
 [[nodiscard]] bool is_asked_by_foreign_page(const HttpRequest& request);
 
 /// True for this server's own page, or a program without pages. Browsers name a request's source

@@ -15,7 +15,8 @@ class DeviceClock {
   /// `offset_s` is added to the device's stamps (--clock-offset).
   explicit DeviceClock(double offset_s) : offset_ns_(static_cast<std::int64_t>(offset_s * 1e9)) {}
 
-  /// Notes a decoded packet; call it after each. Ignores other sensors.
+  /// Notes a decoded packet; call it after each packet. Does nothing unless the sensor is an
+  /// RS-Ruby128.
   void note(const decode::Decoder& decoder, std::int64_t host_stamp_ns) noexcept {
     const ruby128::RubyTimestampDetector* timestamp = decoder.ruby_timestamp();
     if (timestamp == nullptr) return;

@@ -16,7 +16,7 @@
 namespace terracut::packets {
 
 /// Writes an HDL-64E's data packets into a capture: UDP port 2368, factory addresses, the unit's
-/// calibration in the status bytes. Not real-time safe (the file). One thread.
+/// calibration in the status bytes. Writes a file, so it is not real-time safe. One thread.
 class Hdl64ePacketSender {
  public:
   /// Fails if a calibration does not fit into the status stream.

@@ -23,7 +23,7 @@ class MethodBench {
               const frame::ImageShape& shape, std::size_t return_capacity,
               memory::FixedMemory& memory);
 
-  /// Labels with methods[index]; returns the times without decode_ns. `place` is the sensor's, for
+  /// Labels with methods[index]; returns the times except decode_ns. `place` is the sensor's, for
   /// methods that remember; unknown by default.
   [[nodiscard]] FrameTimes segment(std::size_t index, const frame::RangeImage& image,
                                    const frame::Place& place = {});

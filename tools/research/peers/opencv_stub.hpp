@@ -2,8 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-/// Replaces the header of all of OpenCV, and its names before version 4. The functions that peers
-/// use are the real ones; windows, which are closed during measurements, are missing.
+/// Stands in for the header that includes all of OpenCV, also under its names before version 4. It
+/// includes the real functions that peers use, and replaces those that open windows by functions
+/// that do nothing.
 #include <opencv2/core/core_c.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>

@@ -35,7 +35,7 @@ constexpr double kMostBelow = 0.05;
 constexpr float kAboveSensor_m = 0.3F;  ///< A point this far above the sensor is above it.
 constexpr double kFewAbove = 0.02;  ///< A smaller share of returns above the sensor makes no floor.
 constexpr double kLevelAbove_m = 0.3;  ///< Half the thickness of a floor above the sensor.
-/// Largest share of the returns above the sensor in one level.
+/// Largest share of the returns above the sensor that may lie at one height.
 constexpr double kMostLevelAbove = 0.25;
 
 Points turned(std::span<const std::array<float, 3>> points, const Mount& mount) {
@@ -72,8 +72,8 @@ double share_of(const Points& points, IsIt is_it) {
          static_cast<double>(std::max<std::size_t>(points.size(), 1));
 }
 
-/// True if the returns above the sensor end in a level, as below a floor or ceiling. Houses and
-/// trees along a street do not end so.
+/// True if many returns above the sensor lie at one height, as below a floor or ceiling. The tops
+/// of houses and trees along a street differ in height.
 bool has_level_above(const Points& around, double height_m) {
   std::vector<float> above_m;
   for (const auto& p : around) {

@@ -30,7 +30,7 @@ struct Ruby128Channel {
 struct Ruby128Calibration {
   std::array<Ruby128Channel, kRuby128Lasers> channels{};
   std::string origin;  ///< Where the table comes from, for logs: "angle.csv", "DIFOP packets".
-  /// True for the model's table, not the unit's: every summary must warn of it.
+  /// True if this is the model's table instead of the unit's own: every summary must warn of it.
   bool nominal = false;
 };
 

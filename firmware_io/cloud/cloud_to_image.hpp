@@ -24,7 +24,8 @@ namespace terracut::cloud {
 ///   if (const Status placed = to_image.place(cloud); !placed) return placed;
 ///   look_at(to_image.image());
 ///
-/// Allocates only for a cloud larger than all before and than reserve()d, and where RowFinder does.
+/// Allocates only for a cloud with more points than every cloud before and than reserve() was
+/// given, and where RowFinder allocates.
 class CloudToImage {
  public:
   CloudToImage(const SensorRows& rows, const mount::Mount& mount, memory::FixedMemory& memory)
@@ -36,7 +37,8 @@ class CloudToImage {
     to_image_.reserve(points);
   }
 
-  /// Places a cloud. Fails as RowFinder::find() does; then the image keeps the cloud before.
+  /// Places a cloud. Fails as RowFinder::find() does; the image then still holds the previous
+  /// cloud.
   [[nodiscard]] Status place(const CloudView& cloud) {
     if (Status found = finder_.find(cloud, rings_); !found) return found;
     placed_ = to_image_.place(cloud.points, rings_.ring_of_point, image_);

@@ -69,8 +69,8 @@ class RowFinder {
 
   /// Fills `found`. Points without a valid position and those of unknown lasers get kNoRing; a
   /// cloud with no valid position at all is never an error. Fails with kMalformed if a cloud lacks
-  /// the information that tells its lasers. Allocates only for a cloud larger than all before, and
-  /// if the rings of a cloud in KITTI's order are incomplete.
+  /// the information that tells its lasers. Allocates only for a cloud with more points than every
+  /// cloud before, and if the rings of a cloud in KITTI's order are incomplete.
   [[nodiscard]] Status find(const CloudView& cloud, scan::RingRecovery& found) const;
 
   [[nodiscard]] const SensorRows& rows() const noexcept { return rows_; }

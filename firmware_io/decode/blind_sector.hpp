@@ -45,8 +45,8 @@ class BlindSector {
     std::int64_t packets = 0, ticks = 0;
   };
   struct Verdict {
-    /// The lost part of a gap; if it includes the blind sector, that counts as lost here, too.
-    /// Empty if all of the gap is blind.
+    /// The lost part of a gap. If the lost part includes a blind sector, the sector counts as lost,
+    /// too. Empty if all of the gap is blind.
     packet::RotorInterval lost;
     bool is_pending = false;   ///< The gap may be blind; if not, take_due() returns the loss later.
     std::int64_t packets = 0;  ///< Packets lost in the gap; 0 while the gap is pending.
@@ -65,8 +65,8 @@ class BlindSector {
   /// True if the blind sector lies where PacketAzimuths::behind_sector says, to within a packet.
   [[nodiscard]] bool is_inside(const packet::PacketAzimuths& azimuths) const noexcept
       TERRACUT_NONBLOCKING;
-  /// Replaces pass() for a packet that has the blind sector, or the part of it that was seen,
-  /// inside: `inside`. The packet begins at `begin_ticks`.
+  /// Replaces pass() for a packet, beginning at `begin_ticks`, that has the blind sector inside:
+  /// the head fired nothing in the interval `inside`.
   [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const packet::RotorInterval& inside,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
   /// Notes that a late packet fills part of a gap: its first or last remaining part, unless several

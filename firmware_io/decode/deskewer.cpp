@@ -186,7 +186,7 @@ frame::Place Deskewer::go_to(std::int64_t reference_ns) noexcept {
   } else {
     const vehicle::PlanarPose at =
         vehicle::PlanarPose{place_.x_m, place_.y_m, place_.cosine, place_.sine} * inverse(before);
-    // Renormalises to length 1, however long the journey.
+    // Keeps (cosine, sine) at length 1, so that rounding errors do not add up on a long journey.
     const double shrink = (3 - at.cosine * at.cosine - at.sine * at.sine) / 2;
     place_ = {place_.journey, at.x_m, at.y_m, at.cosine * shrink, at.sine * shrink};
   }

@@ -219,7 +219,7 @@ void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::ui
     columns[f] = static_cast<std::uint16_t>(beam.column[f] - first);
   }
   std::uint32_t left = taken.returns;
-  // Usually all are within 64 columns, whose bits are loaded at once.
+  // Usually the laser's returns lie within 64 columns, whose bits are loaded at once.
   if (taken.most - least < static_cast<std::int32_t>(kWordBits)) [[likely]] {
     const auto column = static_cast<std::size_t>(least);
     const std::uint64_t before = bits_from(cells, column);

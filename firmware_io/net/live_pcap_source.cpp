@@ -57,7 +57,7 @@ std::string filter_of(const LivePcapConfig& config) {
 Status set_filter(::pcap* handle, const LivePcapConfig& config) {
   bpf_program program{};
   std::string text = filter_of(config);
-  // Fails for raw IP links, because they have no VLAN.
+  // libpcap refuses the VLAN term for raw IP links, because they have no VLANs.
   if (::pcap_compile(handle, &program, text.c_str(), 1, PCAP_NETMASK_UNKNOWN) != 0) {
     text = text.substr(0, text.find(" or "));
     if (::pcap_compile(handle, &program, text.c_str(), 1, PCAP_NETMASK_UNKNOWN) != 0) {

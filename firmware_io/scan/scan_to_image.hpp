@@ -25,7 +25,8 @@ namespace terracut::scan {
 /// matter. Returns are numbered in the cloud's order. Points without a ring, and points for which
 /// the overflow list has no room, are counted but not placed.
 ///
-/// Allocates only for a cloud larger than all before and than reserve()d.
+/// Allocates only for a cloud with more points than every cloud before and than reserve() was
+/// given.
 class ScanToImage {
  public:
   struct Summary {

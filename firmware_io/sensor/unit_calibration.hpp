@@ -38,8 +38,8 @@ using FromPackets = std::function<Expected<calib::SensorCalibration>()>;
 [[nodiscard]] tl::unexpected<Error> fail_for_s1(const std::string& place);
 
 /// Returns the calibration of a capture's unit, whose packets may hold it in the HDL-64E's status
-/// stream or in DIFOP packets. If they do not: kNoCalibration, with what was found instead. Leaves
-/// `source` at any position.
+/// stream or in DIFOP packets. If they do not, fails with kNoCalibration; the message says what was
+/// found instead. Leaves `source` at any position.
 [[nodiscard]] Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
                                                                   SensorModel model,
                                                                   capture::PcapSource& source);

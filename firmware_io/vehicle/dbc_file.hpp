@@ -25,7 +25,7 @@ enum class DbcMultiplex : std::uint8_t {
   kSelected,  ///< The signal is valid in frames whose selector has a certain value.
 };
 
-/// A signal as stated in its SG_ line; checked only as far as the line itself needs.
+/// A signal as stated in its SG_ line. Parsing checks only what this line alone can show.
 struct DbcSignal {
   std::string name;
   int start_bit = 0;  ///< Bit n % 8 of byte n / 8; lowest bit if Intel, highest if Motorola.

@@ -52,8 +52,8 @@ class FrameReceiver {
     sensor::ToldTable* told_table = nullptr;
   };
 
-  /// Throws away the packets waiting in `source`: they are too old to be labelled, and are counted
-  /// as before labelling, not as a loss of the run.
+  /// Throws away the packets waiting in `source`, which are too old to be labelled. They are
+  /// counted as packets from before labelling, not as a loss of the run.
   FrameReceiver(const Config& config, LivePipeline& pipeline, Source& source,
                 const Outlets& outlets, Clock clock, Wait wait) noexcept
       : pipeline_(pipeline),

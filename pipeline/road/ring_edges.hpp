@@ -65,7 +65,7 @@ class RingEdges {
 
   Config config_;
   float most_range_m_;  // farther patches are longer than an edge is wide
-  // By patch number, counts over the rows so far:
+  // Counts of rows so far, by patch number:
   std::span<float> rings_;          // rows with ground on both sides
   std::span<float> rises_, falls_;  // rows that rise or fall here more than beside it
   // Work space for one row, with the margin on both sides:

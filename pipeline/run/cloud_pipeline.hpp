@@ -27,8 +27,9 @@ namespace terracut::run {
 ///
 /// To find a mount, which needs only images, use cloud::CloudToImage.
 ///
-/// The constructor takes the memory of the image and the method. Labelling allocates if a cloud is
-/// larger than all before and than reserve()d, and where cloud::RowFinder does; it never throws.
+/// The constructor takes the memory of the image and the method. Labelling allocates only for a
+/// cloud with more points than every cloud before and than reserve() was given, and where
+/// cloud::RowFinder allocates; it never throws.
 class CloudPipeline {
  public:
   CloudPipeline(const cloud::SensorRows& rows, const mount::RingProfile& profile,

@@ -21,7 +21,7 @@ tl::unexpected<Error> malformed(const std::string& what) {
   return fail(ErrorCode::kMalformed, "not understood: " + what);
 }
 
-/// Returns a number of the protocol; nothing if it is anything else.
+/// Returns an id of the protocol; nothing if `value` is anything else.
 std::optional<std::uint32_t> id_in(const Json& value) {
   if (!value.is_number_unsigned()) return std::nullopt;
   const auto id = value.get<std::uint64_t>();

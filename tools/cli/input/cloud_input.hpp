@@ -54,9 +54,9 @@ class CloudReader {
 
 /// Returns how the clouds tell their lasers apart, and the lasers' elevations: those of
 /// `calibration`, whose unit's scans are in KITTI's order, or, if it is empty, learnt from the
-/// clouds. Prints which, with a warning if it is doubtful (cloud::doubt_of()). If the points fit
-/// only, or better, with the files' VIEWPOINT as the sensor's place, that place is used from then
-/// on. Errors name the file or the folder.
+/// clouds. Prints the result, with a warning if it is doubtful (cloud::doubt_of()). If the points
+/// fit only, or better, with the files' VIEWPOINT as the sensor's place, that place is used from
+/// then on. Errors name the file or the folder.
 [[nodiscard]] Expected<cloud::SensorRows> rows_of(CloudReader& clouds,
                                                   const std::filesystem::path& calibration);
 

@@ -27,8 +27,8 @@ struct MountChoice {
 [[nodiscard]] MountChoice filled_in(const MountOptions& stated, const mount::FoundMount& found);
 
 /// Takes figures that were not stated from `finder`, and prints them. If they are too uncertain for
-/// labels, fails with kMountNotFound, or, with MountOptions::may_guess, warns and assumes a level
-/// mount at 1.73 m except for certain figures.
+/// labels, fails with kMountNotFound. With MountOptions::may_guess it warns instead, and figures
+/// that are too uncertain become those of a level mount at 1.73 m.
 [[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
                                                  const mount::MountFinder& finder);
 /// If a figure is not stated, finds the mount in frames of the recording. May also fail with the

@@ -85,7 +85,7 @@ Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   if (!unit) return tl::unexpected(unit.error());
   auto calibration = calibration_of(options, sensor->model, *unit);
   if (!calibration) return tl::unexpected(calibration.error());
-  // Opened again, so that nothing is counted twice.
+  // Opens the capture again, so that no packet is counted twice.
   unit = open_unit(options, sensor->stream);
   if (!unit) return tl::unexpected(unit.error());
   std::string sensor_line = describe(*sensor), calibration_line = describe(*calibration);

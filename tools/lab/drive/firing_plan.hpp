@@ -18,7 +18,7 @@ struct Firing {
 };
 
 /// The times and azimuths of the head's firings in a drive of whole frames, with a run-up and
-/// run-out so that every laser covers them. Whole packets.
+/// run-out so that every laser covers them. The firings fill whole packets.
 template <class EncoderTraits>
 class FiringPlan {
  public:

@@ -27,8 +27,8 @@ enum class PutMotionBack {
 /// Reads the scans of a folder one by one, with the ring of every point.
 class ScanReader {
  public:
-  /// Lists the folder (scan_folder.hpp). Errors: of the listing; of SensorMotion::read() if motion
-  /// is restored.
+  /// Lists the folder (scan_folder.hpp). Fails with the errors of the listing and, if motion is
+  /// restored, with those of SensorMotion::read().
   [[nodiscard]] static Expected<ScanReader> open(const std::filesystem::path& folder,
                                                  PutMotionBack motion = PutMotionBack::kNever);
 

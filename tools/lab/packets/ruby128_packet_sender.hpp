@@ -26,7 +26,7 @@ struct Ruby128Unit {
 
 /// Writes an RS-Ruby128's packets into a capture, with the factory's addresses and ports: the given
 /// data packets (MSOP), and the device packet (DIFOP) with the unit's angles before the first of
-/// them and then once a second. Not real-time safe (the file). One thread.
+/// them and then once a second. Writes a file, so it is not real-time safe. One thread.
 class Ruby128PacketSender {
  public:
   Ruby128PacketSender(const ruby128::Ruby128Calibration& calibration, const Ruby128Unit& unit,

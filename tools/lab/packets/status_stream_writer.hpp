@@ -26,8 +26,9 @@ class StatusStreamWriter {
   StatusStreamWriter(std::span<const std::uint8_t, hdl64e::kStreamTableBytes> table,
                      hdl64e::StatusFlavour flavour, StatusValues values = {}) noexcept;
 
-  /// Returns the pair of the next packet. `stamp_ns` (since 1970, UTC) is sent as date and time; it
-  /// is taken at the start of a cycle, so that the six bytes belong together. Years 2000..2255.
+  /// Returns the two status bytes of the next packet. `stamp_ns` (since 1970, UTC) is sent as date
+  /// and time; it is taken at the start of a cycle, so that the six bytes belong together. Years
+  /// 2000..2255.
   [[nodiscard]] hdl64e::StatusPair next(std::int64_t stamp_ns) noexcept;
 
  private:

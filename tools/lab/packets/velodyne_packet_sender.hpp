@@ -17,7 +17,8 @@ namespace terracut::packets {
 
 /// Writes the data packets of a Velodyne with a built-in table into a capture, with the factory's
 /// addresses and ports. In dual return the blocks of a pair are the last return, then the
-/// strongest. Position packets are not written. Not real-time safe (the file). One thread.
+/// strongest. Position packets are not written. Writes a file, so it is not real-time safe. One
+/// thread.
 template <class Model>
 class VelodynePacketSender {
  public:

@@ -153,7 +153,7 @@ void ColumnAngles::spread_from(std::uint32_t start) noexcept {
         column + 1 == columns ? here + 1 - columns : here + 1};
     for (const std::uint32_t next : neighbours) {
       if (next >= cells || ground_[next] != 0) continue;
-      // False also for a NaN angle, where there is nothing.
+      // The comparison is also false for NaN, the angle of a cell without a value.
       if (!(std::fabs(angle_deg_[next] - angle_deg_[here]) < config_.same_ground_deg)) continue;
       ground_[next] = 1;
       queue_[put++] = next;

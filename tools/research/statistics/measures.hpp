@@ -17,8 +17,8 @@ struct Scope {
   std::optional<std::size_t> band{};  ///< Only this range band.
 };
 
-/// Returns the counts by the class table's roles. Unknown classes are ignored. Under kRoad, ground
-/// labelled as no road surface counts as called obstacle.
+/// Returns the counts by the class table's roles. Unknown classes are ignored. Under kRoad, a label
+/// for ground that is not road surface counts as a label for an obstacle.
 [[nodiscard]] quality::Quality quality_of(const FrameCounts& counts,
                                           const datasets::ClassTable& classes, const Scope& scope);
 

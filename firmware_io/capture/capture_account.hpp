@@ -9,7 +9,7 @@
 
 namespace terracut::capture {
 
-/// Accounts for every record of a capture, decoded to the end of the part asked for. Each record is
+/// Accounts for every record of a capture, once the requested part of it is decoded. Each record is
 /// counted exactly once, as the datagrams of a live run are in net::DatagramAccount.
 struct CaptureAccount {
   PcapCounters read;

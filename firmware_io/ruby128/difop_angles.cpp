@@ -42,7 +42,7 @@ bool all_zero(const Angles& angles) noexcept {
 /// Converts an angle with a valid sign to radians.
 double radians(const Angle& angle) noexcept {
   const int magnitude_cdeg = angle.magnitude_cdeg.value();
-  // An integer has no negative zero.
+  // A whole number has no negative zero, so -0.00 becomes 0.
   const int cdeg = angle.sign == kDifopMinus ? -magnitude_cdeg : magnitude_cdeg;
   return beams::deg_to_rad(cdeg / 100.0);
 }

@@ -21,7 +21,7 @@ constexpr std::size_t kMostSizes = 64;
 using StreamKey =
     std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::uint16_t, std::uint32_t>;
 
-/// Surveys a model whose data packets tell nothing beyond head and clock.
+/// Surveys a model whose data packets tell nothing about the unit except its head and its clock.
 class HeadSurvey {
  public:
   void add(SensorModel model, const packet::Datagram& datagram) {

@@ -38,8 +38,8 @@ class Ruby128DeviceReader {
   }
 
   [[nodiscard]] bool has_calibration() const noexcept { return calibration_.has_value(); }
-  /// Returns the first plausible angles. Fails with kNoCalibration if no packet has come; if none
-  /// was plausible, as calibration_of() did for the newest packet.
+  /// Returns the first plausible angles. Fails with kNoCalibration if no packet has come. If no
+  /// packet had plausible angles, fails with the error of calibration_of() for the newest packet.
   [[nodiscard]] const Expected<ruby128::Ruby128Calibration>& calibration() const noexcept {
     return calibration_;
   }

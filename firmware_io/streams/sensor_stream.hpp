@@ -52,7 +52,7 @@ struct SensorStream {
   }
 };
 
-/// Removes senders of stray packets: fewer than a hundredth of those from the sender with most.
+/// Removes senders of stray packets: those with less than a hundredth of the busiest one's packets.
 inline void drop_strays(std::vector<SensorStream>& sensors) {
   constexpr std::uint64_t kStrayShare = 100;
   std::uint64_t most = 0;

@@ -61,7 +61,7 @@ class StatusPageReader {
 
  public:
   /// Fails with the errors of StatusPageFile::open(). A page whose publisher has died can be
-  /// opened; publisher_lives() tells.
+  /// opened; publisher_lives() is then false.
   [[nodiscard]] static Expected<StatusPageReader> open(
       const std::string& name, std::uint32_t layout,
       const std::filesystem::path& folder = status_page_folder()) {

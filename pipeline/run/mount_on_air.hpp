@@ -23,7 +23,8 @@ namespace terracut::run {
     const std::function<bool()>& stop_wanted,
     const std::function<void(const std::string& what)>& on_waiting = [](const std::string&) {});
 
-/// How long to wait if no ground is seen from where the vehicle stands; then labels must come.
+/// The longest time to listen for frames that show the ground, which may be hidden where the
+/// vehicle stands.
 inline constexpr std::chrono::seconds kGroundPatience{10};
 
 }  // namespace terracut::run

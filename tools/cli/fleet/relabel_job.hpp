@@ -20,9 +20,9 @@ namespace terracut::cli {
 ///
 ///   ID/job.json           manifest, drives and their bytes, program, when it began
 ///   ID/terracut.yaml      the settings
-///   ID/records/           what became of a drive, a file each (relabel_record.hpp)
-///   parts/                what is under way: a folder each, of a process alone
-///   broken/               drives' folders that were not whole, and what else was in them
+///   ID/records/           a file for each drive that says what became of it (relabel_record.hpp)
+///   parts/                a folder for each drive under way, used by one process alone
+///   broken/               drives' folders that were not whole, with all that was in them
 struct RelabelJob {
   std::filesystem::path folder;    ///< Folder that holds the drives' folders.
   std::filesystem::path manifest;  ///< Absolute path.

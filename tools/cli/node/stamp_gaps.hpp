@@ -23,7 +23,8 @@ class StampGaps {
  private:
   static constexpr std::size_t kIntervals = 16, kFewest = 4;
 
-  /// Estimates the period as a short one of the latest intervals, since some intervals are gaps.
+  /// Estimates the period by the lower quartile of the latest intervals, since some intervals are
+  /// gaps.
   [[nodiscard]] std::int64_t period_ns() const noexcept;
 
   std::array<std::int64_t, kIntervals> intervals_ns_{};

@@ -62,7 +62,8 @@ class SensorTileReader final : public frame::TileReader {
   }
 
  private:
-  /// How far the head advances from a firing's azimuth until each group of lasers fires.
+  /// Sine and cosine of the head's advance from a firing's azimuth until each group of lasers
+  /// fires.
   struct Directions {
     std::array<float, Sensor::kGroups> sin{}, cos{};
   };

@@ -42,7 +42,7 @@ TruthClass truth_class(std::uint32_t semantic_kitti_id) noexcept {
     case 256:
     case 257:
     case 258:
-    case 259:  // moving ones
+    case 259:  // the same classes, moving
       return TruthClass::kKeyObstacle;
     default:
       return TruthClass::kOrdinaryObstacle;

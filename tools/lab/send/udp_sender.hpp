@@ -27,7 +27,7 @@ struct UdpSenderConfig {
 /// Counts of datagrams; `failed` ones were refused by the system (no route, interface down).
 struct SendCounters {
   std::uint64_t sent = 0;
-  std::uint64_t bytes = 0;  ///< Payload.
+  std::uint64_t bytes = 0;  ///< Bytes of the payloads sent.
   std::uint64_t failed = 0;
   int last_error = 0;  ///< errno of the newest failure.
 

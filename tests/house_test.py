@@ -17,7 +17,7 @@ ROOMS = ("rt", "calib", "firmware_io", "pipeline", "tools")
 # Within a room: what is a library of its own includes nothing of the rest of its room.
 ALONE = {
     "firmware_io/frame": (),
-    "pipeline": ("ground", "stage", "elevation", "random_field", "min_cut", "road", "remembered"),
+    "pipeline": ("ground", "stage", "elevation", "random_field", "min_cut", "road"),
 }
 # One program each, and so one namespace each, however many folders it has.
 PROGRAMS = {"tools/cli": "cli", "tools/doctor": "doctor"}

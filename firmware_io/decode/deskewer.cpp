@@ -164,8 +164,7 @@ frame::DeskewInfo Deskewer::apply(std::int64_t frame, frame::RangeImage& image) 
   frame::DeskewInfo info{.state = frame::DeskewState::kNoEgoMotion,
                          .at = config_.at,
                          .reference_ns = reference_ns(frame),
-                         .newest_motion_ns = 0,
-                         .place = {}};
+                         .newest_motion_ns = 0};
   if (const auto newest_ns = motion.newest_ns()) {
     info.newest_motion_ns = *newest_ns - instant_at((frame + 1) * config_.revolution_ticks);
   }
@@ -174,24 +173,7 @@ frame::DeskewInfo Deskewer::apply(std::int64_t frame, frame::RangeImage& image) 
   spread_poses(first_column, first_node);
   image.move(by_row_);
   info.state = frame::DeskewState::kDone;
-  info.place = go_to(info.reference_ns);
   return info;
-}
-
-frame::Place Deskewer::go_to(std::int64_t reference_ns) noexcept {
-  vehicle::PlanarPose before;  // the sensor's earlier pose, seen from the pose now
-  if (place_.journey == 0 || reference_ns <= place_ns_ ||
-      !config_.motion->poses({&place_ns_, 1}, reference_ns, {&before, 1})) {
-    place_ = {.journey = place_.journey + 1};
-  } else {
-    const vehicle::PlanarPose at =
-        vehicle::PlanarPose{place_.x_m, place_.y_m, place_.cosine, place_.sine} * inverse(before);
-    // Keeps (cosine, sine) at length 1, so that rounding errors do not add up on a long journey.
-    const double shrink = (3 - at.cosine * at.cosine - at.sine * at.sine) / 2;
-    place_ = {place_.journey, at.x_m, at.y_m, at.cosine * shrink, at.sine * shrink};
-  }
-  place_ns_ = reference_ns;
-  return place_;
 }
 
 }  // namespace terracut::decode

@@ -77,8 +77,6 @@ class Deskewer {
   [[nodiscard]] std::int64_t instant_of(std::int64_t node) const noexcept;
   [[nodiscard]] std::int64_t instant_at(std::int64_t rotor_ticks) const noexcept;
   [[nodiscard]] std::int64_t reference_ns(std::int64_t frame) const noexcept;
-  /// Returns the sensor's place at the reference instant of a deskewed frame.
-  [[nodiscard]] frame::Place go_to(std::int64_t reference_ns) noexcept;
   void spread_poses(std::int64_t first_column, std::int64_t first_node) noexcept;
 
   Config config_;
@@ -94,10 +92,6 @@ class Deskewer {
   /// frames of nodes, more than the ring buffer holds, and the frame in which they begin is not
   /// handed over yet.
   Note before_, newest_;
-
-  // The last frame deskewed.
-  frame::Place place_;
-  std::int64_t place_ns_ = 0;
 
   // The frame being deskewed.
   std::span<std::int64_t> node_ns_;

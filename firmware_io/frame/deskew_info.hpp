@@ -32,15 +32,6 @@ enum class DeskewState : std::uint8_t {
   return "unknown";
 }
 
-/// The sensor's position and heading in the ground plane, relative to where a journey began:
-/// p_journey = R p + t. Places of one journey can be compared; between two journeys the motion is
-/// unknown.
-struct Place {
-  std::uint32_t journey = 0;  ///< Number of the journey, from 1; 0: the place is unknown.
-  double x_m = 0, y_m = 0;
-  double cosine = 1, sine = 0;  ///< Cosine and sine of the heading.
-};
-
 /// Whether and how the vehicle's motion was removed from a frame.
 struct DeskewInfo {
   DeskewState state = DeskewState::kOff;
@@ -50,7 +41,6 @@ struct DeskewInfo {
   /// Stamp of the newest motion sample minus the instant of the frame's last firing; about 0 if
   /// both use one clock. 0 if there is no sample.
   std::int64_t newest_motion_ns = 0;
-  Place place;  ///< The sensor's place at the instant `at`; known for kDone.
 };
 
 }  // namespace terracut::frame

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/ground/fine_stages.hpp"
 
-#include <utility>
-
 #include "pipeline/random_field/boundary_term.hpp"
 #include "rt/vector_clones.hpp"
 
@@ -14,29 +12,13 @@ bool has_expired(const min_cut::CutBudget& budget) noexcept {
   return budget.expired != nullptr && budget.expired(budget.context);
 }
 
-/// The cost of a cell from the frame itself and from memory.
-class Costs {
- public:
-  Costs(const random_field::RegionTerm& region, const remembered::StreetMemory* memory) noexcept
-      : region_(region), memory_(memory) {}
-  [[nodiscard]] min_cut::LabelCosts operator()(std::uint32_t cell) const noexcept {
-    const min_cut::LabelCosts own = region_(cell);
-    if (memory_ == nullptr) return own;
-    const min_cut::LabelCosts prior = (*memory_)(cell);
-    return {own.ground + prior.ground, own.obstacle + prior.obstacle};
-  }
-
- private:
-  const random_field::RegionTerm& region_;
-  const remembered::StreetMemory* memory_;
-};
-
 /// The edge weights, most of the cut's work, are compiled into this function.
 TERRACUT_VECTOR_CLONES_OF_INLINED min_cut::CutReport solve(
-    min_cut::GridCut& cut, const min_cut::GridProblem& problem, const Costs& costs,
-    const random_field::BoundaryTerm& boundary, const min_cut::CutBudget& budget,
+    min_cut::GridCut& cut, const min_cut::GridProblem& problem,
+    const random_field::RegionTerm& region, const random_field::BoundaryTerm& boundary,
+    const min_cut::CutBudget& budget,
     std::span<frame::Label> labels) noexcept TERRACUT_NONBLOCKING {
-  return cut.solve(problem, costs, boundary, budget, labels);
+  return cut.solve(problem, region, boundary, budget, labels);
 }
 
 }  // namespace
@@ -52,7 +34,6 @@ FineStages::FineStages(const SegmenterConfig& config, const mount::RingProfile& 
       near_unknown_(shape, memory),
       min_cut_(shape, config.min_cut, memory),
       return_labels_(config.returns, return_capacity, memory) {
-  if (config.memory.enabled && made == nullptr) memory_.emplace(config.memory, shape, memory);
   if (config.road.enabled) road_surface_.emplace(config.road, shape, memory);
 }
 
@@ -97,14 +78,7 @@ stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
     points = points_of(image, true);
     region_.look_at(points, planes, seeds_.seeds());
     done(stage::Stage::kSeeds);
-    const remembered::StreetMemory* const memory = look_back(image, planes);
-    report.cut = cut(points, planes, memory, budget);
-    if (memory != nullptr) {
-      memory_->remember(planes, [this](std::size_t cell) noexcept {
-        return region_.lean(static_cast<std::uint32_t>(cell));
-      });
-      report.memory = memory->report();
-    }
+    report.cut = cut(points, planes, budget);
     done(stage::Stage::kMinCut);
     if (report.cut.discarded) report.last_stage = stage::Stage::kAdjacentPoints;
   } else {
@@ -123,25 +97,12 @@ stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
   return report;
 }
 
-const remembered::StreetMemory* FineStages::look_back(const frame::RangeImage& image,
-                                                      const stage::CellPlanes& planes) noexcept {
-  const frame::Place place = std::exchange(place_, {});
-  if (!memory_) return nullptr;
-  if (place.journey == 0) {
-    memory_->forget();
-    return nullptr;
-  }
-  memory_->look_back(place, image.points(), planes, seeds_.mutable_seeds());
-  return &*memory_;
-}
-
 min_cut::CutReport FineStages::cut(const frame::PointPlanes& points, stage::CellPlanes& planes,
-                                   const remembered::StreetMemory* memory,
                                    const min_cut::CutBudget& budget) noexcept {
   const min_cut::GridProblem problem{
       shape_, seeds_.mutable_seeds(), {points.ground_range_m, shape_.cells()}};
   const random_field::BoundaryTerm boundary(config_.boundary, negative_exp_, points);
-  return solve(min_cut_, problem, Costs(region_, memory), boundary, budget, planes.label);
+  return solve(min_cut_, problem, region_, boundary, budget, planes.label);
 }
 
 }  // namespace terracut::ground

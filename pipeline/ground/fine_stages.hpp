@@ -34,11 +34,6 @@ class FineStages {
              frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
              frame::FramePoints* made = nullptr);
 
-  /// Sets the sensor's place for the next frame given to refine(), whose image must have all its
-  /// points. The frame is then labelled with memory of earlier frames; without a place it is
-  /// labelled by itself, and earlier frames are forgotten.
-  void set_place(const frame::Place& place) noexcept TERRACUT_NONBLOCKING { place_ = place; }
-
   /// Labels the returns of a frame. CoarseStages::finish() must have filled `planes`; refine()
   /// makes the labels in `planes` final. If `budget` expires before the random field, or too early
   /// in the cut, the labels stay unchanged.
@@ -57,11 +52,7 @@ class FineStages {
   }
 
  private:
-  /// Returns what earlier frames tell about the cells to be cut; null if the motion is unknown.
-  [[nodiscard]] const remembered::StreetMemory* look_back(const frame::RangeImage& image,
-                                                          const stage::CellPlanes& planes) noexcept;
   [[nodiscard]] min_cut::CutReport cut(const frame::PointPlanes& points, stage::CellPlanes& planes,
-                                       const remembered::StreetMemory* memory,
                                        const min_cut::CutBudget& budget) noexcept;
   /// Returns the points that later stages need: with a cut, those next to unknown cells.
   [[nodiscard]] frame::PointPlanes points_of(const frame::RangeImage& image, bool has_cut) noexcept;
@@ -75,9 +66,7 @@ class FineStages {
   min_cut::NearUnknown near_unknown_;
   min_cut::GridCut min_cut_;
   stage::ReturnLabels return_labels_;
-  std::optional<remembered::StreetMemory> memory_;  // empty unless enabled
-  frame::Place place_;                              // place of the sensor in the next frame
-  std::optional<road::RoadSurface> road_surface_;   // empty unless enabled
+  std::optional<road::RoadSurface> road_surface_;  // empty unless enabled
 };
 
 }  // namespace terracut::ground

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/frame/deskew_info.hpp"
 #include "firmware_io/frame/firing_tile.hpp"
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
@@ -38,10 +37,6 @@ class FrameMethod {
       const frame::RangeImage& image, const min_cut::CutBudget& budget = {},
       stage::StageObserver* observer = nullptr) noexcept = 0;
 
-  /// Sets the sensor's place in the next frame. Does nothing in a method that labels each frame by
-  /// itself.
-  virtual void set_place(const frame::Place& /*place*/) noexcept {}
-
   /// Fills `ground` from the frame labelled last. In this default version `image` must have points.
   virtual void take_near_ground(const frame::RangeImage& image, NearGround& ground) noexcept {
     ground::take_near_ground(image, ground);
@@ -58,7 +53,6 @@ struct FramesToCome {
   const mount::RingProfile& profile;  ///< Must have shape.rows rings.
   frame::ImageShape shape;
   std::size_t return_capacity = 0;
-  bool motion_is_known = false;  ///< True if places will be set.
   /// The sensor's tile reader if images keep their returns as measured; else null.
   std::unique_ptr<frame::TileReader> reader = nullptr;
 };

@@ -31,7 +31,6 @@ SegmenterConfig paper_profile() noexcept {
   config.region.rule = random_field::RegionRule::kHistogram;
   config.region.lambda = 1.0F;
   config.boundary.rule = random_field::BoundaryRule::kHeightGradient;
-  config.memory.enabled = false;
   config.returns.obstacle_height_m = config.elevation_map.obstacle_height_m;
   return config;
 }

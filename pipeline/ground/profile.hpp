@@ -12,7 +12,6 @@
 #include "pipeline/random_field/boundary_term.hpp"
 #include "pipeline/random_field/confidence_seeds.hpp"
 #include "pipeline/random_field/region_term.hpp"
-#include "pipeline/remembered/street_memory.hpp"
 #include "pipeline/road/road_surface.hpp"
 #include "pipeline/stage/return_labels.hpp"
 #include "pipeline/stage/stage.hpp"
@@ -31,17 +30,8 @@ struct SegmenterConfig {
   min_cut::GridCut::Config min_cut;
   stage::ReturnLabels::Config returns;
   road::RoadSurface::Config road;
-  remembered::StreetMemory::Config memory;
   SparseRows sparse;  ///< Replaces other parameters if rows are sparse; see suited_to_rows().
 };
-
-/// Returns `config`, with the memory of earlier frames switched off (and no memory taken) if the
-/// motion of the vehicle is unknown.
-[[nodiscard]] inline SegmenterConfig remembering(SegmenterConfig config,
-                                                 bool motion_is_known) noexcept {
-  config.memory.enabled = config.memory.enabled && motion_is_known;
-  return config;
-}
 
 /// Returns the default profile: the paper's structure with measured improvements
 /// (docs/reference/method.md).

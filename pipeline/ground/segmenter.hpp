@@ -47,11 +47,6 @@ class Segmenter final : public FrameMethod {
     return fine_.refine(image, planes_, budget, observer);
   }
 
-  /// Sets the sensor's place in the next frame to be labelled; see FineStages::set_place().
-  void set_place(const frame::Place& place) noexcept TERRACUT_NONBLOCKING override {
-    fine_.set_place(place);
-  }
-
   /// Fills `ground` with near ground from the frame labelled last.
   void take_near_ground(const frame::RangeImage& image,
                         NearGround& ground) noexcept TERRACUT_NONBLOCKING override {
@@ -74,12 +69,11 @@ class Segmenter final : public FrameMethod {
   FineStages fine_;
 };
 
-/// Returns a function that makes Segmenters. They remember earlier frames only if motion is known.
+/// Returns a function that makes Segmenters.
 [[nodiscard]] inline MethodMaker maker_of(const SegmenterConfig& config) {
   return [config](FramesToCome frames, memory::FixedMemory& memory) {
-    return std::make_unique<Segmenter>(remembering(config, frames.motion_is_known), frames.profile,
-                                       frames.shape, frames.return_capacity, memory,
-                                       std::move(frames.reader));
+    return std::make_unique<Segmenter>(config, frames.profile, frames.shape, frames.return_capacity,
+                                       memory, std::move(frames.reader));
   };
 }
 

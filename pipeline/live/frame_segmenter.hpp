@@ -71,7 +71,6 @@ class FrameSegmenter {
     const std::int64_t begun_cpu_ns = clock_.thread_cpu_ns();
     stage::CellPlanes& planes = pipeline_.planes_of(*frame.image);
     if (record.stages_ahead == 0) pipeline_.late_coarse.finish(*frame.image, planes, &stage_clock_);
-    pipeline_.fine.set_place(record.info.deskew.place);
     record.segmentation =
         pipeline_.fine.refine(*frame.image, planes, degradation_.budget(), &stage_clock_);
     record.level = degradation_.may_hand_on() ? DegradationPolicy::level_of(record.segmentation)

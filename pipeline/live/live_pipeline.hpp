@@ -45,8 +45,8 @@ struct LivePipeline {
         segmenting_points(points_made_of(decoder, memory)),
         coarse(config, profile, decoder.shape(), memory, receiving_points.get()),
         late_coarse(config, profile, decoder.shape(), memory, segmenting_points.get()),
-        fine(ground::remembering(config, decoder_config.motion != nullptr), profile,
-             decoder.shape(), decoder.return_capacity(), memory, segmenting_points.get()) {
+        fine(config, profile, decoder.shape(), decoder.return_capacity(), memory,
+             segmenting_points.get()) {
     planes_.reserve(decoder.images().size());
     for (std::size_t i = 0; i < decoder.images().size(); ++i) {
       planes_.emplace_back(decoder.shape(), memory);

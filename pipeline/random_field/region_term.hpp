@@ -46,18 +46,14 @@ class RegionTerm {
   void look_at(const frame::PointPlanes& points, const stage::CellPlanes& planes,
                std::span<const min_cut::Seed> seeds) noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns what a cell's height suggests by kHeightRamp, from -1 (obstacle) to 1 (ground).
-  [[nodiscard]] float lean(std::uint32_t cell) const noexcept {
-    return -std::clamp((height_m_[cell] - config_.even_height_m) / config_.ramp_m, -1.0F, 1.0F);
-  }
-
   /// Returns the costs of an unknown cell, scaled by kCapacityScale.
   [[nodiscard]] min_cut::LabelCosts operator()(std::uint32_t cell) const noexcept {
     if (config_.rule == RegionRule::kHistogram) {
       const std::size_t bin = bin_of(z_m_[cell]);
       return {ground_costs_[bin], obstacle_costs_[bin]};
     }
-    const float lean = -this->lean(cell);
+    const float lean =
+        std::clamp((height_m_[cell] - config_.even_height_m) / config_.ramp_m, -1.0F, 1.0F);
     const float full = config_.lambda * static_cast<float>(min_cut::kCapacityScale);
     const auto cost = static_cast<std::int32_t>(lean * full);
     return {std::max(cost, 0), std::max(-cost, 0)};

@@ -52,7 +52,6 @@ Frame* PacketPipeline::next() noexcept {
 }
 
 void PacketPipeline::label(Frame& frame) noexcept {
-  method_->set_place(frame.record.info.deskew.place);
   frame.record.segmentation = method_->segment(*frame.image, {}, &clock_);
   frame.record.stages += clock_.take();
 }

@@ -43,7 +43,6 @@ class PacketPipeline {
         method_(method({.profile = profile,
                         .shape = decoder_.shape(),
                         .return_capacity = decoder_.return_capacity(),
-                        .motion_is_known = decoder.motion != nullptr,
                         .reader = decoder_.make_reader(memory)},
                        memory)),
         timing_(timing) {}

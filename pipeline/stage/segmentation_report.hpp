@@ -7,7 +7,6 @@
 
 #include "firmware_io/frame/label.hpp"
 #include "pipeline/min_cut/cut_report.hpp"
-#include "pipeline/stage/memory_report.hpp"
 #include "pipeline/stage/stage.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -21,7 +20,6 @@ struct SegmentationReport {
   std::uint32_t obstacles = 0;        ///< Returns labelled obstacle.
   Stage last_stage = Stage::kMinCut;  ///< The last stage that ran.
   min_cut::CutReport cut;             ///< All zero if there was no cut.
-  MemoryReport memory;                ///< Empty if the motion is unknown.
 
   [[nodiscard]] constexpr std::uint32_t labelled() const noexcept { return ground + obstacles; }
   /// Fills in the four counts above, given one label per return.

@@ -192,38 +192,6 @@ TEST_F(DeskewerTest, BothReturnsOfACellAreMoved) {
   EXPECT_NE(extra.x_m, owner.x_m);
 }
 
-TEST_F(DeskewerTest, FramesOfAJourneySayWhereTheSensorStood) {
-  drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
-  note(deskewer, -0.1, 3.1);
-  for (int frame = 0; frame < 3; ++frame) {
-    see(frame, kSpeed_mps, kYawRate_radps);
-    const frame::Place place = deskewer.apply(frame, image_).place;
-    const vehicle::PlanarPose wanted = pose(frame, kSpeed_mps, kYawRate_radps);  // since the first
-    EXPECT_EQ(place.journey, 1U);
-    EXPECT_NEAR(place.x_m, wanted.x_m, 1e-6);
-    EXPECT_NEAR(place.y_m, wanted.y_m, 1e-6);
-    EXPECT_NEAR(place.cosine, wanted.cosine, 1e-9);
-    EXPECT_NEAR(place.sine, wanted.sine, 1e-9);
-  }
-}
-
-TEST_F(DeskewerTest, BehindMotionThatWasMissingAJourneyBegins) {
-  Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
-  const auto place_of = [&](int frame) {
-    note(deskewer, frame - 0.1, frame + 1.1);
-    see(frame, kSpeed_mps, kYawRate_radps);
-    return deskewer.apply(frame, image_).place;
-  };
-  drive(kSpeed_mps, kYawRate_radps);  // until 440 ms
-  EXPECT_EQ(place_of(0).journey, 1U);
-  EXPECT_EQ(place_of(6).journey, 0U);
-  for (int i = 90; i < 120; ++i) {
-    EXPECT_TRUE(motion_.add({kStart_ns + i * 10'000'000, kSpeed_mps, kYawRate_radps}));
-  }
-  EXPECT_EQ(place_of(10).journey, 2U);
-}
-
 TEST_F(DeskewerTest, WithoutMotionReturnsStayAndTheFrameSaysSo) {
   Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, -0.1, 1.1);

@@ -58,13 +58,6 @@ std::vector<Figure> frame_figures(const FrameRecord& frame) {
                   {"unknown", count(cut.unknown), {}, {}, "min_cut"},
                   {"coarse", count(cut.coarse_by_cap + cut.coarse_by_budget), {}, {}, "min_cut"},
                   {"ops", count(static_cast<std::uint64_t>(cut.operations())), {}, {}, "min_cut"}});
-  if (is_deskewed(frame)) {
-    const stage::MemoryReport& memory = frame.segmentation.memory;
-    figures.insert(figures.end(), {{"used", memory.used, {}, {}, "memory"},
-                                   {"contradicted", memory.contradicted, {}, {}, "memory"},
-                                   {"priors", count(memory.priors), {}, {}, "memory"},
-                                   {"reopened", count(memory.reopened), {}, {}, "memory"}});
-  }
   return figures;
 }
 
@@ -99,8 +92,6 @@ std::vector<Figure> motion_figures(std::uint64_t samples, const FrameTotals& tot
   return {{"samples", samples, {}, {"motion", "{} samples"}, "motion"},
           {"deskewed_frames", deskewed, {}, {"motion", ": {} frames deskewed"}, "motion"},
           {{}, totals.frames - deskewed, {}, {"motion", "{} without ego motion"}},
-          {"remembering_frames", totals.remembering, {}, {}, "motion"},
-          {"contradicted_frames", totals.contradicted, {}, {"motion", "{} contradicted", Shown::kAlarm}, "motion"},
           of("median", newest_ns[newest_ns.size() / 2],
              {line, "newest sample {ms:+.1f} ms from a frame's end (median"}),
           of("min", newest_ns.front(), {line, ": {ms:+.1f}"}),
@@ -158,8 +149,6 @@ void FrameTotals::add(const FrameRecord& frame, bool has_motion) {
   returns_labelled += frame.segmentation.labelled();
   losses += frame.info.losses;
   deskewed += is_deskewed(frame) ? 1 : 0;
-  remembering += frame.segmentation.memory.used ? 1 : 0;
-  contradicted += frame.segmentation.memory.contradicted ? 1 : 0;
   if (has_motion) newest_motion_ns.push_back(frame.info.deskew.newest_motion_ns);
 }
 

@@ -41,7 +41,7 @@ struct TimeSummary {
 struct FrameTotals {
   std::uint64_t frames = 0, complete = 0, returns_in = 0, returns_labelled = 0;
   frame::LossCounters losses;
-  std::uint64_t deskewed = 0, remembering = 0, contradicted = 0;
+  std::uint64_t deskewed = 0;
   std::vector<std::int64_t> newest_motion_ns;  ///< One for each frame of a run with motion.
 
   void add(const status::FrameRecord& frame, bool has_motion);

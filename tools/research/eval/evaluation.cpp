@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -17,7 +16,6 @@
 #include <utility>
 
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/vehicle/planar_pose.hpp"
 #include "frame_judge.hpp"
 #include "frame_labeller.hpp"
 #include "pinned_thread.hpp"
@@ -61,20 +59,6 @@ struct Work {
 /// on the distribution of work.
 using FrameRun = std::vector<Work>;
 constexpr std::size_t kLongestRun = 32;
-
-constexpr frame::Place kDeparture{.journey = 1};
-
-/// Moves a place as measured by the vehicle, in the plane. `since` transforms the current frame to
-/// the previous one; without it another journey begins.
-frame::Place moved(const frame::Place& place, const std::optional<encode::RigidMotion>& since) {
-  if (!since) return {.journey = place.journey + 1};
-  const double length = std::hypot((*since)[0], (*since)[4]);
-  const vehicle::PlanarPose by{(*since)[3], (*since)[7], (*since)[0] / length,
-                               (*since)[4] / length};
-  const vehicle::PlanarPose at =
-      vehicle::PlanarPose{place.x_m, place.y_m, place.cosine, place.sine} * by;
-  return {place.journey, at.x_m, at.y_m, at.cosine, at.sine};
-}
 
 /// Estimates the mount from up to ten scans, evenly spaced over the sequence, as a run would.
 Expected<mount::FoundMount> mount_of(const datasets::Sequence& sequence) {
@@ -217,14 +201,14 @@ class Run {
     }
     datasets::LabelledScan scan;
     std::optional<std::size_t> before;  // the frame labelled last
-    frame::Place place = kDeparture;
     for (const Work& work : run) {
       if (stop_ || stop_wanted_()) return;
       if (labeller != nullptr && read_and_place(work, *labeller, scan)) {
-        const auto since = before ? sequence.motion_since(*before, work.scan) : std::nullopt;
-        place = moved(place, since);
-        if (judge) judge->look_at(scan.scan, since);
-        label_frame(work, *labeller, place, judge ? &*judge : nullptr, scan);
+        if (judge) {
+          judge->look_at(scan.scan,
+                         before ? sequence.motion_since(*before, work.scan) : std::nullopt);
+        }
+        label_frame(work, *labeller, judge ? &*judge : nullptr, scan);
         before = work.scan;
       }
       const std::scoped_lock lock(mutex_);
@@ -244,11 +228,11 @@ class Run {
     return true;
   }
 
-  void label_frame(const Work& work, FrameLabeller& labeller, const frame::Place& place,
-                   FrameJudge* judge, const datasets::LabelledScan& scan) {
+  void label_frame(const Work& work, FrameLabeller& labeller, FrameJudge* judge,
+                   const datasets::LabelledScan& scan) {
     const std::vector<std::size_t> left = keeper_.methods_left(work.sequence->name, work.frame());
     for (std::size_t i = 0; i < config_.methods.size(); ++i) {
-      FrameResult result = labeller.label(i, place);
+      FrameResult result = labeller.label(i);
       if (judge != nullptr) judge->judge(i, labeller.points(), result);
       if (std::ranges::find(left, i) == left.end()) continue;
       result.rings_realigned = scan.rings.aligned;

@@ -41,9 +41,9 @@ Status FrameLabeller::place(const scan::KittiScan& scan, const scan::RingRecover
   return {};
 }
 
-FrameResult FrameLabeller::label(std::size_t index, const frame::Place& place) {
+FrameResult FrameLabeller::label(std::size_t index) {
   FrameResult result;
-  result.times = bench_->segment(index, *placed_.image, place);
+  result.times = bench_->segment(index, *placed_.image);
   result.times.decode_ns = placed_.decode_ns;
 
   labels_.resize(scan_->points.size());

@@ -16,8 +16,8 @@
 
 namespace terracut::eval {
 
-/// Labels scans of one unit with several methods and counts the labels. Scans are independent
-/// unless the sensor's place is given. One thread.
+/// Labels scans of one unit with several methods and counts the labels. Scans are
+/// independent. One thread.
 class FrameLabeller {
  public:
   /// `methods` must outlive this object. Takes all memory.
@@ -29,8 +29,7 @@ class FrameLabeller {
   [[nodiscard]] Status place(const scan::KittiScan& scan, const scan::RingRecovery& rings);
 
   /// Labels the scan with methods[index]; points() then returns the labels until the next call.
-  /// `place` is the sensor's, for methods that remember earlier frames.
-  [[nodiscard]] FrameResult label(std::size_t index, const frame::Place& place = {});
+  [[nodiscard]] FrameResult label(std::size_t index);
 
   /// Returns one label per point of the file: kNone for invalid points; kObstacle, the safe side,
   /// for points lost on the way.

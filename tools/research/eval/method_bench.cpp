@@ -11,20 +11,15 @@ MethodBench::MethodBench(std::span<const MethodChoice> methods, const mount::Rin
                          const frame::ImageShape& shape, std::size_t return_capacity,
                          memory::FixedMemory& memory) {
   for (const MethodChoice& method : methods) {
-    methods_.push_back(baselines::maker_of(method.config)({.profile = profile,
-                                                           .shape = shape,
-                                                           .return_capacity = return_capacity,
-                                                           .motion_is_known = true},
-                                                          memory));
+    methods_.push_back(baselines::maker_of(method.config)(
+        {.profile = profile, .shape = shape, .return_capacity = return_capacity}, memory));
   }
 }
 
-FrameTimes MethodBench::segment(std::size_t index, const frame::RangeImage& image,
-                                const frame::Place& place) {
+FrameTimes MethodBench::segment(std::size_t index, const frame::RangeImage& image) {
   FrameTimes times;
   run::StageClock clock;
   const std::int64_t begun_ns = measure::thread_cpu_ns();
-  methods_[index]->set_place(place);
   (void)methods_[index]->segment(image, {}, &clock);
   times.segment_ns = measure::thread_cpu_ns() - begun_ns;
   times.stage_ns = clock.take().stage_ns;

@@ -23,10 +23,8 @@ class MethodBench {
               const frame::ImageShape& shape, std::size_t return_capacity,
               memory::FixedMemory& memory);
 
-  /// Labels with methods[index]; returns the times except decode_ns. `place` is the sensor's, for
-  /// methods that remember; unknown by default.
-  [[nodiscard]] FrameTimes segment(std::size_t index, const frame::RangeImage& image,
-                                   const frame::Place& place = {});
+  /// Labels with methods[index]; returns the times except decode_ns.
+  [[nodiscard]] FrameTimes segment(std::size_t index, const frame::RangeImage& image);
   /// Returns the labels of that method, one per return, until it runs again.
   [[nodiscard]] std::span<const frame::Label> labels(std::size_t index) const;
 

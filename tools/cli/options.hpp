@@ -199,8 +199,11 @@ struct EncodeOptions {
 };
 
 struct EvalOptions {
-  std::string dataset;                  ///< A built-in class table, "own" or "simulated".
-  std::filesystem::path root;           ///< For simulated: scenes, separated by commas.
+  std::string dataset;         ///< A built-in class table, "own", "simulated" or "hazards".
+  std::filesystem::path root;  ///< For simulated: scenes, separated by commas.
+  std::vector<std::string> more_roots;  ///< Of hazards only: the words after `root`.
+  std::vector<std::string> kinds;       ///< Kinds of hazards; empty: all.
+  int trials = 3;                       ///< Hazards of a kind for each ground, range and frame.
   std::vector<std::string> sequences;   ///< Sequences; empty: all with labels.
   std::string frames;                   ///< FIRST-LAST[:STEP]; empty: all.
   std::vector<std::string> methods;     ///< Empty: the profile's.

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "rt/files/file_place.hpp"
+#include "tools/cli/settings/eval_subject.hpp"
 #include "tools/cli/settings/setting.hpp"
 #include "tools/lab/drive/drive_files.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
@@ -84,12 +85,16 @@ std::string made_of(Command command, const RunFiles& files, const Options& optio
 }
 
 void add_evaluation(RunFiles& files, const Options& options) {
-  if (options.eval.dataset == "semantickitti") {
-    files.read("ROOT", options.eval.root / "sequences", "the dataset");
-  } else if (options.eval.dataset != "simulated") {
-    files.read("ROOT", options.eval.root, "the dataset");
+  const EvalSubject subject = subject_of(options.eval);
+  for (const fs::path& root : subject.roots) {
+    if (subject.dataset == "semantickitti") {
+      files.read("ROOT", root / "sequences", "the dataset");
+    } else if (subject.dataset != "simulated") {
+      files.read("ROOT", root, "the dataset");
+    }
   }
-  if (!options.output.json.empty() && options.eval.changes.empty()) {
+  const bool has_journal = options.eval.changes.empty() && !subject.with_hazards;
+  if (!options.output.json.empty() && has_journal) {
     files.write("the journal of --json", options.output.json.string() + ".journal");
   }
 }

@@ -19,15 +19,19 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/json_text.hpp"
+#include "tools/cli/settings/eval_subject.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/settings/words.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/research/baselines/parameter_table.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
+#include "tools/research/eval/changed_frames.hpp"
 #include "tools/research/eval/evaluation.hpp"
 #include "tools/research/eval/evaluation_json.hpp"
 #include "tools/research/eval/journal.hpp"
 #include "tools/research/eval/simulated_evaluation.hpp"
+#include "tools/research/hazards/hazard_report.hpp"
+#include "tools/research/hazards/hazard_trials.hpp"
 #include "tools/research/report/evaluation_report.hpp"
 
 namespace terracut::cli {
@@ -79,8 +83,22 @@ bool is_any_given(const Options& options, std::initializer_list<const char*> nam
   });
 }
 
+/// Checks that no option was given which hazards, or everything but hazards, do not use.
+Status check_fit_of_hazards(const Options& options, const EvalSubject& subject) {
+  const std::initializer_list<const char*> of_hazards{"MORE", "--kinds", "--trials"};
+  const std::initializer_list<const char*> of_others{"--report", "--changes", "--predictions"};
+  for (const char* const name : subject.with_hazards ? of_others : of_hazards) {
+    if (!is_any_given(options, {name})) continue;
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("`eval {}` does not know {}",
+                            subject.with_hazards ? "hazards" : subject.dataset, name));
+  }
+  return {};
+}
+
 /// Checks that no option was given which this kind of dataset does not use.
-Status check_fit(const Options& options) {
+Status check_fit(const Options& options, const EvalSubject& subject) {
+  if (const Status fits = check_fit_of_hazards(options, subject); !fits) return fits;
   const auto refuse = [&](std::string_view what) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("`eval {}` does not know {}", options.eval.dataset, what));
@@ -106,7 +124,8 @@ Status check_fit(const Options& options) {
     return refuse("--find-mount with a mount that is stated");
   }
   for (const char* const option : {"--sensor", "--returns", "--duration", "--seed"}) {
-    if (std::ranges::find(options.given, option) != options.given.end()) {
+    if (subject.with_hazards && option == std::string_view("--seed")) continue;
+    if (is_any_given(options, {option})) {
       return refuse(fmt::format("{}, only `eval simulated` does", option));
     }
   }
@@ -286,6 +305,25 @@ Expected<eval::EvaluationOutcome> evaluate_scans(const EvaluationConfig& config,
       stop_wanted);
 }
 
+/// Evaluates one dataset after the other. A frame of a name that an earlier one has does not count
+/// in the means.
+Expected<eval::EvaluationOutcome> evaluate_datasets(EvaluationConfig config,
+                                                    const EvalSubject& subject,
+                                                    std::optional<eval::Journal>& journal) {
+  eval::EvaluationOutcome all;
+  for (const std::filesystem::path& root : subject.roots) {
+    config.root = canonical_path(root);
+    auto outcome = evaluate_scans(config, journal);
+    if (!outcome) return outcome;
+    all.results.merge(outcome->results);
+    all.found_mounts.merge(outcome->found_mounts);
+    std::ranges::move(outcome->faults, std::back_inserter(all.faults));
+    all.interrupted = outcome->interrupted;
+    if (all.interrupted) break;
+  }
+  return all;
+}
+
 Expected<eval::EvaluationOutcome> evaluate_drives(const Options& options,
                                                   const EvaluationConfig& config,
                                                   std::optional<eval::Journal>& journal) {
@@ -304,7 +342,7 @@ Expected<eval::EvaluationOutcome> evaluate_drives(const Options& options,
                                            evaluating->update(static_cast<double>(done));
                                          }};
   return eval::evaluate_simulated({drives_of(options), config.frames, config.methods, config.mount,
-                                   config.find_mount, config.predictions, config.changed_frames},
+                                   config.find_mount, config.predictions, config.on_labelled},
                                   journal ? &*journal : nullptr, progress, stop_wanted);
 }
 
@@ -337,10 +375,29 @@ void add_found_mounts(const eval::EvaluationOutcome& outcome, nlohmann::ordered_
   }
 }
 
+/// Adds the trials of every method to the report, and prints them.
+void add_hazards(const hazards::HazardTrials& trials, const EvaluationConfig& config,
+                 nlohmann::ordered_json& json) {
+  json["hazards"] = {{"seed", trials.choice().seed}, {"trials", trials.choice().trials}};
+  for (std::size_t i = 0; i < config.methods.size(); ++i) {
+    const std::string& name = config.methods[i].name;
+    json["methods"][name].update(hazards::hazard_json(trials, i));
+    print_text(hazards::hazard_text(name, json["methods"][name]) + "\n");
+  }
+  if (trials.frames_without_ground() > 0) {
+    warn(fmt::format("{} frames have no labelled ground 5 to 60 m away; nothing was put into them",
+                     trials.frames_without_ground()));
+  }
+}
+
 }  // namespace
 
-ExitCode run_eval(const Options& options) {
-  if (const Status fits = check_fit(options); !fits) return refuse(fits.error());
+ExitCode run_eval(const Options& given) {
+  const EvalSubject subject = subject_of(given.eval);
+  Options options = given;
+  options.eval.dataset = subject.dataset;
+  options.eval.root = subject.roots.front();
+  if (const Status fits = check_fit(options, subject); !fits) return refuse(fits.error());
   const auto classes = classes_of(options);
   if (!classes) return refuse(classes.error());
   auto config = config_of(options, *classes);
@@ -351,11 +408,22 @@ ExitCode run_eval(const Options& options) {
   config->classes = built_in ? &*built_in : &*classes;
   std::optional<eval::ChangedFrames> changed;
   if (!options.eval.changes.empty()) {
-    config->changed_frames = &changed.emplace(config->methods, *classes);
+    changed.emplace(config->methods, *classes);
+    config->on_labelled = [&](const eval::LabelledByAll& frame) { changed->look(frame); };
+  }
+  std::optional<hazards::HazardTrials> trials;
+  if (subject.with_hazards) {
+    hazards::HazardChoice choice;
+    choice.trials = options.eval.trials;
+    choice.seed = options.simulate.seed;
+    const Status chosen = hazards::choose(options.eval.kinds, choice);
+    if (!chosen) return refuse(chosen.error());
+    trials.emplace(config->methods, *classes, std::move(choice));
+    config->on_labelled = [&](const eval::LabelledByAll& frame) { trials->look(frame); };
   }
   std::optional<eval::Journal> journal;
   // Frames in a journal are not labelled again, and the journal does not have their labels.
-  if (!options.output.json.empty() && options.eval.changes.empty()) {
+  if (!options.output.json.empty() && !config->on_labelled) {
     auto opened = eval::Journal::open(journal_path(options), settings_line(options, *config));
     if (!opened) return refuse(opened.error());
     journal.emplace(*std::move(opened));
@@ -363,7 +431,7 @@ ExitCode run_eval(const Options& options) {
 
   catch_stop_signals();
   const auto outcome = is_simulated(options) ? evaluate_drives(options, *config, journal)
-                                             : evaluate_scans(*config, journal);
+                                             : evaluate_datasets(*config, subject, journal);
   if (!outcome) return refuse(outcome.error());
 
   auto json = eval::evaluation_json(
@@ -372,6 +440,7 @@ ExitCode run_eval(const Options& options) {
   add_facts_of_dataset(options, *classes, json);
   add_found_mounts(*outcome, json);
   say_outcome(*outcome, json);
+  if (trials) add_hazards(*trials, *config, json);
   print_text(eval::evaluation_text(json));
   if (outcome->interrupted) {
     warn(journal ? "interrupted; the same command goes on from here" : "interrupted");

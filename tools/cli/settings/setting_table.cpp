@@ -62,7 +62,7 @@ ChoiceField method_choice(std::string& method) {
 ChoiceField dataset_choice(std::string& dataset) {
   std::vector<std::string_view> names;
   for (const auto& table : datasets::built_in_tables()) names.push_back(table.dataset);
-  names.insert(names.end(), {"own", "simulated"});
+  names.insert(names.end(), {"own", "simulated", "hazards"});
   return name_choice(dataset, names);
 }
 
@@ -75,10 +75,12 @@ constexpr std::array kSettings{
             .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
     Setting{.option = "SCANS_DIR", .commands = C::kSegment | C::kEncode, .required_by = C::kSegment | C::kEncode, .help = "Folder of scans (.bin; segment: .pcd.bin, .pcd and .ply, too, or one file), or a SemanticKITTI sequence folder",
             .field = [](O& o) -> F { return &o.scans; }},
-    Setting{.option = "DATASET", .commands = C::kEval, .required_by = C::kEval, .help = "Which dataset, or own clouds, or drives to simulate",
+    Setting{.option = "DATASET", .commands = C::kEval, .required_by = C::kEval, .help = "Which dataset, or own clouds, or drives to simulate; hazards: what\nlies in the road and ghosts, put into any of them",
             .field = [](O& o) -> F { return dataset_choice(o.eval.dataset); }},
-    Setting{.option = "ROOT", .commands = C::kEval, .required_by = C::kEval, .help = "Folder of the dataset, laid out as its class table says (see\ndocs/reference/evaluation.md); simulated: scenes, like street,hill",
+    Setting{.option = "ROOT", .commands = C::kEval, .required_by = C::kEval, .help = "Folder of the dataset, laid out as its class table says (see\ndocs/reference/evaluation.md); simulated: scenes, like street,hill;\nhazards: a dataset and its ROOTs, or semantickitti's alone",
             .field = [](O& o) -> F { return &o.eval.root; }},
+    Setting{.option = "MORE", .commands = C::kEval, .help = "hazards: more of them",
+            .form = TextForm::kList, .field = [](O& o) -> F { return &o.eval.more_roots; }},
     Setting{.option = "NAME", .commands = C::kDump | C::kTop, .help = "Name of the process (default: the only one that runs)",
             .form = TextForm::kName, .field = [](O& o) -> F { return &o.watched; }},
     Setting{.option = "-o,--output", .commands = C::kSimulate | C::kEncode, .required_by = C::kEncode, .help = "Capture to write; its table and truth go beside it",
@@ -379,6 +381,10 @@ constexpr std::array kSettings{
             .form = TextForm::kList, .field = [](O& o) -> F { return &o.eval.methods; }},
     Setting{.option = "--variant", .commands = C::kEval, .help = "NAME=METHOD,KEY=VALUE,...: one more, a method with other parameters; repeatable",
             .field = [](O& o) -> F { return &o.eval.variants; }},
+    Setting{.option = "--kinds", .commands = C::kEval, .help = "hazards: only these, like lying_person,ghosts_1 (default: all)",
+            .form = TextForm::kList, .field = [](O& o) -> F { return &o.eval.kinds; }},
+    Setting{.option = "--trials", .commands = C::kEval, .help = "hazards: how many of a kind for each ground, range and frame",
+            .least = 1, .most = 1000, .field = [](O& o) -> F { return &o.eval.trials; }},
     Setting{.option = "--through", .commands = C::kEval, .help = "image: scans straight into the range image; packets: encoded and decoded first (default: image)",
             .field = [](O& o) -> F { return choice(o.eval.through_packets, kThroughWords); }},
     Setting{.option = "--find-mount", .commands = C::kEval, .help = "Label by the mount that each sequence or drive shows, as runs do (default: the stated one, 1.73 m and level)",

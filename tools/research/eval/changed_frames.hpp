@@ -4,29 +4,18 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <mutex>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "firmware_io/frame/label.hpp"
-#include "firmware_io/frame/range_image.hpp"
 #include "pipeline/pictures/png_picture.hpp"
 #include "rt/error.hpp"
 #include "tools/research/datasets/class_table.hpp"
+#include "tools/research/eval/labelled_by_all.hpp"
 #include "tools/research/eval/method_choice.hpp"
 
 namespace terracut::eval {
-
-/// A frame labelled by every method; all data by return index of `image`.
-struct LabelledByAll {
-  const std::string& sequence;
-  const std::string& frame;
-  const frame::RangeImage& image;
-  std::span<const std::uint32_t> truth;  ///< Classes as in label files.
-  std::function<std::span<const frame::Label>(std::size_t)> labels_of;  ///< By index of the method.
-};
 
 /// Keeps one frame for every method but the first, as a picture from above: the frame in which most
 /// returns are ground to one of the two methods and obstacle to the other. The left half shows the

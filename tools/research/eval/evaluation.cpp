@@ -242,18 +242,19 @@ class Run {
         return;
       }
     }
-    if (config_.changed_frames != nullptr && left.size() == config_.methods.size()) {
-      show_changes(work, labeller, scan.scan);
+    if (config_.on_labelled && left.size() == config_.methods.size()) {
+      show_labels(work, labeller, scan.scan);
     }
   }
 
-  void show_changes(const Work& work, const FrameLabeller& labeller, const scan::KittiScan& scan) {
+  void show_labels(const Work& work, const FrameLabeller& labeller, const scan::KittiScan& scan) {
     std::vector<std::uint32_t> truth;
     for (const std::uint32_t point : labeller.placed().point_of_return) {
       truth.push_back(scan.labels[point]);
     }
-    config_.changed_frames->look({work.sequence->name, work.frame(), *labeller.placed().image,
-                                  truth, [&](std::size_t i) { return labeller.returns(i); }});
+    config_.on_labelled({work.sequence->name, work.frame(), *labeller.placed().image,
+                         work.sequence->profile, truth,
+                         [&](std::size_t i) { return labeller.returns(i); }});
   }
 
   void note(const Work& work, std::string what) {

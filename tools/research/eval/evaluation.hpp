@@ -16,7 +16,7 @@
 #include "rt/error.hpp"
 #include "tools/research/datasets/class_table.hpp"
 #include "tools/research/datasets/dataset.hpp"
-#include "tools/research/eval/changed_frames.hpp"
+#include "tools/research/eval/labelled_by_all.hpp"
 
 namespace terracut::eval {
 
@@ -40,8 +40,7 @@ struct EvaluationConfig {
   /// Tells tall and immobile classes; null: neither is counted. Must outlive the run.
   const datasets::ClassTable* classes = nullptr;
   std::filesystem::path predictions;  ///< Folder; empty: none are written.
-  /// Receives every frame that all methods label; may be null.
-  ChangedFrames* changed_frames = nullptr;
+  LabelledByAllSink on_labelled;  ///< Receives every frame that all methods label; may be empty.
 };
 
 /// A failure to evaluate something.

@@ -103,8 +103,8 @@ class DriveEvaluation {
         scene_(std::move(scene)),
         truth_folder_(std::move(truth)),
         decoder_(calibration, mount, decoder_config(columns), memory_),
-        bench_(config.methods, calib::ring_profile(calibration, mount), decoder_.shape(),
-               decoder_.return_capacity(), memory_),
+        profile_(calib::ring_profile(calibration, mount)),
+        bench_(config.methods, profile_, decoder_.shape(), decoder_.return_capacity(), memory_),
         keeper_(keeper),
         on_frame_done_(std::move(on_frame_done)) {}
 
@@ -166,9 +166,9 @@ class DriveEvaluation {
         return;
       }
     }
-    if (config_.changed_frames != nullptr && methods.size() == config_.methods.size()) {
-      config_.changed_frames->look(
-          {scene_, frame, image, truth_, [&](std::size_t i) { return bench_.labels(i); }});
+    if (config_.on_labelled && methods.size() == config_.methods.size()) {
+      config_.on_labelled({scene_, frame, image, profile_, truth_,
+                           [&](std::size_t i) { return bench_.labels(i); }});
     }
   }
 
@@ -185,6 +185,7 @@ class DriveEvaluation {
   fs::path truth_folder_;
   memory::FixedMemory memory_;
   decode::Decoder decoder_;
+  mount::RingProfile profile_;
   MethodBench bench_;
   ResultKeeper& keeper_;
   std::function<void()> on_frame_done_;

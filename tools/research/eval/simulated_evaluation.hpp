@@ -34,7 +34,7 @@ struct SimulatedConfig {
   mount::Mount mount;       ///< Mount of the simulated sensor.
   bool find_mount = false;  ///< Labels with the mount estimated from the drive's first frames.
   std::filesystem::path predictions;  ///< As EvaluationConfig::predictions: one label per return.
-  ChangedFrames* changed_frames = nullptr;  ///< As EvaluationConfig::changed_frames.
+  LabelledByAllSink on_labelled;      ///< As EvaluationConfig::on_labelled.
 };
 
 /// Called from the calling thread or another, one at a time.

@@ -31,7 +31,8 @@ class ChangedFramesTest : public testing::Test {
   void look(const std::string& frame, const std::vector<Label>& first,
             const std::vector<Label>& other) {
     static const std::string kSequence = "00";
-    changed_.look({kSequence, frame, image_, truth_,
+    static const mount::RingProfile kProfile;
+    changed_.look({kSequence, frame, image_, kProfile, truth_,
                    [&](std::size_t i) { return std::span(i == 0 ? first : other); }});
   }
   [[nodiscard]] nlohmann::json written() const {
@@ -82,13 +83,13 @@ TEST_F(ChangedFramesTest, AreDrawnForEveryMethodOfADatasetAndOfADriveButTheFirst
   scans.root = dataset.root();
   scans.methods = methods_;
   scans.jobs = 2;
-  scans.changed_frames = &of_scans;
+  scans.on_labelled = [&](const LabelledByAll& frame) { of_scans.look(frame); };
   ASSERT_TRUE(
       eval::evaluate(scans, nullptr, [](std::size_t, std::size_t) {}, [] { return false; }));
   SimulatedConfig drive;
   drive.drives = {.scenes = {"street"}, .duration_s = 0.1};
   drive.methods = methods_;
-  drive.changed_frames = &of_drive;
+  drive.on_labelled = [&](const LabelledByAll& frame) { of_drive.look(frame); };
   ASSERT_TRUE(eval::evaluate_simulated(drive, nullptr,
                                        {[](double, double) {}, [](std::size_t, std::size_t) {}},
                                        [] { return false; }));

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ground_kind.hpp"
+#include "hazard_choice.hpp"
+#include "tools/research/datasets/class_table.hpp"
+#include "tools/research/eval/labelled_by_all.hpp"
+#include "tools/research/eval/method_choice.hpp"
+#include "trial_counts.hpp"
+
+namespace terracut::hazards {
+
+/// Which trials are counted together.
+struct TrialKey {
+  std::size_t kind = 0;  ///< Index in HazardChoice::kinds.
+  GroundKind ground = GroundKind::kRoad;
+  std::size_t bin = 0;  ///< Index in kRangeBins.
+  friend auto operator<=>(const TrialKey&, const TrialKey&) = default;
+};
+
+/// The trials of one method.
+struct MethodTrials {
+  std::map<TrialKey, TrialCounts> hazards;
+  /// By disturbance, its index in HazardChoice, and sequence.
+  std::map<std::size_t, std::map<std::string, Elsewhere>> disturbances;
+};
+
+/// Puts hazards, one at a time, and disturbances into labelled frames, and counts what methods make
+/// of them. What is drawn depends only on the seed, the names of sequence and frame, and the word
+/// of what is put there; the result does not depend on the order of frames. From any thread.
+class HazardTrials {
+ public:
+  /// `methods` and `classes` must outlive this object.
+  HazardTrials(std::span<const eval::MethodChoice> methods, const datasets::ClassTable& classes,
+               HazardChoice choice)
+      : methods_(methods), classes_(classes), choice_(std::move(choice)), trials_(methods.size()) {}
+
+  /// Tries everything on a frame.
+  void look(const eval::LabelledByAll& frame);
+
+  [[nodiscard]] const HazardChoice& choice() const noexcept { return choice_; }
+  /// Returns the trials by method. Only when no frame is looked at.
+  [[nodiscard]] const std::vector<MethodTrials>& trials() const noexcept { return trials_; }
+  /// Returns the number of frames without any labelled ground 5 to 60 m away.
+  [[nodiscard]] std::size_t frames_without_ground() const noexcept {
+    return frames_without_ground_;
+  }
+
+ private:
+  std::span<const eval::MethodChoice> methods_;
+  const datasets::ClassTable& classes_;
+  HazardChoice choice_;
+  std::mutex mutex_;  ///< Guards the following members.
+  std::vector<MethodTrials> trials_;
+  std::size_t frames_without_ground_ = 0;
+};
+
+}  // namespace terracut::hazards

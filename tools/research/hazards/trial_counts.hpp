@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/frame/label.hpp"
+#include "moved_return.hpp"
+#include "tools/lab/quality/quality.hpp"
+
+namespace terracut::hazards {
+
+struct LabelledFrame;
+
+/// How many returns must count for a trial to be one.
+inline constexpr std::uint64_t kFewestReturns = 4;
+
+/// The returns of one hazard that count, and how many of them are called obstacle.
+struct SeenHazard {
+  std::uint64_t returns = 0, as_obstacle = 0;
+
+  /// True if at least two of the returns and at least 30 % of them are called obstacle.
+  [[nodiscard]] constexpr bool is_found() const noexcept {
+    return as_obstacle >= 2 && 10 * as_obstacle >= 3 * returns;
+  }
+};
+
+[[nodiscard]] SeenHazard seen_hazard(const MovedReturns& moved,
+                                     std::span<const frame::Label> labels) noexcept;
+
+/// The returns that a trial leaves where they were, as labelled without it and with it.
+struct Elsewhere {
+  quality::Quality before, after;
+
+  Elsewhere& operator+=(const Elsewhere& other) noexcept {
+    before += other.before;
+    after += other.after;
+    return *this;
+  }
+};
+
+[[nodiscard]] Elsewhere elsewhere(const LabelledFrame& frame, const MovedReturns& moved,
+                                  std::span<const frame::Label> before,
+                                  std::span<const frame::Label> after) noexcept;
+
+/// The trials of one kind of hazard, on one ground, at one distance.
+struct TrialCounts {
+  std::uint64_t trials = 0, found = 0;
+  std::uint64_t unseen = 0;  ///< Trials with not one return called obstacle.
+  std::uint64_t returns = 0, as_obstacle = 0;
+  Elsewhere elsewhere;
+
+  void add(const SeenHazard& seen, const Elsewhere& of_trial) noexcept {
+    ++trials;
+    found += seen.is_found() ? 1 : 0;
+    unseen += seen.as_obstacle == 0 ? 1 : 0;
+    returns += seen.returns;
+    as_obstacle += seen.as_obstacle;
+    elsewhere += of_trial;
+  }
+  TrialCounts& operator+=(const TrialCounts& other) noexcept {
+    trials += other.trials;
+    found += other.found;
+    unseen += other.unseen;
+    returns += other.returns;
+    as_obstacle += other.as_obstacle;
+    elsewhere += other.elsewhere;
+    return *this;
+  }
+};
+
+}  // namespace terracut::hazards

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/label.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "labelled_frame.hpp"
+#include "moved_return.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "tools/research/eval/method_bench.hpp"
+#include "tools/research/eval/method_choice.hpp"
+
+namespace terracut::hazards {
+
+/// Labels one frame with some of its returns moved, again and again, each time by itself.
+class TrialLabels {
+ public:
+  /// The first two arguments must outlive this object.
+  TrialLabels(std::span<const eval::MethodChoice> methods, const LabelledFrame& frame,
+              const mount::RingProfile& profile);
+
+  /// Labels the frame with every method.
+  void label(const MovedReturns& moved);
+
+  /// Returns the labels of methods[index] by return index of the frame, until label() is called
+  /// again: kNone for returns that are gone.
+  [[nodiscard]] std::span<const frame::Label> of(std::size_t index) const { return labels_[index]; }
+
+ private:
+  void place(const MovedReturns& moved);
+
+  const LabelledFrame& frame_;
+  memory::FixedMemory memory_;
+  frame::RangeImage image_;
+  eval::MethodBench bench_;
+  std::vector<std::uint32_t> placed_;              ///< By return of image_: its index in the frame.
+  std::vector<std::vector<frame::Label>> labels_;  ///< By method.
+};
+
+}  // namespace terracut::hazards

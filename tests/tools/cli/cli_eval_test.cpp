@@ -303,5 +303,37 @@ TEST_F(CliEval, RefusesOptionsThatADatasetWouldNotUse) {
   expect_refusal("own .", "--classes FILE");
 }
 
+TEST_F(CliEval, PutsHazardsIntoScansAndDrives) {
+  const eval::MadeUpDataset made_up;
+  const std::string eval = "eval hazards " + quoted(made_up.root()) + " --frames 0 --trials 1 ";
+  const Outcome outcome = run(eval + "--kinds child,ghosts_1 --json hazards.json");
+  ASSERT_EQ(outcome.exit_code, kOk) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("not one return"), HasSubstr("child"), HasSubstr("ghosts_1")));
+  const auto report = json("hazards.json");
+  EXPECT_EQ(report.at("hazards").at("seed"), 1);
+  const auto& method = report.at("methods").at("terracut");
+  EXPECT_FALSE(method.at("hazards").empty());
+  EXPECT_EQ(method.at("disturbances").size(), 1U);
+  EXPECT_EQ(method.at("frames").size(), 2U) << "and what eval measures without them";
+  EXPECT_FALSE(fs::exists(folder_ / "hazards.json.journal"));
+
+  expect_done(
+      "eval hazards simulated flat --duration 0.1 --kinds box_30cm --trials 1 --json drive.json");
+  EXPECT_FALSE(json("drive.json").at("methods").at("terracut").at("hazards").empty());
+
+  const Outcome unknown = run(eval + "--kinds elephant");
+  EXPECT_EQ(unknown.exit_code, kUsage);
+  EXPECT_THAT(unknown.err, HasSubstr("no hazard 'elephant'"));
+  EXPECT_EQ(run(eval + "--report report").exit_code, kUsage);
+  EXPECT_EQ(run("eval semantickitti " + quoted(made_up.root()) + " --kinds child").exit_code,
+            kUsage);
+  write("buildings.yaml",
+        "classes:\n  - {id: 40, name: building, all: ordinary, road: ordinary}\n");
+  const Outcome no_ground = run(eval + "--classes buildings.yaml");
+  EXPECT_EQ(no_ground.exit_code, kNothingCameOut);
+  EXPECT_THAT(no_ground.err, HasSubstr("no place for any of these hazards"));
+}
+
 }  // namespace
 }  // namespace terracut::cli

@@ -455,6 +455,12 @@ ExitCode run_eval(const Options& given) {
     return refuse(kNothingCameOut,
                   "no frame was evaluated; see the warnings, --sequences, --frames");
   }
+  if (trials && trials->is_empty() && !outcome->interrupted) {
+    return refuse(
+        kNothingCameOut,
+        "there is no place for any of these hazards: they are put on labelled ground 5 to "
+        "60 m away, where nothing else stands and 4 returns show them");
+  }
   if (!options.eval.report.empty() && !outcome->interrupted) {
     const Status written =
         write_report(options.eval.report, {json, *config, *classes, !is_simulated(options)});

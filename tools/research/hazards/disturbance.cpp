@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "disturbance.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -51,12 +52,13 @@ bool spray(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedRet
   return true;
 }
 
-/// Some beams end at a flake, which are 2 to 30 m away.
+/// Some beams end at a flake, 2 to 20 m away.
 template <int kPercent>
 bool snow(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedReturn& moved) {
-  if (!random.chance(kPercent / 100.0)) return false;
-  moved.range_m = random.uniform(2, 30);
-  return moved.range_m < frame.range_m[i];
+  constexpr double kNearest_m = 2, kFarthest_m = 20;
+  if (frame.range_m[i] <= kNearest_m || !random.chance(kPercent / 100.0)) return false;
+  moved.range_m = random.uniform(kNearest_m, std::min(kFarthest_m, frame.range_m[i]));
+  return true;
 }
 
 /// Nothing is seen in a sector of 20 degrees, ahead to the right.
@@ -74,8 +76,8 @@ constexpr std::array kDisturbances{
     Disturbance{"ghosts_5", "5 % of low returns 1.1 to 1.6 times as far", ghost<50>},
     Disturbance{"puddle", "half of its ground returns 1.3 to 2.5 times as far", puddle},
     Disturbance{"spray", "3 beams of 10 end in a cloud 6 to 14 m ahead", spray},
-    Disturbance{"snow_1", "1 % of beams end 2 to 30 m away", snow<1>},
-    Disturbance{"snow_10", "10 % of beams end 2 to 30 m away", snow<10>},
+    Disturbance{"snow_1", "1 % of beams end 2 to 20 m away", snow<1>},
+    Disturbance{"snow_10", "10 % of beams end 2 to 20 m away", snow<10>},
     Disturbance{"dirt", "nothing is seen in a sector of 20 degrees", dirt},
 };
 

@@ -98,6 +98,12 @@ class FrameTrials {
 
 }  // namespace
 
+bool HazardTrials::is_empty() const {
+  return std::ranges::all_of(trials_, [](const MethodTrials& of_method) {
+    return of_method.hazards.empty() && of_method.disturbances.empty();
+  });
+}
+
 void HazardTrials::look(const eval::LabelledByAll& seen) {
   const LabelledFrame frame = labelled_frame(seen.image, seen.truth, seen.profile.mount, classes_);
   const Spots spots(frame);

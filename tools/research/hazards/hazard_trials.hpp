@@ -50,6 +50,8 @@ class HazardTrials {
   [[nodiscard]] const HazardChoice& choice() const noexcept { return choice_; }
   /// Returns the trials by method. Only when no frame is looked at.
   [[nodiscard]] const std::vector<MethodTrials>& trials() const noexcept { return trials_; }
+  /// True if there was no place for anything in any frame. Only when no frame is looked at.
+  [[nodiscard]] bool is_empty() const;
   /// Returns the number of frames without any labelled ground 5 to 60 m away.
   [[nodiscard]] std::size_t frames_without_ground() const noexcept {
     return frames_without_ground_;

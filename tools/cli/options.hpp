@@ -213,6 +213,7 @@ struct EvalOptions {
   int jobs = 0;                         ///< Parallel jobs; 0: one per core.
   std::filesystem::path classes;        ///< Empty: the dataset's own table.
   std::filesystem::path predictions, report;
+  std::filesystem::path hazard_scans;  ///< Folder for scans with hazards; empty: none are written.
   std::filesystem::path changes;  ///< Given: no journal is kept.
 };
 

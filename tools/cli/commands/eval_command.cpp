@@ -85,7 +85,7 @@ bool is_any_given(const Options& options, std::initializer_list<const char*> nam
 
 /// Checks that no option was given which hazards, or everything but hazards, do not use.
 Status check_fit_of_hazards(const Options& options, const EvalSubject& subject) {
-  const std::initializer_list<const char*> of_hazards{"MORE", "--kinds", "--trials"};
+  const std::initializer_list<const char*> of_hazards{"MORE", "--kinds", "--trials", "--write"};
   const std::initializer_list<const char*> of_others{"--report", "--changes", "--predictions"};
   for (const char* const name : subject.with_hazards ? of_others : of_hazards) {
     if (!is_any_given(options, {name})) continue;
@@ -411,6 +411,7 @@ ExitCode run_eval(const Options& given) {
     changed.emplace(config->methods, *classes);
     config->on_labelled = [&](const eval::LabelledByAll& frame) { changed->look(frame); };
   }
+  std::optional<hazards::ScanWriter> writer;
   std::optional<hazards::HazardTrials> trials;
   if (subject.with_hazards) {
     hazards::HazardChoice choice;
@@ -418,7 +419,8 @@ ExitCode run_eval(const Options& given) {
     choice.seed = options.simulate.seed;
     const Status chosen = hazards::choose(options.eval.kinds, choice);
     if (!chosen) return refuse(chosen.error());
-    trials.emplace(config->methods, *classes, std::move(choice));
+    if (!options.eval.hazard_scans.empty()) writer.emplace(options.eval.hazard_scans);
+    trials.emplace(config->methods, *classes, std::move(choice), writer ? &*writer : nullptr);
     config->on_labelled = [&](const eval::LabelledByAll& frame) { trials->look(frame); };
   }
   std::optional<eval::Journal> journal;
@@ -465,6 +467,9 @@ ExitCode run_eval(const Options& given) {
     const Status written =
         write_report(options.eval.report, {json, *config, *classes, !is_simulated(options)});
     if (!written) return refuse(written.error());
+  }
+  if (writer) {
+    if (const Status written = writer->finish(); !written) return refuse(written.error());
   }
   if (changed && !outcome->interrupted) {
     const Status written = changed->write(options.eval.changes);

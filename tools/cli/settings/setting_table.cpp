@@ -385,6 +385,8 @@ constexpr std::array kSettings{
             .form = TextForm::kList, .field = [](O& o) -> F { return &o.eval.kinds; }},
     Setting{.option = "--trials", .commands = C::kEval, .help = "hazards: how many of a kind for each ground, range and frame",
             .least = 1, .most = 1000, .field = [](O& o) -> F { return &o.eval.trials; }},
+    Setting{.option = "--write", .commands = C::kEval, .help = "hazards: folder for every scan they were put into, as SemanticKITTI's, and\nhazards.json, which says what each shows",
+            .writes = Kind::kFolder, .field = [](O& o) -> F { return &o.eval.hazard_scans; }},
     Setting{.option = "--through", .commands = C::kEval, .help = "image: scans straight into the range image; packets: encoded and decoded first (default: image)",
             .field = [](O& o) -> F { return choice(o.eval.through_packets, kThroughWords); }},
     Setting{.option = "--find-mount", .commands = C::kEval, .help = "Label by the mount that each sequence or drive shows, as runs do (default: the stated one, 1.73 m and level)",

@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "hazard_trials.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "beam_cast.hpp"
@@ -23,15 +25,17 @@ std::uint64_t key_of(std::uint64_t key, std::string_view name) {
 class FrameTrials {
  public:
   FrameTrials(std::span<const eval::MethodChoice> methods, const HazardChoice& choice,
-              const LabelledFrame& frame, const eval::LabelledByAll& seen)
+              const LabelledFrame& frame, const eval::LabelledByAll& seen, ScanWriter* writer)
       : choice_(choice),
         frame_(frame),
-        sequence_(seen.sequence),
+        seen_(seen),
+        writer_(writer),
         key_(key_of(key_of(choice.seed, seen.sequence), seen.frame)),
         labels_(methods, frame, seen.profile),
         clear_(methods.size()),
         trials_(methods.size()) {
     labels_.label({});
+    write({.name = "clear"}, {});
     for (std::size_t i = 0; i < clear_.size(); ++i) {
       clear_[i].assign(labels_.of(i).begin(), labels_.of(i).end());
     }
@@ -54,8 +58,10 @@ class FrameTrials {
       const Disturbance& disturbance = *choice_.disturbances[i];
       const MovedReturns moved = disturbed(frame_, disturbance, key_of(key_, disturbance.word));
       labels_.label(moved);
+      const std::string word(disturbance.word);
+      write({.name = word, .what = word}, moved);
       for (std::size_t method = 0; method < trials_.size(); ++method) {
-        trials_[method].disturbances[i][sequence_] += unmoved(method, moved);
+        trials_[method].disturbances[i][seen_.sequence] += unmoved(method, moved);
       }
     }
   }
@@ -77,10 +83,26 @@ class FrameTrials {
       return;
     }
     labels_.label(moved);
+    const RangeBin& bin = kRangeBins[at.bin];
+    write({.name =
+               fmt::format("{}_{}_{:02.0f}_{}", kind.word, to_string(at.ground), bin.from_m, trial),
+           .what = std::string(kind.word),
+           .ground = std::string(to_string(at.ground)),
+           .from_m = bin.from_m,
+           .to_m = bin.to_m},
+          moved);
     for (std::size_t method = 0; method < trials_.size(); ++method) {
       trials_[method].hazards[at].add(seen_hazard(moved, labels_.of(method)),
                                       unmoved(method, moved));
     }
+  }
+
+  /// `scan` has the end of its name and no sequence yet.
+  void write(WrittenScan scan, const MovedReturns& moved) const {
+    if (writer_ == nullptr) return;
+    scan.sequence = seen_.sequence;
+    scan.name = seen_.frame + "_" + scan.name;
+    writer_->write(scan, frame_, seen_.profile.mount, moved);
   }
 
   [[nodiscard]] Elsewhere unmoved(std::size_t method, const MovedReturns& moved) const {
@@ -89,7 +111,8 @@ class FrameTrials {
 
   const HazardChoice& choice_;
   const LabelledFrame& frame_;
-  const std::string& sequence_;
+  const eval::LabelledByAll& seen_;
+  ScanWriter* writer_;
   std::uint64_t key_;
   TrialLabels labels_;
   std::vector<std::vector<frame::Label>> clear_;  ///< Without anything put in, by method.
@@ -112,7 +135,7 @@ void HazardTrials::look(const eval::LabelledByAll& seen) {
     ++frames_without_ground_;
     return;
   }
-  FrameTrials of_frame(methods_, choice_, frame, seen);
+  FrameTrials of_frame(methods_, choice_, frame, seen, writer_);
   of_frame.put_hazards(spots);
   of_frame.disturb();
 

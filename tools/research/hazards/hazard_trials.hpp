@@ -12,6 +12,7 @@
 
 #include "ground_kind.hpp"
 #include "hazard_choice.hpp"
+#include "scan_writer.hpp"
 #include "tools/research/datasets/class_table.hpp"
 #include "tools/research/eval/labelled_by_all.hpp"
 #include "tools/research/eval/method_choice.hpp"
@@ -39,10 +40,15 @@ struct MethodTrials {
 /// of what is put there; the result does not depend on the order of frames. From any thread.
 class HazardTrials {
  public:
-  /// `methods` and `classes` must outlive this object.
+  /// `methods`, `classes` and `writer` must outlive this object. Every frame is also written, with
+  /// each thing that was put into it and without, if `writer` is not null.
   HazardTrials(std::span<const eval::MethodChoice> methods, const datasets::ClassTable& classes,
-               HazardChoice choice)
-      : methods_(methods), classes_(classes), choice_(std::move(choice)), trials_(methods.size()) {}
+               HazardChoice choice, ScanWriter* writer = nullptr)
+      : methods_(methods),
+        classes_(classes),
+        choice_(std::move(choice)),
+        writer_(writer),
+        trials_(methods.size()) {}
 
   /// Tries everything on a frame.
   void look(const eval::LabelledByAll& frame);
@@ -61,6 +67,7 @@ class HazardTrials {
   std::span<const eval::MethodChoice> methods_;
   const datasets::ClassTable& classes_;
   HazardChoice choice_;
+  ScanWriter* writer_;
   std::mutex mutex_;  ///< Guards the following members.
   std::vector<MethodTrials> trials_;
   std::size_t frames_without_ground_ = 0;

@@ -6,6 +6,7 @@
 """
 
 import io
+import json
 import os
 import struct
 import subprocess
@@ -20,6 +21,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tools/research"))
 
 from peers import main as tool  # noqa: E402
 from peers.drives import Drive, kitti_scan, roles  # noqa: E402
+from peers.hazards import Found, Scans, disturbance_rows, hazard_rows  # noqa: E402
 from peers.programs import FROM_PACKETS, PASSES, Peer  # noqa: E402
 from peers.sources import PeerSource, Source, Unavailable, build, fetch  # noqa: E402
 
@@ -88,6 +90,41 @@ class Answers(InAFolder):
         with self.assertRaises(SystemExit) as refused:
             peer.times(drive)
         self.assertIn("000001.bin: not a scan", str(refused.exception))
+
+
+class Hazards(InAFolder):
+    """The made-up peer calls the first point of each scan ground, everything else obstacle."""
+
+    HAZARD = 99 | 1 << 16
+
+    def found(self, *scans):
+        """Scans are (what they show, true classes)."""
+        folder = self.root / "hazards"
+        for kind in ("velodyne", "labels"):
+            (folder / "sequences/00" / kind).mkdir(parents=True)
+        shown = []
+        for number, (what, classes) in enumerate(scans):
+            shown.append({"sequence": "00", "scan": f"{number:06}"} | what)
+            (folder / f"sequences/00/velodyne/{number:06}.bin").write_bytes(bytes(16 * len(classes)))
+            (folder / f"sequences/00/labels/{number:06}.label").write_bytes(array("I", classes).tobytes())
+        (folder / "hazards.json").write_text(json.dumps({"scans": shown}))
+        program = self.root / "peer"
+        program.write_text(PEER)
+        program.chmod(0o755)
+        found = Found()
+        found.label(Peer("p", program, None), Scans(folder), self.root / "labels", roles())
+        return found
+
+    def test_a_hazard_is_found_by_two_returns_and_thirty_percent_of_them(self):
+        child = {"what": "child", "ground": "road", "from_m": 5, "to_m": 10}
+        found = self.found((child, [40, 40] + 4 * [self.HAZARD]), (child, [self.HAZARD, 40]), (child, [40, self.HAZARD]))
+        self.assertEqual(found.trials["child", "road", 5, 10], {"trials": 3, "found": 1, "unseen": 1})
+        self.assertEqual(dict(hazard_rows([found])), {"child, road, 5 to 10 m (3)": ["33 / 33"]})
+
+    def test_a_disturbance_is_scored_where_nothing_moved(self):
+        found = self.found(({"what": "ghosts_1"}, [40, 40, 0, 10]), ({"what": ""}, [40, 10]))
+        rows = dict(disturbance_rows([found], roles(), lambda scores: scores))
+        self.assertEqual(rows, {"ghosts_1": [[(0.5, 1.0)]], "nothing": [[(1.0, 1.0)]]})
 
 
 class Clouds(unittest.TestCase):

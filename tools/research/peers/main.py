@@ -14,6 +14,10 @@ has come. A peer gets the points decoded from these packets in its own container
 program over every drive: one pass to warm up and two that count. p50 and p99 are over all frames of all rounds, "x" is the
 ratio of medians. IoU_g and Recall_o count all ground; each is computed for a drive's points together. The last rows show
 their means over recorded and over simulated drives. The program is build/release/terracut or $TERRACUT.
+
+With `--hazards` no time is measured. `terracut eval hazards` puts hazards into the scans of the given roots, every program
+labels the same clouds, and the tables show what each of them finds, counted as `eval hazards` counts. terracut is
+build/release/tests/bench/cloud_peer then.
 """
 
 import argparse
@@ -26,6 +30,7 @@ import tempfile
 from pathlib import Path
 
 from peers.drives import recorded, roles, simulated
+from peers.hazards import Found, disturbance_rows, hazard_rows, written
 from peers.programs import FROM_PACKETS, Peer, Terracut
 from peers.sources import PEERS, Unavailable, build
 from whole_file import write_whole_file
@@ -121,11 +126,36 @@ def arguments(given):
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)))
     parser.add_argument("--json", type=Path, help="file for every single time")
+    parser.add_argument("--hazards", nargs="?", const="", metavar="KIND,...", help="what `terracut eval hazards` puts into "
+                        "the scans of the roots (default: all kinds), found by each program")  # fmt: skip
+    parser.add_argument("--trials", type=int, default=1, help="of a kind for each ground, range and frame (default: 1)")
     return parser.parse_args(given)
+
+
+def beside_on_hazards(options):
+    ours = Path(__file__).resolve().parents[3] / "build/release/tests/bench/cloud_peer"
+    programs = [Peer("terracut", ours, options.core), *available_peers(options)]
+    names = [program.name for program in programs]
+    founds, role_of = [Found() for _ in programs], roles()
+    with tempfile.TemporaryDirectory() as folder:
+        for root in options.roots:
+            for scans in written(Terracut(options.core), root, options.hazards, options.trials, Path(folder)):
+                for program, found in zip(programs, founds):
+                    found.label(program, scans, Path(folder) / "labels", role_of)
+
+    def cell(scores):
+        return " / ".join(percent(mean(measures)) for measures in zip(*scores))
+
+    print("\n".join(table("found / not one return, % (trials)", names, hazard_rows(founds))))
+    print()
+    print("\n".join(table("IoU_g / Recall_o of what is not moved, %", names, disturbance_rows(founds, role_of, cell))))
+    return 0
 
 
 def main(given):
     options = arguments(given)
+    if options.hazards is not None:
+        return beside_on_hazards(options)
     terracut = Terracut(options.core)
     programs = [terracut, *available_peers(options)]
     names = [name for program in programs for name in program.names]

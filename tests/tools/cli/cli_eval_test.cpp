@@ -322,6 +322,11 @@ TEST_F(CliEval, PutsHazardsIntoScansAndDrives) {
       "eval hazards simulated flat --duration 0.1 --kinds box_30cm --trials 1 --json drive.json");
   EXPECT_FALSE(json("drive.json").at("methods").at("terracut").at("hazards").empty());
 
+  expect_done(eval + "--kinds child --write scans");
+  expect_done("eval semantickitti scans --json scans.json");
+  EXPECT_EQ(json("scans.json").at("methods").at("terracut").at("frames").size(),
+            json("scans/hazards.json").at("scans").size());
+
   const Outcome unknown = run(eval + "--kinds elephant");
   EXPECT_EQ(unknown.exit_code, kUsage);
   EXPECT_THAT(unknown.err, HasSubstr("no hazard 'elephant'"));

@@ -83,7 +83,7 @@ bool is_any_given(const Options& options, std::initializer_list<const char*> nam
   });
 }
 
-/// Checks that no option was given which hazards, or everything but hazards, do not use.
+/// Refuses options that hazards do not use, and options that only hazards use.
 Status check_fit_of_hazards(const Options& options, const EvalSubject& subject) {
   const std::initializer_list<const char*> of_hazards{"MORE", "--kinds", "--trials", "--write"};
   const std::initializer_list<const char*> of_others{"--report", "--changes", "--predictions"};
@@ -305,8 +305,7 @@ Expected<eval::EvaluationOutcome> evaluate_scans(const EvaluationConfig& config,
       stop_wanted);
 }
 
-/// Evaluates one dataset after the other. A frame of a name that an earlier one has does not count
-/// in the means.
+/// Evaluates one root after the other. Of frames with the same sequence and name the first counts.
 Expected<eval::EvaluationOutcome> evaluate_datasets(EvaluationConfig config,
                                                     const EvalSubject& subject,
                                                     std::optional<eval::Journal>& journal) {
@@ -375,10 +374,11 @@ void add_found_mounts(const eval::EvaluationOutcome& outcome, nlohmann::ordered_
   }
 }
 
-/// Adds the trials of every method to the report, and prints them.
+/// Adds the trials of every method to the report and prints them.
 void add_hazards(const hazards::HazardTrials& trials, const EvaluationConfig& config,
-                 nlohmann::ordered_json& json) {
+                 const EvalSubject& subject, nlohmann::ordered_json& json) {
   json["hazards"] = {{"seed", trials.choice().seed}, {"trials", trials.choice().trials}};
+  for (const auto& root : subject.roots) json["hazards"]["roots"].push_back(root.string());
   for (std::size_t i = 0; i < config.methods.size(); ++i) {
     const std::string& name = config.methods[i].name;
     json["methods"][name].update(hazards::hazard_json(trials, i));
@@ -442,7 +442,7 @@ ExitCode run_eval(const Options& given) {
   add_facts_of_dataset(options, *classes, json);
   add_found_mounts(*outcome, json);
   say_outcome(*outcome, json);
-  if (trials) add_hazards(*trials, *config, json);
+  if (trials) add_hazards(*trials, *config, subject, json);
   print_text(eval::evaluation_text(json));
   if (outcome->interrupted) {
     warn(journal ? "interrupted; the same command goes on from here" : "interrupted");

@@ -10,15 +10,15 @@
 
 namespace terracut::cli {
 
-/// What `eval` measures on.
+/// The data that `eval` measures on.
 struct EvalSubject {
-  std::string dataset;  ///< EvalOptions::dataset; of hazards the dataset they are put into.
-  std::vector<std::filesystem::path> roots;  ///< At least one; of drives one, all their scenes.
+  std::string dataset;  ///< Never "hazards", but the dataset that they are put into.
+  std::vector<std::filesystem::path> roots;  ///< At least one; for drives one: all scenes.
   bool with_hazards = false;
 };
 
-/// Reads `hazards DATASET ROOT...`, `hazards ROOT...` (semantickitti) and `hazards simulated` (all
-/// scenes); else the subject is the dataset and its root.
+/// Understands `hazards DATASET ROOT...`, `hazards ROOT...` (semantickitti) and `hazards simulated`
+/// (all scenes). Without hazards returns the dataset and its root.
 [[nodiscard]] EvalSubject subject_of(const EvalOptions& options);
 
 }  // namespace terracut::cli

@@ -75,7 +75,7 @@ constexpr std::array kSettings{
             .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
     Setting{.option = "SCANS_DIR", .commands = C::kSegment | C::kEncode, .required_by = C::kSegment | C::kEncode, .help = "Folder of scans (.bin; segment: .pcd.bin, .pcd and .ply, too, or one file), or a SemanticKITTI sequence folder",
             .field = [](O& o) -> F { return &o.scans; }},
-    Setting{.option = "DATASET", .commands = C::kEval, .required_by = C::kEval, .help = "Which dataset, or own clouds, or drives to simulate; hazards: what\nlies in the road and ghosts, put into any of them",
+    Setting{.option = "DATASET", .commands = C::kEval, .required_by = C::kEval, .help = "Which dataset, or own clouds, or drives to simulate; hazards: any\nof these, with persons, boxes, ghosts and the like put in",
             .field = [](O& o) -> F { return dataset_choice(o.eval.dataset); }},
     Setting{.option = "ROOT", .commands = C::kEval, .required_by = C::kEval, .help = "Folder of the dataset, laid out as its class table says (see\ndocs/reference/evaluation.md); simulated: scenes, like street,hill;\nhazards: a dataset and its ROOTs, or semantickitti's alone",
             .field = [](O& o) -> F { return &o.eval.root; }},

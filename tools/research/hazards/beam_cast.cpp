@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNoise_m = 0.015;
 
-/// A sphere around everything that moves returns, in the hazard's frame.
+/// A sphere around all shapes of a hazard, in the hazard's frame.
 struct Sphere {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius_m = 0;
@@ -50,7 +50,7 @@ double nearest_m(std::span<const world::Shape> shapes, const world::SightLine& l
 /// its upper end before `range_m`.
 std::optional<double> way_into(const world::Shape& hole, const world::SightLine& line,
                                double range_m) {
-  constexpr double kUneven_m = 0.3;  // of a flat beam's way, where the ground is a little higher
+  constexpr double kUneven_m = 0.3;  // tolerance along a flat beam, because the ground is uneven
   const auto chord = world::intersect(hole, line);
   if (!chord || chord->in_m <= 0 || chord->normal.z() <= 0) return std::nullopt;
   if (range_m < chord->in_m - kUneven_m) return std::nullopt;
@@ -64,7 +64,7 @@ MovedReturns put_in(const LabelledFrame& frame, const Hazard& hazard,
   const Sphere sphere = sphere_around(hazard);
   const Eigen::Isometry3d T_hazard_vehicle = T_vehicle_hazard.inverse();
   const Eigen::Vector3d centre = T_vehicle_hazard * sphere.centre - frame.sensor;
-  // The cosine of the angle at which the sphere is seen from the sensor.
+  // A beam meets the sphere if its part towards the centre is at least as long as the tangent.
   const double near_way_m2 = centre.squaredNorm() - sphere.radius_m * sphere.radius_m;
   const double least_m = near_way_m2 > 0 ? std::sqrt(near_way_m2) : -INFINITY;
   MovedReturns moved;

@@ -12,14 +12,14 @@
 
 namespace terracut::hazards {
 
-/// Returns of a hazard count if they lie higher than this above its foot, metres. What is lower is
-/// as good as ground.
+/// A hazard's returns count if they lie higher than this above its foot, metres. Lower ones may be
+/// called ground.
 inline constexpr double kFoot_m = 0.05;
 
-/// Returns which returns move if a hazard is put into a frame. A return whose beam meets the hazard
-/// or what comes with it nearer than its range moves there, with noise of 1.5 cm along the beam. A
-/// ground return within a hole moves to the shaft's wall or bottom, and counts. `key` decides
-/// noise, and which leaves are met.
+/// Puts a hazard into a frame and returns the returns that move. A return moves to the point where
+/// its beam first meets a shape of the hazard, if that is nearer than its range; noise of 1.5 cm
+/// along the beam is added. A ground return within a hole moves to the shaft's wall or bottom, and
+/// counts. `key` seeds the noise and decides which beams leaves stop.
 [[nodiscard]] MovedReturns put_in(const LabelledFrame& frame, const Hazard& hazard,
                                   const Eigen::Isometry3d& T_vehicle_hazard, std::uint64_t key);
 

@@ -12,8 +12,8 @@ namespace {
 
 using world::Random;
 
-/// Some of the low returns, those more than 1.2 m below the sensor (0.53 m above the mount's plane
-/// at 1.73 m) and nearer than 40 m, lie 1.1 to 1.6 times as far along their beam: below the ground.
+/// Moves a share of the low returns, which are nearer than 40 m and more than 1.2 m below the
+/// sensor (below 0.53 m for a sensor 1.73 m high), 1.1 to 1.6 times as far along their beam.
 template <int kPerMille>
 bool ghost(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedReturn& moved) {
   constexpr double kLow_m = 1.2, kFarthest_m = 40;
@@ -25,7 +25,7 @@ bool ghost(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedRet
   return true;
 }
 
-/// Half of the ground returns of two puddles, ahead and behind, are mirrored.
+/// Moves half of the ground returns of two puddles, ahead and behind, 1.3 to 2.5 times as far.
 bool puddle(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedReturn& moved) {
   constexpr double kNearest_m = 6, kFarthest_m = 14, kHalfWidth_m = 2.2;
   const double ahead_m = std::abs(frame.at[i].x());
@@ -37,7 +37,7 @@ bool puddle(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedRe
   return true;
 }
 
-/// A cloud of droplets 6 to 14 m ahead, 3 m wide and 1.5 m high, in which three beams of ten end.
+/// Ends three of ten beams in a cloud of droplets 6 to 14 m ahead, 3 m wide and 1.5 m high.
 bool spray(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedReturn& moved) {
   constexpr double kNearest_m = 6, kFarthest_m = 14, kHalfWidth_m = 1.5, kHeight_m = 1.5;
   const Eigen::Vector3d& beam = frame.beam[i];
@@ -52,7 +52,7 @@ bool spray(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedRet
   return true;
 }
 
-/// Some beams end at a flake, 2 to 20 m away.
+/// Ends a share of the beams at flakes 2 to 20 m away.
 template <int kPercent>
 bool snow(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedReturn& moved) {
   constexpr double kNearest_m = 2, kFarthest_m = 20;
@@ -61,7 +61,7 @@ bool snow(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedRetu
   return true;
 }
 
-/// Nothing is seen in a sector of 20 degrees, ahead to the right.
+/// Removes all returns of a sector of 20 degrees, ahead to the right.
 bool dirt(const LabelledFrame& frame, std::uint32_t i, Random&, MovedReturn& moved) {
   constexpr double kFrom_deg = -40, kTo_deg = -20;
   const Eigen::Vector3d& beam = frame.beam[i];
@@ -71,14 +71,10 @@ bool dirt(const LabelledFrame& frame, std::uint32_t i, Random&, MovedReturn& mov
 }
 
 constexpr std::array kDisturbances{
-    Disturbance{"ghosts_0.1", "0.1 % of low returns 1.1 to 1.6 times as far", ghost<1>},
-    Disturbance{"ghosts_1", "1 % of low returns 1.1 to 1.6 times as far", ghost<10>},
-    Disturbance{"ghosts_5", "5 % of low returns 1.1 to 1.6 times as far", ghost<50>},
-    Disturbance{"puddle", "half of its ground returns 1.3 to 2.5 times as far", puddle},
-    Disturbance{"spray", "3 beams of 10 end in a cloud 6 to 14 m ahead", spray},
-    Disturbance{"snow_1", "1 % of beams end 2 to 20 m away", snow<1>},
-    Disturbance{"snow_10", "10 % of beams end 2 to 20 m away", snow<10>},
-    Disturbance{"dirt", "nothing is seen in a sector of 20 degrees", dirt},
+    Disturbance{"ghosts_0.1", ghost<1>}, Disturbance{"ghosts_1", ghost<10>},
+    Disturbance{"ghosts_5", ghost<50>},  Disturbance{"puddle", puddle},
+    Disturbance{"spray", spray},         Disturbance{"snow_1", snow<1>},
+    Disturbance{"snow_10", snow<10>},    Disturbance{"dirt", dirt},
 };
 
 }  // namespace

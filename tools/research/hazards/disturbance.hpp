@@ -12,11 +12,10 @@
 
 namespace terracut::hazards {
 
-/// What disturbs a whole frame and is no obstacle.
+/// Changes a whole frame without an obstacle: ghosts, snow, dirt.
 struct Disturbance {
-  std::string_view word;   ///< "ghosts_1"
-  std::string_view about;  ///< What it does, for people.
-  /// What it makes of one return: true if `moved` was filled. Returns are asked in order.
+  std::string_view word;  ///< "ghosts_1"
+  /// Sets `moved.range_m` for one return; false if the return stays.
   bool (*disturb)(const LabelledFrame& frame, std::uint32_t index, world::Random& random,
                   MovedReturn& moved);
 };
@@ -24,7 +23,7 @@ struct Disturbance {
 /// Returns all disturbances.
 [[nodiscard]] std::span<const Disturbance> disturbances() noexcept;
 
-/// Returns the returns that a disturbance moves; `key` decides which.
+/// Returns the returns that a disturbance moves. `key` seeds the choice.
 [[nodiscard]] MovedReturns disturbed(const LabelledFrame& frame, const Disturbance& disturbance,
                                      std::uint64_t key);
 

@@ -9,17 +9,17 @@
 
 namespace terracut::hazards {
 
-/// What lies, stands or gapes where a vehicle may drive. Its frame: origin on the ground, x along
-/// its heading, y left, z away from the ground, metres.
+/// An object or a hole where a vehicle may drive. The frame of its shapes has its origin on the
+/// ground, x along the heading, y left and z away from the ground, metres.
 struct Hazard {
   std::vector<world::Shape> body{};
-  /// What comes with it, as a truck with its tail lift: it hides what is behind it, and is no part
-  /// of the hazard.
+  /// Shapes that hide the ground behind them and are not part of the hazard, as the truck of a tail
+  /// lift.
   std::vector<world::Shape> beside{};
-  /// A shaft below the ground, whose upper end is open; none for a hazard that stands.
+  /// A shaft below the ground with an open upper end, if the hazard is a hole.
   std::optional<world::Shape> hole{};
-  double nearest_m = 0, farthest_m = 1000;  ///< Where it is put, from the sensor.
-  bool faces_sensor = false;                ///< Heads away from the sensor, to 15 degrees.
+  double nearest_m = 0, farthest_m = 1000;  ///< Allowed distances from the sensor.
+  bool faces_sensor = false;  ///< True: its heading is away from the sensor, +-15 deg.
 
   /// The extent of body and hole along x and y, and the body's height.
   struct Extent {

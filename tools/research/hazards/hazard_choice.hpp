@@ -14,16 +14,16 @@ namespace terracut::hazards {
 struct Disturbance;
 struct HazardKind;
 
-/// What to put into frames, and how often.
+/// The hazards and disturbances to put into frames.
 struct HazardChoice {
-  std::vector<const HazardKind*> kinds;          ///< Of hazard_kinds().
-  std::vector<const Disturbance*> disturbances;  ///< Of disturbances().
-  int trials = 1;  ///< For each kind of hazard, ground and range bin of a frame.
+  std::vector<const HazardKind*> kinds;          ///< Elements of hazard_kinds().
+  std::vector<const Disturbance*> disturbances;  ///< Elements of disturbances().
+  int trials = 1;  ///< Trials of each kind of hazard, ground and range bin in a frame.
   std::uint64_t seed = 1;
 };
 
-/// Sets kinds and disturbances by their words; all if there is no word. kInvalidArgument, naming
-/// the existing ones, for an unknown word.
+/// Sets kinds and disturbances by their words; without words, to all. Fails with kInvalidArgument,
+/// naming the known words, for an unknown one.
 [[nodiscard]] Status choose(std::span<const std::string> words, HazardChoice& choice);
 
 }  // namespace terracut::hazards

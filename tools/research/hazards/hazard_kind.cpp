@@ -13,7 +13,7 @@ using world::Random;
 using world::Substance;
 using world::Truth;
 
-/// How deep shapes reach into the ground, which is not quite even below them.
+/// Depth to which shapes reach into the ground, because it is uneven.
 constexpr double kSunk_m = 0.05;
 
 constexpr Substance kCloth{Truth::kPerson, world::Material::kCloth};
@@ -47,7 +47,7 @@ Hazard child(Random& random) {
                    world::ellipsoid({0, 0, 0.78 * tall_m}, {0.18, 0.16, 0.22 * tall_m}, kCloth)}};
 }
 
-/// A dog.
+/// Makes a dog.
 Hazard animal(Random& random) {
   const double tall_m = random.uniform(0.4, 0.65);
   Hazard dog{
@@ -70,7 +70,7 @@ Hazard box_30cm(Random&) {
   return {.body = {standing_box(0, 0, 0.5, 0.5, 0.30, kThing)}};
 }
 
-/// Lies on its side.
+/// Makes a tyre that lies on its side.
 Hazard tyre(Random&) {
   return {.body = {standing_post(0, 0, 0.33, 0.22, kThing)}};
 }
@@ -83,7 +83,7 @@ Hazard pallet(Random&) {
   return {.body = {standing_box(0, 0, 1.2, 0.8, 0.15, kThing)}};
 }
 
-/// A bough with leafy twigs, through which half of the beams pass.
+/// Makes a bough with leafy twigs, through which about half of the beams pass.
 Hazard branch(Random& random) {
   const double length_m = random.uniform(1.5, 2.5);
   Substance leaves = kThing;
@@ -93,7 +93,7 @@ Hazard branch(Random& random) {
                                     leaves)}};
 }
 
-/// A plate that rises from its rim, which is turned to the sensor, to the truck behind it.
+/// Makes a plate that rises to the truck behind it. Its rim faces the sensor.
 Hazard tail_lift(Random& random) {
   constexpr double kLength_m = 1.7, kWidth_m = 2.4, kHeight_m = 0.25;
   const double rim_m = random.uniform(0.05, 0.10);
@@ -120,19 +120,19 @@ Hazard kerb_stone(Random& random) {
 }
 
 constexpr std::array kKinds{
-    HazardKind{"lying_person", "1.7 x 0.45 x 0.28 m", lying_person},
-    HazardKind{"sitting_person", "0.85 m high, legs stretched out", sitting_person},
-    HazardKind{"child", "0.9 to 1.2 m tall", child},
-    HazardKind{"animal", "a dog, 0.4 to 0.65 m tall", animal},
-    HazardKind{"box_20cm", "0.5 x 0.5 x 0.20 m", box_20cm},
-    HazardKind{"box_30cm", "0.5 x 0.5 x 0.30 m", box_30cm},
-    HazardKind{"tyre", "on its side, 0.66 m wide, 0.22 m high", tyre},
-    HazardKind{"bollard", "0.16 m wide, 0.9 m high", bollard},
-    HazardKind{"pallet", "1.2 x 0.8 x 0.15 m", pallet},
-    HazardKind{"branch", "1.5 to 2.5 m long, leafy to 0.4 m", branch},
-    HazardKind{"tail_lift", "2.4 x 1.7 m, from 0.05 to 0.10 m up to 0.25 m", tail_lift},
-    HazardKind{"manhole", "open, 0.7 m wide", manhole},
-    HazardKind{"kerb_stone", "1.0 x 0.15 m, 0.10 to 0.15 m high", kerb_stone},
+    HazardKind{"lying_person", lying_person},
+    HazardKind{"sitting_person", sitting_person},
+    HazardKind{"child", child},
+    HazardKind{"animal", animal},
+    HazardKind{"box_20cm", box_20cm},
+    HazardKind{"box_30cm", box_30cm},
+    HazardKind{"tyre", tyre},
+    HazardKind{"bollard", bollard},
+    HazardKind{"pallet", pallet},
+    HazardKind{"branch", branch},
+    HazardKind{"tail_lift", tail_lift},
+    HazardKind{"manhole", manhole},
+    HazardKind{"kerb_stone", kerb_stone},
 };
 
 }  // namespace

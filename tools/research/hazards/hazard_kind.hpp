@@ -16,8 +16,7 @@ namespace terracut::hazards {
 /// A kind of hazard.
 struct HazardKind {
   std::string_view word;           ///< "lying_person"
-  std::string_view about;          ///< Its size, for people.
-  Hazard (*make)(world::Random&);  ///< Draws what differs from one to the next.
+  Hazard (*make)(world::Random&);  ///< Makes one, of random size within the kind.
 };
 
 /// Returns all kinds.

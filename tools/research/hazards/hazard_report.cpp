@@ -59,15 +59,15 @@ std::string percent(const Json& share) {
   return share.is_null() ? "-" : fmt::format("{:.2f}", 100 * share.get<double>());
 }
 
-/// Returns after - before in points, as "+0.01".
+/// Returns after - before in percent points: "+0.01".
 std::string change_text(const Json& measure) {
   if (measure.at("after").is_null() || measure.at("before").is_null()) return "-";
   return fmt::format(
       "{:+.2f}", 100 * (measure.at("after").get<double>() - measure.at("before").get<double>()));
 }
 
-/// One kind of hazard on one ground as a line: a cell for each range bin, and what changes
-/// elsewhere in the mean over its trials.
+/// A line of the table: one kind of hazard on one ground. It has a cell for each range bin and the
+/// mean change elsewhere over all trials.
 class HazardRow {
  public:
   explicit HazardRow(const Json& entry)

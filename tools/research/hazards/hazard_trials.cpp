@@ -97,7 +97,7 @@ class FrameTrials {
     }
   }
 
-  /// `scan` has the end of its name and no sequence yet.
+  /// Completes `scan`, which has only the end of its name and no sequence.
   void write(WrittenScan scan, const MovedReturns& moved) const {
     if (writer_ == nullptr) return;
     scan.sequence = seen_.sequence;
@@ -115,7 +115,7 @@ class FrameTrials {
   ScanWriter* writer_;
   std::uint64_t key_;
   TrialLabels labels_;
-  std::vector<std::vector<frame::Label>> clear_;  ///< Without anything put in, by method.
+  std::vector<std::vector<frame::Label>> clear_;  ///< Labels of the unchanged frame, by method.
   std::vector<MethodTrials> trials_;
 };
 

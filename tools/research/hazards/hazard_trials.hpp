@@ -20,7 +20,7 @@
 
 namespace terracut::hazards {
 
-/// Which trials are counted together.
+/// Trials with the same key are counted together.
 struct TrialKey {
   std::size_t kind = 0;  ///< Index in HazardChoice::kinds.
   GroundKind ground = GroundKind::kRoad;
@@ -31,17 +31,17 @@ struct TrialKey {
 /// The trials of one method.
 struct MethodTrials {
   std::map<TrialKey, TrialCounts> hazards;
-  /// By disturbance, its index in HazardChoice, and sequence.
+  /// Keyed by the index in HazardChoice::disturbances, then by sequence.
   std::map<std::size_t, std::map<std::string, Elsewhere>> disturbances;
 };
 
-/// Puts hazards, one at a time, and disturbances into labelled frames, and counts what methods make
-/// of them. What is drawn depends only on the seed, the names of sequence and frame, and the word
-/// of what is put there; the result does not depend on the order of frames. From any thread.
+/// Puts hazards and disturbances into labelled frames, one at a time, and counts how methods label
+/// them. The random numbers depend only on the seed, on the names of sequence and frame and on the
+/// word of the hazard, so the order of frames does not matter. For any thread.
 class HazardTrials {
  public:
-  /// `methods`, `classes` and `writer` must outlive this object. Every frame is also written, with
-  /// each thing that was put into it and without, if `writer` is not null.
+  /// `methods`, `classes` and `writer` must outlive this object. Unless null, `writer` gets every
+  /// frame as it was and with each hazard and disturbance.
   HazardTrials(std::span<const eval::MethodChoice> methods, const datasets::ClassTable& classes,
                HazardChoice choice, ScanWriter* writer = nullptr)
       : methods_(methods),
@@ -50,13 +50,13 @@ class HazardTrials {
         writer_(writer),
         trials_(methods.size()) {}
 
-  /// Tries everything on a frame.
+  /// Makes all trials on a frame.
   void look(const eval::LabelledByAll& frame);
 
   [[nodiscard]] const HazardChoice& choice() const noexcept { return choice_; }
-  /// Returns the trials by method. Only when no frame is looked at.
+  /// Returns the trials by method. Not during look().
   [[nodiscard]] const std::vector<MethodTrials>& trials() const noexcept { return trials_; }
-  /// True if there was no place for anything in any frame. Only when no frame is looked at.
+  /// True if no trial was possible in any frame. Not during look().
   [[nodiscard]] bool is_empty() const;
   /// Returns the number of frames without any labelled ground 5 to 60 m away.
   [[nodiscard]] std::size_t frames_without_ground() const noexcept {

@@ -20,20 +20,20 @@ namespace terracut::hazards {
 /// The returns of a frame with their true classes. Each list has one element per return, in order
 /// of return index. Vehicle frame (calib/mount/mount.hpp), metres.
 struct LabelledFrame {
-  /// The image's cell of a return.
+  /// A return's cell in the image.
   struct Cell {
     int row = 0, column = 0;
   };
 
   frame::ImageShape shape;
-  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< Where every beam starts.
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< Start of every beam.
   std::vector<Eigen::Vector3d> at;
   std::vector<Eigen::Vector3d> beam;  ///< Direction from the sensor, length 1.
   std::vector<double> range_m;        ///< Distance from the sensor.
   std::vector<Cell> cell;
   std::vector<std::uint8_t> intensity;
   std::vector<std::uint16_t> class_id;
-  std::vector<datasets::Role> role;  ///< With every physical ground as ground.
+  std::vector<datasets::Role> role;  ///< By GroundDefinition::kAll.
   std::vector<std::optional<GroundKind>> ground;
 
   [[nodiscard]] std::size_t size() const noexcept { return at.size(); }

@@ -13,8 +13,8 @@ std::optional<LocalGround> local_ground(std::span<const Eigen::Vector3d> points,
                                         double y_m) {
   constexpr std::size_t kFewest = 6;
   constexpr int kRounds = 5;
-  constexpr double kUsual_m = 0.03;   // a residual up to which points count fully
-  constexpr double kLevel_m2 = 0.04;  // the square of the spread below which a slope is level
+  constexpr double kUsual_m = 0.03;   // points nearer to the plane have full weight
+  constexpr double kLevel_m2 = 0.04;  // squared spread of points below which the slope fades
   if (points.size() < kFewest) return std::nullopt;
   std::vector<double> heights_m;
   for (const Eigen::Vector3d& point : points) heights_m.push_back(point.z());

@@ -7,11 +7,11 @@
 
 namespace terracut::hazards {
 
-/// What a hazard or a disturbance makes of one return of a frame.
+/// A return that a hazard or a disturbance has moved or removed.
 struct MovedReturn {
   std::uint32_t index = 0;  ///< Return index.
-  double range_m = 0;       ///< Its new distance from the sensor, along its beam; 0: it is gone.
-  bool counts = false;      ///< True if it shows the hazard and should be called obstacle.
+  double range_m = 0;       ///< New distance from the sensor along the beam; 0: removed.
+  bool counts = false;      ///< True if it belongs to the hazard and should be an obstacle.
 };
 
 /// In order of return index, each at most once.

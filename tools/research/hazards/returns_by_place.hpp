@@ -39,7 +39,7 @@ class ReturnsByPlace {
   [[nodiscard]] static Bounds bounds(double middle_m, double radius_m) noexcept;
 
   const LabelledFrame& frame_;
-  std::vector<std::uint32_t> first_;    ///< By square: its first index; one more at the end.
+  std::vector<std::uint32_t> first_;    ///< Position in indices_ of each square's first return.
   std::vector<std::uint32_t> indices_;  ///< Return indices, square after square.
 };
 

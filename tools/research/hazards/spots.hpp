@@ -30,13 +30,13 @@ class Spots {
   /// `frame` must outlive this object.
   explicit Spots(const LabelledFrame& frame);
 
-  /// True if the frame has any ground in the bins.
+  /// True if the frame has ground in any bin.
   [[nodiscard]] bool has_ground() const noexcept { return has_ground_; }
 
-  /// Returns T_vehicle_hazard, at a distance drawn evenly from the bin, on a ground return of that
-  /// kind: upright on the plane of the ground around it. Where it stands, and 0.2 m around, there
-  /// is no return of anything else but ground, and no more than a tenth of other ground. None if no
-  /// such place was met in 40 draws.
+  /// Returns T_vehicle_hazard at a random place: on a ground return of that kind, at a distance
+  /// uniform in the bin, upright on the plane of the ground around it. Within 0.2 m of the hazard
+  /// all returns are ground, and at most a tenth of them ground of other kinds. Returns none if 40
+  /// draws find no such place.
   [[nodiscard]] std::optional<Eigen::Isometry3d> draw(const Hazard& hazard, GroundKind ground,
                                                       std::size_t bin, world::Random& random) const;
 
@@ -45,7 +45,7 @@ class Spots {
     double range_m;
     std::uint32_t index;
   };
-  /// Returns the candidate at about that distance; none if there is none.
+  /// Returns a random candidate within 5 % of that distance; none if there is none.
   [[nodiscard]] std::optional<std::uint32_t> near(const std::vector<Candidate>& candidates,
                                                   double range_m, world::Random& random) const;
   [[nodiscard]] bool is_free(const Hazard::Extent& extent, GroundKind ground,
@@ -54,7 +54,7 @@ class Spots {
   const LabelledFrame& frame_;
   ReturnsByPlace places_;
   bool has_ground_ = false;
-  /// Ground returns in order of distance, by kind and bin.
+  /// Ground returns by kind and bin, in order of distance.
   std::array<std::array<std::vector<Candidate>, kRangeBins.size()>, kGroundKinds.size()>
       candidates_;
 };

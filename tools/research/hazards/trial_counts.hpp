@@ -13,10 +13,10 @@ namespace terracut::hazards {
 
 struct LabelledFrame;
 
-/// How many returns must count for a trial to be one.
+/// Least number of counting returns of a trial.
 inline constexpr std::uint64_t kFewestReturns = 4;
 
-/// The returns of one hazard that count, and how many of them are called obstacle.
+/// The counting returns of one hazard.
 struct SeenHazard {
   std::uint64_t returns = 0, as_obstacle = 0;
 
@@ -29,7 +29,7 @@ struct SeenHazard {
 [[nodiscard]] SeenHazard seen_hazard(const MovedReturns& moved,
                                      std::span<const frame::Label> labels) noexcept;
 
-/// The returns that a trial leaves where they were, as labelled without it and with it.
+/// The quality of the returns that a trial does not move, labelled without and with it.
 struct Elsewhere {
   quality::Quality before, after;
 
@@ -44,7 +44,7 @@ struct Elsewhere {
                                   std::span<const frame::Label> before,
                                   std::span<const frame::Label> after) noexcept;
 
-/// The trials of one kind of hazard, on one ground, at one distance.
+/// Trials of one kind of hazard on one kind of ground in one range bin.
 struct TrialCounts {
   std::uint64_t trials = 0, found = 0;
   std::uint64_t unseen = 0;  ///< Trials with not one return called obstacle.

@@ -17,7 +17,7 @@
 
 namespace terracut::hazards {
 
-/// Labels one frame with some of its returns moved, again and again, each time by itself.
+/// Labels one frame repeatedly, with different returns moved. Each time is independent.
 class TrialLabels {
  public:
   /// The first two arguments must outlive this object.
@@ -27,8 +27,8 @@ class TrialLabels {
   /// Labels the frame with every method.
   void label(const MovedReturns& moved);
 
-  /// Returns the labels of methods[index] by return index of the frame, until label() is called
-  /// again: kNone for returns that are gone.
+  /// Returns the labels of methods[index] by return index of the frame, valid until the next
+  /// label(); kNone for removed returns.
   [[nodiscard]] std::span<const frame::Label> of(std::size_t index) const { return labels_[index]; }
 
  private:
@@ -38,8 +38,8 @@ class TrialLabels {
   memory::FixedMemory memory_;
   frame::RangeImage image_;
   eval::MethodBench bench_;
-  std::vector<std::uint32_t> placed_;              ///< By return of image_: its index in the frame.
-  std::vector<std::vector<frame::Label>> labels_;  ///< By method.
+  std::vector<std::uint32_t> placed_;              ///< Index in the frame of each return of image_.
+  std::vector<std::vector<frame::Label>> labels_;  ///< Indexed by method.
 };
 
 }  // namespace terracut::hazards

@@ -18,8 +18,7 @@
 namespace terracut::mount {
 namespace {
 
-constexpr double kNearest_m = 3.0;    ///< Nearer points may be the vehicle itself.
-constexpr double kFarthest_m = 15.0;  ///< Farther points may be on another slope.
+constexpr double kNearest_m = 3.0;  ///< Nearer points may be the vehicle itself.
 constexpr double kLowest_m = 0.2,
                  kHighest_m = 6.0;      ///< The search covers all heights that a user may state.
 constexpr double kSteepest_rad = 0.26;  ///< 15 degrees.
@@ -43,10 +42,6 @@ constexpr int kMostInCell = 8;
 /// share one error.
 constexpr double kPatch_m = 3.0;
 
-/// The expected size of the road's bend, in z = bend x^2, where a slope begins: a radius of 170 m.
-/// Where only one ring meets the ground, bend and height cannot be told apart; this prior keeps
-/// both finite, and the reported uncertainty grows.
-constexpr double kUsualBend_per_m = 0.003;
 constexpr double kUsualUnevenness_m = 0.02;
 
 /// The ground in the sensor frame: z = slope_x x + slope_y y + offset_m + bend_per_m x^2.
@@ -79,13 +74,14 @@ class Picker {
   std::uint64_t state_ = 0x9E3779B97F4A7C15ULL;
 };
 
-std::vector<Eigen::Vector3d> points_in_reach(std::span<const std::array<float, 3>> points) {
+std::vector<Eigen::Vector3d> points_in_reach(std::span<const std::array<float, 3>> points,
+                                             double farthest_m) {
   std::vector<Eigen::Vector3d> kept;
   kept.reserve(points.size());
   for (const auto& point : points) {
     const Eigen::Vector3d p(point[0], point[1], point[2]);
     const double range_m = p.head<2>().norm();
-    if (range_m >= kNearest_m && range_m <= kFarthest_m && std::isfinite(p.z())) {
+    if (range_m >= kNearest_m && range_m <= farthest_m && std::isfinite(p.z())) {
       kept.push_back(p);
     }
   }
@@ -96,7 +92,7 @@ std::vector<Eigen::Vector3d> points_in_reach(std::span<const std::array<float, 3
 class CellOf {
  public:
   explicit CellOf(double cell_m)
-      : cell_m_(cell_m), across_(1 + static_cast<std::size_t>(2 * kFarthest_m / cell_m)) {}
+      : cell_m_(cell_m), across_(1 + static_cast<std::size_t>(2 * kFarStrip.farthest_m / cell_m)) {}
 
   std::size_t cells() const { return across_ * across_; }
   std::size_t operator()(const Eigen::Vector3d& p) const {
@@ -105,7 +101,7 @@ class CellOf {
 
  private:
   std::size_t along(double at_m) const {
-    return static_cast<std::size_t>((at_m + kFarthest_m) / cell_m_);
+    return static_cast<std::size_t>((at_m + kFarStrip.farthest_m) / cell_m_);
   }
   double cell_m_;
   std::size_t across_;
@@ -218,7 +214,7 @@ struct Fit {
 /// Fits the ground to the points within `reach_m` of `ground` by least squares. Each patch of
 /// points counts as one measurement.
 std::optional<Fit> fit(const std::vector<Eigen::Vector3d>& points, const Ground& ground,
-                       double reach_m, const CellOf& patch_of) {
+                       double reach_m, const CellOf& patch_of, const Strip& strip) {
   Eigen::Matrix4d normal_matrix = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right_side = Eigen::Vector4d::Zero();
   std::vector<bool> has_points(patch_of.cells());
@@ -237,7 +233,9 @@ std::optional<Fit> fit(const std::vector<Eigen::Vector3d>& points, const Ground&
   if (inliers < kLeastInliers) return std::nullopt;
   const auto patches = std::count(has_points.begin(), has_points.end(), true);
   const double points_a_patch = static_cast<double>(inliers) / static_cast<double>(patches);
-  const double usual = kUsualUnevenness_m / kUsualBend_per_m;
+  // Where only one ring meets the ground, bend and height cannot be told apart; this prior keeps
+  // both finite, and the reported uncertainty grows.
+  const double usual = kUsualUnevenness_m / strip.usual_bend_per_m;
   normal_matrix(3, 3) += points_a_patch * usual * usual;
   bool solvable = false;
   Eigen::Matrix4d inverse;
@@ -252,12 +250,13 @@ std::optional<Fit> fit(const std::vector<Eigen::Vector3d>& points, const Ground&
 
 /// Repeats the fit on its own inliers until the ground no longer moves, then with a smaller reach
 /// each time: sidewalks and tyres drop out once the road itself is found.
-std::optional<Fit> refine(const std::vector<Eigen::Vector3d>& points, Ground ground) {
+std::optional<Fit> refine(const std::vector<Eigen::Vector3d>& points, Ground ground,
+                          const Strip& strip) {
   const CellOf patch_of(kPatch_m);
   double reach_m = kReach_m;
   std::optional<Fit> result;
   for (int i = 0; i < kMaxRefinements; ++i) {
-    result = fit(points, ground, reach_m, patch_of);
+    result = fit(points, ground, reach_m, patch_of, strip);
     if (!result) return result;
     const double moved = (result->ground.terms - ground.terms).norm();
     ground = result->ground;
@@ -287,17 +286,18 @@ Mount mount_over(const Ground& ground) {
 
 }  // namespace
 
-Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> points) {
-  const auto near = points_in_reach(points);
+Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> points,
+                                       const Strip& strip) {
+  const auto near = points_in_reach(points, strip.farthest_m);
   if (near.size() < kLeastPoints) {
     return fail(ErrorCode::kMalformed,
                 fmt::format("of the ground {:g} to {:g} m before and behind the sensor {} points "
                             "are seen, {} are needed",
-                            kNearest_m, kFarthest_m, near.size(), kLeastPoints));
+                            kNearest_m, strip.farthest_m, near.size(), kLeastPoints));
   }
   const auto even = evened_out(near);
   const auto seed = search(even);
-  const auto found = seed ? refine(even, *seed) : std::optional<Fit>();
+  const auto found = seed ? refine(even, *seed, strip) : std::optional<Fit>();
   // The least squares fit may end at a plane above the sensor.
   const bool is_below = found && mount_over(found->ground).height_m > 0;
   const double share = is_below ? share_within_reach(even, found->ground) : 0.0;

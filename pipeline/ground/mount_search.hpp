@@ -12,7 +12,8 @@
 namespace terracut::ground {
 
 /// Finds the mount from the near ground in a run's first frames: that of an upright sensor or, if
-/// the frames are not certain of one, of a tilted or inverted one. Start-up only: allocates.
+/// the frames are not certain of one, of a tilted or inverted one; if of neither, that of an
+/// upright sensor by the ground up to 30 m away. Start-up only: allocates.
 class MountSearch {
  public:
   /// Adds a frame that was decoded with the mount mount::kAtTheSensor.
@@ -23,6 +24,8 @@ class MountSearch {
     if (!any_way_up) standing.error().message += "; " + any_way_up.error().message;
     standing_.add_estimate(standing);
     any_way_up_.add_estimate(any_way_up);
+    take_near_ground(image, *ground_, static_cast<float>(mount::kFarStrip.farthest_m));
+    by_far_ground_.add_estimate(mount::estimate_mount(ground_->in_use(), mount::kFarStrip));
   }
   [[nodiscard]] bool has_enough_frames() const noexcept {
     return standing_.frames_looked_at() >= mount::kFramesToFind;
@@ -30,7 +33,9 @@ class MountSearch {
   /// Returns the mount found, or the errors of MountFinder::certain().
   [[nodiscard]] Expected<mount::FoundMount> found() const { return finder().certain(); }
   [[nodiscard]] const mount::MountFinder& finder() const {
-    return standing_.certain() || !any_way_up_.certain() ? standing_ : any_way_up_;
+    if (standing_.certain()) return standing_;
+    if (any_way_up_.certain()) return any_way_up_;
+    return by_far_ground_.certain() ? by_far_ground_ : standing_;
   }
 
  private:
@@ -41,7 +46,7 @@ class MountSearch {
   }
 
   std::unique_ptr<NearGround> ground_ = std::make_unique<NearGround>();
-  mount::MountFinder standing_, any_way_up_;
+  mount::MountFinder standing_, any_way_up_, by_far_ground_;
 };
 
 }  // namespace terracut::ground

@@ -25,7 +25,8 @@ bool has_near_ground_columns(frame::ColumnRange columns, const frame::ImageShape
 }
 
 void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,
-                      const frame::ImageShape& shape, NearGround& ground) noexcept {
+                      const frame::ImageShape& shape, NearGround& ground,
+                      float farthest_m) noexcept {
   const int sector = shape.columns / kSectorsAFrame;
   const auto cells = 2 * static_cast<std::size_t>(sector) * static_cast<std::size_t>(shape.rows);
   const int step = static_cast<int>((cells + NearGround::kMostCellsLookedAt - 1) /
@@ -39,7 +40,8 @@ void take_near_ground(const frame::PointPlanes& points, std::span<const float> h
           at < sector ? at - sector / 2 : shape.columns / 2 + at - sector * 3 / 2;
       const int column = from_ahead < 0 ? from_ahead + shape.columns : from_ahead;
       const std::size_t cell = shape.cell(row, column);
-      if (std::isnan(height_m[cell]) || !is_near_ground_place(x_m[cell], y_m[cell])) continue;
+      if (std::isnan(height_m[cell]) || !is_near_ground_place(x_m[cell], y_m[cell], farthest_m))
+        continue;
       if (ground.count == NearGround::kMost) return;
       ground.points[ground.count++] = {x_m[cell], y_m[cell], z_m[cell]};
     }

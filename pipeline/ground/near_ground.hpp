@@ -32,12 +32,13 @@ struct NearGround {
   }
 };
 
-/// True if a position (metres, vehicle frame) lies in the strip of near ground.
-[[nodiscard]] constexpr bool is_near_ground_place(float x_m, float y_m) noexcept {
+/// True if a position (metres, vehicle frame) lies in the strip of near ground, up to `farthest_m`.
+[[nodiscard]] constexpr bool is_near_ground_place(
+    float x_m, float y_m, float farthest_m = NearGround::kFarthest_m) noexcept {
   const float range2_m2 = x_m * x_m + y_m * y_m;
   return y_m <= NearGround::kHalfWidth_m && y_m >= -NearGround::kHalfWidth_m &&
          range2_m2 >= NearGround::kNearest_m * NearGround::kNearest_m &&
-         range2_m2 <= NearGround::kFarthest_m * NearGround::kFarthest_m;
+         range2_m2 <= farthest_m * farthest_m;
 }
 
 /// True if the strip may have a return in one of these columns: 30 degrees to either side of
@@ -45,16 +46,17 @@ struct NearGround {
 [[nodiscard]] bool has_near_ground_columns(
     frame::ColumnRange columns, const frame::ImageShape& shape) noexcept TERRACUT_NONBLOCKING;
 
-/// Fills `ground` with returns of the strip, evenly thinned. Examines at most kMostCellsLookedAt
-/// cells of the columns that may have near ground. `points` must be valid in these columns;
-/// `height_m` is any height that is NaN in cells without a return. Real-time safe.
+/// Fills `ground` with returns of the strip up to `farthest_m`, evenly thinned. Examines at most
+/// kMostCellsLookedAt cells of the columns that may have near ground. `points` must be valid in
+/// these columns; `height_m` is any height that is NaN in cells without a return. Real-time safe.
 void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,
-                      const frame::ImageShape& shape,
-                      NearGround& ground) noexcept TERRACUT_NONBLOCKING;
+                      const frame::ImageShape& shape, NearGround& ground,
+                      float farthest_m = NearGround::kFarthest_m) noexcept TERRACUT_NONBLOCKING;
 /// Fills `ground` with near ground from an image that has points.
-inline void take_near_ground(const frame::RangeImage& image,
-                             NearGround& ground) noexcept TERRACUT_NONBLOCKING {
-  take_near_ground(image.points(), image.z_m(), image.shape(), ground);
+inline void take_near_ground(const frame::RangeImage& image, NearGround& ground,
+                             float farthest_m = NearGround::kFarthest_m) noexcept
+    TERRACUT_NONBLOCKING {
+  take_near_ground(image.points(), image.z_m(), image.shape(), ground, farthest_m);
 }
 
 /// Fills `ground` with returns of the whole image, near and far, evenly thinned.

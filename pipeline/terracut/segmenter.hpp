@@ -82,7 +82,7 @@ class Segmenter {
     /// Finds the mount from the near ground of the first clouds, x ahead, instead of using `mount`:
     /// from the first cloud that shows the mount, or, from the tenth cloud on, from ten clouds
     /// together, which allocates. Until then label() fails with kMountNotFound, for example if no
-    /// ground is seen 3 to 15 m before or behind the vehicle.
+    /// ground is seen 3 to 30 m before or behind the vehicle.
     bool find_mount = false;
     /// With find_mount: as long as no cloud shows the mount, labels by `mount` instead of failing;
     /// found_mount() is then empty.

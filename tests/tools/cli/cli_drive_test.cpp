@@ -309,13 +309,14 @@ TEST_F(Cli, AMountThatIsNotFoundGivesNoLabelsUnlessItIsStatedOrMayBeGuessed) {
 }
 
 TEST_F(Cli, AMountThatIsTooUncertainIsNotFoundEither) {
-  // The street ahead, and nothing behind the sensor nor nearer than 11 m.
+  // The street ahead from 11 m on, up to a wall 15 m away, and nothing behind the sensor.
   std::string cloud;
   for (int ring = 0; ring < 16; ++ring) {
     const double elevation_rad = beams::deg_to_rad(-9 + 0.6 * ring);
     for (int step = -300; step <= 300; ++step) {
       const double azimuth_rad = beams::deg_to_rad(0.1 * step);
-      const double range_m = elevation_rad < -0.02 ? 1.73 / std::tan(-elevation_rad) : 60;
+      const double range_m =
+          elevation_rad < -0.12 ? 1.73 / std::tan(-elevation_rad) : 15 / std::cos(azimuth_rad);
       cloud +=
           fmt::format("{:.3f} {:.3f} {:.3f} {}\n", range_m * std::cos(azimuth_rad),
                       range_m * std::sin(azimuth_rad), range_m * std::tan(elevation_rad), ring);

@@ -149,11 +149,32 @@ TEST_F(CliClouds, AreSeenFromTheirViewpointWhereTheyAreNotAroundTheOrigin) {
   EXPECT_THAT(driven.err, Not(HasSubstr("VIEWPOINT")));
   EXPECT_EQ(ids_of(folder_ / "driven_labels/000000.label"), own);
 
-  // What fits neither way is refused as it is.
+  // Where neither fits, the cones of the lasers tell the place.
   write_cloud(folder_ / "wrong/000000.pcd", to_map, laser_of, "50 -2 1.8 1 0 0 0");
   const Outcome wrong = run("segment wrong");
-  EXPECT_EQ(wrong.exit_code, 3);
-  EXPECT_THAT(wrong.err, HasSubstr("error: wrong: the points of a laser do not lie on a cone"));
+  EXPECT_EQ(wrong.exit_code, 0) << wrong.err;
+  EXPECT_THAT(wrong.err, AllOf(HasSubstr("sensor: stood 5.00 -2.00 1.80 m from the origin"),
+                               HasSubstr("by the cones of its lasers")));
+}
+
+TEST_F(CliClouds, OfATiltedSensorInALevelledFrameGetTheLabelsOfItsOwn) {
+  write_clouds("own", 1);
+  expect_done("segment own --labels own_labels");
+  const double cosine = std::cos(0.26), sine = std::sin(0.26);
+  const auto levelled = [&](int /*point*/, const Place& place) {
+    return Place{cosine * place.x_m + sine * place.z_m, place.y_m,
+                 cosine * place.z_m - sine * place.x_m};
+  };
+  write_cloud(folder_ / "levelled/000000.pcd", levelled, laser_of);
+  const Outcome outcome = run("segment levelled --labels levelled_labels");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("its axis 14.9 degrees from theirs"));
+  const auto own = ids_of(folder_ / "own_labels/000000.label"),
+             again = ids_of(folder_ / "levelled_labels/000000.label");
+  ASSERT_EQ(own.size(), again.size());
+  std::size_t differ = 0;
+  for (std::size_t i = 0; i < own.size(); ++i) differ += own[i] != again[i] ? 1U : 0U;
+  EXPECT_LT(differ, own.size() / 500);
 }
 
 TEST_F(CliClouds, ThatTellNoLaserAreRefusedWithTheirFieldsAndTheirName) {

@@ -4,12 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <system_error>
 #include <utility>
 
 #include "calib/beams/angle.hpp"
 #include "calib/hdl64e/hdl64e_file.hpp"
+#include "calib/mount/mount_pose.hpp"
 #include "firmware_io/cloud/row_doubt.hpp"
+#include "firmware_io/cloud/sensor_pose.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "tools/cli/console.hpp"
 
@@ -24,12 +28,31 @@ Expected<cloud::SensorRows> learn_rows(CloudReader& clouds) {
     return rows && cloud::doubt_of(*rows).empty();
   };
   auto rows = learn();
-  if (is_beyond_doubt(rows) || !clouds.has_viewpoint()) return rows;
-  clouds.take_sensor_at(cloud::SensorPlace::kViewpoint);
-  if (auto by_viewpoint = learn(); is_beyond_doubt(by_viewpoint)) {
-    say("sensor: stood at each file's VIEWPOINT, not at the origin of the points, which are taken "
-        "from there");
-    return by_viewpoint;
+  if (is_beyond_doubt(rows)) return rows;
+  if (clouds.has_viewpoint()) {
+    clouds.take_sensor_at(cloud::SensorPlace::kViewpoint);
+    if (auto by_viewpoint = learn(); is_beyond_doubt(by_viewpoint)) {
+      say("sensor: stood at each file's VIEWPOINT, not at the origin of the points, which are "
+          "taken from there");
+      return by_viewpoint;
+    }
+    clouds.take_sensor_at(cloud::SensorPlace::kOrigin);
+  }
+  const auto pose =
+      cloud::find_sensor_pose(clouds.size(), [&](std::size_t index) { return clouds.read(index); });
+  if (!pose) return rows;
+  clouds.take_sensor_at(*pose);
+  // Of two sensors in one cloud, one may have the cones.
+  constexpr double kOfOneSensor_m = 0.4;
+  if (auto by_pose = learn();
+      is_beyond_doubt(by_pose) && by_pose->rings.residual.p95_m < kOfOneSensor_m) {
+    const auto& T = *pose;
+    say(
+        fmt::format("sensor: stood {:.2f} {:.2f} {:.2f} m from the origin of the points, its axis "
+                    "{:.1f} degrees from theirs, by the cones of its lasers; points and mount are "
+                    "taken in its own frame",
+                    T[3], T[7], T[11], beams::rad_to_deg(std::acos(std::min(T[10], 1.0)))));
+    return by_pose;
   }
   clouds.take_sensor_at(cloud::SensorPlace::kOrigin);
   return rows;
@@ -43,10 +66,20 @@ Expected<CloudReader> CloudReader::open(const std::filesystem::path& clouds) {
   return CloudReader(clouds, std::move(folder->scans));
 }
 
+void CloudReader::take_sensor_at(cloud::SensorPlace place) {
+  place_ = place;
+  to_sensor_.reset();
+}
+
+void CloudReader::take_sensor_at(const mount::RigidTransform& T_points_sensor) {
+  to_sensor_ = mount::inverse(T_points_sensor);
+}
+
 Expected<cloud::CloudView> CloudReader::read(std::size_t index) {
   const Status read = cloud::read_cloud(files_[index].points, cloud_, place_);
   has_viewpoint_ = has_viewpoint_ || cloud_.has_viewpoint;
   if (!read) return tl::unexpected(read.error());
+  if (to_sensor_) cloud::move_points(*to_sensor_, cloud_.points);
   return cloud_.view();
 }
 

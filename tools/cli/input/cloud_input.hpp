@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "calib/mount/mount.hpp"
 #include "firmware_io/cloud/cloud.hpp"
 #include "firmware_io/cloud/cloud_file.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
@@ -28,7 +30,9 @@ class CloudReader {
   [[nodiscard]] const scan::ScanFile& file(std::size_t index) const { return files_[index]; }
 
   /// Sets where the sensor stands relative to the points of clouds that are read from now on.
-  void take_sensor_at(cloud::SensorPlace place) { place_ = place; }
+  void take_sensor_at(cloud::SensorPlace place);
+  /// Sets the transform from the sensor frame to that of the points.
+  void take_sensor_at(const mount::RigidTransform& T_points_sensor);
   /// True if a file read so far states a VIEWPOINT.
   [[nodiscard]] bool has_viewpoint() const { return has_viewpoint_; }
 
@@ -46,6 +50,7 @@ class CloudReader {
   std::vector<scan::ScanFile> files_;
   cloud::Cloud cloud_;
   cloud::SensorPlace place_ = cloud::SensorPlace::kOrigin;
+  std::optional<mount::RigidTransform> to_sensor_;
   bool has_viewpoint_ = false;
 };
 
@@ -55,8 +60,9 @@ class CloudReader {
 /// Returns how the clouds tell their lasers apart, and the lasers' elevations: those of
 /// `calibration`, whose unit's scans are in KITTI's order, or, if it is empty, learnt from the
 /// clouds. Prints the result, with a warning if it is doubtful (cloud::doubt_of()). If the points
-/// fit only, or better, with the files' VIEWPOINT as the sensor's place, that place is used from
-/// then on. Errors name the file or the folder.
+/// fit only, or better, with the files' VIEWPOINT as the sensor's place, or else with one that the
+/// cones of its lasers show (cloud::find_sensor_pose()), that place is used from then on. Errors
+/// name the file or the folder.
 [[nodiscard]] Expected<cloud::SensorRows> rows_of(CloudReader& clouds,
                                                   const std::filesystem::path& calibration);
 

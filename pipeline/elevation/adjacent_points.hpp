@@ -27,7 +27,7 @@ class AdjacentPoints {
  public:
   struct Config {
     AdjacentRule rule = AdjacentRule::kSlope;
-    float max_slope_rad = 0.70F;  ///< Slope of the steepest ground (K in the paper), (0, pi/2).
+    float max_slope_rad = 0.75F;  ///< Slope of the steepest ground (K in the paper), (0, pi/2).
     int first_row_step = 1;       ///< Lowest row step compared; the paper compares l + 2 only.
     int last_row_step = 2;        ///< Highest row step compared, [first_row_step, 4].
     float row_step_deg = 0.33F;   ///< Least elevation that a row step covers (RowSteps), [0, 5].

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstring>
 #include <numbers>
+#include <utility>
 
 #include "rt/vector_clones.hpp"
 
@@ -76,9 +77,11 @@ TERRACUT_VECTOR_CLONES void find_rises(const FoundInSector& before, const FoundI
 
 }  // namespace
 
-GroundSurface::GroundSurface(const Config& config, const RingGrid& grid,
+GroundSurface::GroundSurface(const Config& config, float obstacle_height_m, const RingGrid& grid,
                              memory::FixedMemory& memory)
     : config_(config),
+      foot_rise_m_(obstacle_height_m),
+      deep_m_(grid.deepest_band_m()),
       interpolate_sectors_(std::min(config.interpolate_sectors, (grid.sectors() - 1) / 2)),
       traced_m_(memory.take<float>("ground surface", grid.cells())),
       heights_(memory.take<EdgeHeights>("ground surface", grid.cells() + 1)),
@@ -94,10 +97,10 @@ GroundSurface::GroundSurface(const Config& config, const RingGrid& grid,
   for (int band = 0; band < grid.bands(); ++band) {
     const auto i = static_cast<std::size_t>(band);
     const float sector_m = sector_rad * grid.center_m(band);
-    const float sectors_wide = config.regain_width_m / sector_m;
+    const float sectors_wide = config.regain_length_m / sector_m;
     wide_from_[i] =
         static_cast<std::int32_t>(std::min(sectors_wide, static_cast<float>(grid.sectors())));
-    max_rise_m_[i] = config.max_cross_slope * sector_m;
+    max_rise_m_[i] = config.max_slope * sector_m;
   }
 }
 
@@ -134,43 +137,37 @@ void GroundSurface::finalize_rest(const RingGrid& grid, std::span<const LowestRe
   }
 }
 
-inline float GroundSurface::Trace::predict_m(float to_range_m,
-                                             const Config& config) const noexcept {
-  return height_m + slope * std::min(to_range_m - range_m, config.slope_memory_m);
+inline bool GroundSurface::leads_to(const RingGrid& grid, const Ground& ground, int band,
+                                    const LowestReturn& here) const noexcept {
+  if (here.height_m == kEmpty || here.is_no_ground != 0) return false;
+  const bool is_first = ground.range_m == 0;
+  if (is_first && !may_start_at(here)) return false;
+  const float run_m = here.range_m - ground.range_m;
+  const float rise_m = here.height_m - ground.height_m;
+  const float unseen_m = is_first ? 0 : std::min(run_m, grid.unseen_m(band));
+  const float accepted_m = std::min(config_.step_up_m + config_.slope_tolerance * run_m,
+                                    config_.step_up_limit_m + config_.far_slope * unseen_m);
+  if (rise_m >= accepted_m || rise_m <= -(accepted_m + config_.extra_fall * run_m)) return false;
+  return rise_m <= foot_rise_m_ || here.highest_m - here.height_m <= config_.tall_m;
 }
 
-inline bool GroundSurface::Trace::reaches(float to_range_m, float to_height_m,
-                                          const Config& config) const noexcept {
-  const float run_m = to_range_m - range_m;
-  const float rise_m = to_height_m - predict_m(to_range_m, config);
-  const float accepted_m =
-      std::min(config.step_up_m + config.slope_tolerance * run_m, config.step_up_limit_m);
-  return rise_m < accepted_m && rise_m > -(accepted_m + config.extra_fall * run_m);
+inline bool GroundSurface::is_passable(const LowestReturn& from,
+                                       const LowestReturn& to) const noexcept {
+  const float run_m = to.range_m - from.range_m;
+  return std::fabs(to.height_m - from.height_m) <=
+         config_.max_slope * std::min(run_m, deep_m_) +
+             config_.far_slope * std::max(run_m - deep_m_, 0.0F);
 }
 
-inline float GroundSurface::Trace::step(float to_range_m, float to_height_m,
-                                        const Config& config) noexcept {
-  const float run_m = std::max(to_range_m - range_m, config.first_slope_run_m);
-  const float step_slope =
-      std::clamp((to_height_m - height_m) / run_m, -config.max_slope, config.max_slope);
-  slope = std::clamp((1.0F - config.slope_gain) * slope + config.slope_gain * step_slope,
-                     -config.max_slope, config.max_slope);
-  height_m = to_height_m;
-  range_m = to_range_m;
-  return step_slope;
-}
-
-inline bool GroundSurface::leads_to(const Trace& ground, const LowestReturn& here) const noexcept {
-  if (here.height_m == kEmpty || !ground.reaches(here.range_m, here.height_m, config_))
-    return false;
-  if (ground.range_m == 0 && !may_start_at(here)) return false;
-  const float rise_m = here.height_m - ground.predict_m(here.range_m, config_);
-  return rise_m <= config_.foot_rise_m || here.highest_m - here.height_m <= config_.tall_m;
+inline float GroundSurface::slope_of(float rise_m, float run_m) const noexcept {
+  constexpr float kShortestRun_m = 0.4F;  // over less the noise of two heights makes the slope
+  return std::clamp(rise_m / std::max(run_m, kShortestRun_m), -config_.max_slope,
+                    config_.max_slope);
 }
 
 void GroundSurface::trace_outward(const RingGrid& grid, int sector,
                                   std::span<const LowestReturn> lowest) noexcept {
-  Trace ground;
+  Ground ground;
   has_regained_[static_cast<std::size_t>(sector)] = 0;
   int lost_band = trace_on(grid, sector, 0, kMeasured, ground, lowest);
   for (;;) {
@@ -185,13 +182,13 @@ void GroundSurface::trace_outward(const RingGrid& grid, int sector,
 }
 
 int GroundSurface::trace_on(const RingGrid& grid, int sector, int band, Origin origin,
-                            Trace& ground, std::span<const LowestReturn> lowest) noexcept {
+                            Ground& ground, std::span<const LowestReturn> lowest) noexcept {
   int last_band = -1;
   for (; band < grid.bands(); ++band) {
     const std::size_t cell = grid.cell(sector, band);
     const float center_m = grid.center_m(band);
     const LowestReturn& here = lowest[cell];
-    const bool is_ground = leads_to(ground, here);
+    const bool is_ground = leads_to(grid, ground, band, here);
     // Ground goes on here, but far behind where it was lost: a bank in between takes precedence.
     if (is_ground && here.range_m - ground.range_m > config_.regain_length_m &&
         find_ground_again(grid, sector, last_band, band, ground, lowest).band >= 0) {
@@ -200,51 +197,46 @@ int GroundSurface::trace_on(const RingGrid& grid, int sector, int band, Origin o
     found_[cell] = is_ground ? origin : kPredicted;
     if (is_ground) {
       // The step's slope carries the heights of both returns to the middles of their cells.
-      const Trace before = ground;
-      const float step_slope = ground.step(here.range_m, here.height_m, config_);
+      const Ground before = std::exchange(ground, Ground{here.height_m, here.range_m});
+      const float run_m = here.range_m - before.range_m;
+      const float slope =
+          run_m > 0 ? slope_of(here.height_m - before.height_m, run_m) : before.slope;
       if (last_band >= 0 && grid.center_m(last_band) > before.range_m) {
         traced_m_[grid.cell(sector, last_band)] =
-            before.height_m + step_slope * (grid.center_m(last_band) - before.range_m);
+            before.height_m + slope * (grid.center_m(last_band) - before.range_m);
       }
-      traced_m_[cell] = center_m < here.range_m
-                            ? here.height_m - step_slope * (here.range_m - center_m)
-                            : ground.predict_m(center_m, config_);
+      const float to_middle_m = center_m - here.range_m;
+      traced_m_[cell] =
+          here.height_m + slope * (run_m > 0 ? std::min(to_middle_m, 0.0F) : to_middle_m);
       last_band = band;
     } else {
-      traced_m_[cell] = ground.predict_m(center_m, config_);
+      traced_m_[cell] = ground.height_m;
     }
   }
   return last_band;
 }
 
 GroundSurface::Detour GroundSurface::find_ground_again(
-    const RingGrid& grid, int sector, int lost_band, int end_band, const Trace& ground,
+    const RingGrid& grid, int sector, int lost_band, int end_band, const Ground& ground,
     std::span<const LowestReturn> lowest) const noexcept {
-  // True if the step is no steeper than regain_slope.
-  const auto passable = [this](const LowestReturn& from, const LowestReturn& to) {
-    return std::fabs(to.height_m - from.height_m) <=
-           config_.regain_slope * (to.range_m - from.range_m);
-  };
   const LowestReturn lost{ground.height_m, ground.range_m};
   LowestReturn start, last;
   int start_band = -1;     // start of the passable run
   bool connected = false;  // true if the run is passable from the lost ground
   for (int band = lost_band + 1; band < end_band; ++band) {
     const LowestReturn& here = lowest[grid.cell(sector, band)];
-    if (here.height_m == kEmpty) continue;
-    const float most_gap_m = connected ? config_.regain_gap_m
-                                       : std::min(config_.regain_gap_m, config_.unconnected_gap_m);
-    const bool leads_on = passable(last, here) && here.range_m - last.range_m <= most_gap_m;
+    if (here.height_m == kEmpty || here.is_no_ground != 0) continue;
+    const bool leads_on = is_passable(last, here) &&
+                          (connected || here.range_m - last.range_m <= config_.regain_length_m);
     if (start_band < 0 || !leads_on) {
       start = here;
       start_band = band;
-      connected = passable(lost, here) && (lost.range_m != 0 || may_start_at(here));
+      connected = is_passable(lost, here) && (lost.range_m != 0 || may_start_at(here));
     }
     last = here;
     const float length_m = here.range_m - start.range_m;
     if (connected && length_m >= config_.regain_length_m) {
-      return {start_band, std::clamp((here.height_m - start.height_m) / length_m,
-                                     -config_.max_slope, config_.max_slope)};
+      return {start_band, slope_of(here.height_m - start.height_m, length_m)};
     }
   }
   return {};
@@ -316,8 +308,7 @@ bool GroundSurface::estimate(const RingGrid& grid, int sector,
 
 float GroundSurface::interpolated_m(const RingGrid& grid, int sector, int band) const noexcept {
   const int sectors = grid.sectors();
-  float weights = config_.traced_weight;
-  float sum_m = weights * traced_m_[grid.cell(sector, band)];
+  float weights = 0, sum_m = 0;
   for (int distance = 1; distance <= interpolate_sectors_; ++distance) {
     const float weight = 1.0F / static_cast<float>(distance);
     const int left = sector >= distance ? sector - distance : sector - distance + sectors;
@@ -329,7 +320,7 @@ float GroundSurface::interpolated_m(const RingGrid& grid, int sector, int band) 
       weights += weight;
     }
   }
-  return sum_m / weights;
+  return weights > 0 ? sum_m / weights : traced_m_[grid.cell(sector, band)];
 }
 
 }  // namespace terracut::elevation

@@ -16,7 +16,8 @@ namespace terracut::elevation {
 ///
 /// This departs from the paper, which always takes the lowest return of a cell as ground, even the
 /// return from a car that hides the ground. Here each sector is traced from the vehicle outwards;
-/// the lowest return of a cell is ground only if a passable slope leads to it from the last ground.
+/// the lowest return of a cell is ground only if a passable step leads to it from the last ground.
+/// Steps may rise more where the rings lie far apart, for between them the ground is not seen.
 /// Lost ground is found again where the lowest returns form a passable path of some metres (a bank
 /// behind a ditch, a hillside behind a hedge). A cell without ground is interpolated from the
 /// nearest sectors with ground. Where the ground rises from sector to sector (a bank seen along its
@@ -31,32 +32,24 @@ class GroundSurface {
     float height_m = kEmpty;    ///< Height of the lowest return; kEmpty if the cell has no return.
     float range_m = 0;          ///< Horizontal range of the lowest return.
     float highest_m = -kEmpty;  ///< Height of the cell's highest return.
+    std::int32_t is_no_ground = 0;  ///< 1 if its row shows that the lowest return is no ground.
   };
   struct Config {
     float step_up_m = 0.04F;        ///< Rise that is accepted even without distance (noise, bumps).
-    float slope_tolerance = 0.25F;  ///< Further rise or fall accepted per metre traced.
-    float step_up_limit_m = 0.34F;  ///< Largest rise accepted, at any distance.
+    float slope_tolerance = 0.3F;   ///< Further rise or fall accepted per metre of a step ...
+    float step_up_limit_m = 0.35F;  ///< ... up to this rise ...
+    float far_slope = 0.06F;        ///< ... and this much more per metre where rings lie far apart.
+    float extra_fall = 0.10F;       ///< Further fall accepted per metre (ground may drop away).
     float start_slope = 0.18F;      ///< First ground may be this high above the mount's plane, per
                                 ///< metre of range and beyond `step_up_m`; nearer than the first
                                 ///< ring's ground, most returns come from a car's flank.
-    float foot_rise_m = 0.18F;  ///< Largest rise accepted where something tall stands.
-    float tall_m = 0.5F;        ///< Tall things are this high above their cell's lowest return.
-    float extra_fall = 0.30F;   ///< Further fall accepted per metre traced (ground may drop away).
-    float slope_gain = 0.20F;   ///< Share of a new step in the running slope, (0, 1].
-    float max_slope = 0.55F;    ///< Largest running slope, as rise over run.
-    float slope_memory_m = 2.0F;     ///< The running slope is continued so far without ground.
-    float first_slope_run_m = 0.4F;  ///< For the slope, shorter steps count as this long.
-    float regain_length_m = 3.5F;    ///< Length of passable path on which lost ground is regained.
-    float regain_slope = 0.55F;  ///< Steepest slope from the last ground to the start of that path.
-    float regain_gap_m = 1e9F;   ///< Longest step between two returns on that path.
-    float unconnected_gap_m = 3.5F;  ///< Longest step on a path steeper than regain_slope at its
-                                     ///< start. A longer step, as over a car's roof, ends the
-                                     ///< path; another path begins behind it.
-    float regain_width_m = 4.0F;     ///< Least width of a strip of ground that is found again.
-    int interpolate_sectors = 14;    ///< Sectors to each side from which a cell is interpolated.
-    float traced_weight = 0.30F;     ///< Weight of the prediction against a neighbour's 1/distance.
-    float max_cross_slope = 0.5F;    ///< Steepest ground across a sector, rise over width, where
-                                     ///< nothing tall stands; 0: ground is level across a sector.
+    float tall_m = 0.5F;           ///< Tall things are this high above their cell's lowest return;
+                                   ///< where one stands, no step rises by an obstacle's height.
+    float max_slope = 0.5F;        ///< Steepest ground, as rise over run, in any direction.
+    float regain_length_m = 4.0F;  ///< Length of passable path on which lost ground is found again,
+                                   ///< least width of such ground, and longest step of a path that
+                                   ///< no passable step leads to.
+    int interpolate_sectors = 14;  ///< Sectors to each side from which a cell is interpolated.
   };
 
   /// Heights of the ground above the mount's plane at the first and the last edge of a sector.
@@ -67,7 +60,8 @@ class GroundSurface {
     bool operator==(const EdgeHeights&) const = default;
   };
 
-  GroundSurface(const Config& config, const RingGrid& grid, memory::FixedMemory& memory);
+  GroundSurface(const Config& config, float obstacle_height_m, const RingGrid& grid,
+                memory::FixedMemory& memory);
 
   // Order of calls for a frame, which may still be arriving: reset(); trace() for sectors as they
   // become known; finalize() for sectors whose surface is needed early; then finalize_rest().
@@ -100,17 +94,11 @@ class GroundSurface {
     kRegained,   // as kMeasured, but ground was lost before this cell and found again
   };
 
-  /// The state of a trace: its last step and the running slope.
-  struct Trace {
-    float height_m = 0;  // starts on the mount's plane, under the sensor
+  /// The last ground of a trace, which starts on the mount's plane, under the sensor.
+  struct Ground {
+    float height_m = 0;
     float range_m = 0;
-    float slope = 0;
-
-    [[nodiscard]] float predict_m(float to_range_m, const Config& config) const noexcept;
-    [[nodiscard]] bool reaches(float to_range_m, float to_height_m,
-                               const Config& config) const noexcept;
-    /// Moves the trace to a new place. Returns the slope of the step, limited to +-max_slope.
-    float step(float to_range_m, float to_height_m, const Config& config) noexcept;
+    float slope = 0;  // of the ground there, where it was found again
   };
 
   template <class T>
@@ -118,17 +106,23 @@ class GroundSurface {
                                               int sector) noexcept {
     return cells.subspan(grid.cell(sector, 0), static_cast<std::size_t>(grid.bands()));
   }
-  /// True if the trace may continue from `ground` to the lowest return `here`.
-  [[nodiscard]] bool leads_to(const Trace& ground, const LowestReturn& here) const noexcept;
+  /// True if the trace may continue from `ground` to the lowest return of a cell in `band`.
+  [[nodiscard]] bool leads_to(const RingGrid& grid, const Ground& ground, int band,
+                              const LowestReturn& here) const noexcept;
   /// True if the first ground of a trace may be as high as `here`.
   [[nodiscard]] bool may_start_at(const LowestReturn& here) const noexcept {
     return here.height_m < config_.step_up_m + config_.start_slope * here.range_m;
   }
+  /// True if ground that is not seen may lead from one return to the other: no steeper than
+  /// max_slope as far as bands are deep, and no steeper than far_slope beyond.
+  [[nodiscard]] bool is_passable(const LowestReturn& from, const LowestReturn& to) const noexcept;
+  /// Returns the slope of a step, limited to +-max_slope.
+  [[nodiscard]] float slope_of(float rise_m, float run_m) const noexcept;
   void trace_outward(const RingGrid& grid, int sector,
                      std::span<const LowestReturn> lowest) noexcept;
   /// Traces from `band` to the end of the sector, or to where ground is lost that can be found
   /// again nearer than the trace would continue. Returns the last band with ground, or -1.
-  int trace_on(const RingGrid& grid, int sector, int band, Origin origin, Trace& ground,
+  int trace_on(const RingGrid& grid, int sector, int band, Origin origin, Ground& ground,
                std::span<const LowestReturn> lowest) noexcept;
   /// The band where lost ground begins again, and the slope of the ground there.
   struct Detour {
@@ -138,7 +132,7 @@ class GroundSurface {
   /// Returns the first band between `lost_band` and `end_band` that is passable from the lost
   /// ground and continues passably for `regain_length_m`.
   [[nodiscard]] Detour find_ground_again(const RingGrid& grid, int sector, int lost_band,
-                                         int end_band, const Trace& ground,
+                                         int end_band, const Ground& ground,
                                          std::span<const LowestReturn> lowest) const noexcept;
   /// Finds which ground of a sector its neighbours may use: all ground, except a strip found again
   /// that is too narrow to be ground (a row of car roofs, for example).
@@ -150,6 +144,8 @@ class GroundSurface {
   [[nodiscard]] float interpolated_m(const RingGrid& grid, int sector, int band) const noexcept;
 
   Config config_;
+  float foot_rise_m_;        // largest rise of a step to the foot of something tall
+  float deep_m_;             // depth of the deepest bands
   int interpolate_sectors_;  // at most half the circle
   std::span<float> traced_m_;
   std::span<EdgeHeights> heights_;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "pipeline/stage/four_lanes.hpp"
+#include "pipeline/stage/row_steps.hpp"
 #include "rt/vector_clones.hpp"
 
 namespace terracut::elevation {
@@ -22,28 +23,24 @@ struct GroundOfRow {
   const std::int32_t* first_cell;  // by column: its sector's first cell
   const float* share_across;       // by column
   const GroundSurface::EdgeHeights* heights;
-  const float* highest_near_m;
   RingGrid::BandMixes mixes;
 };
 
 /// Finds for each return its height above the surface, interpolated between two bands in range and
-/// the two edges of the sector, and `highest_near_m` of the inner band's cell. Takes four returns
-/// at a time; loading the table entries, which are adjacent, is more than half of the work.
+/// the two edges of the sector. Takes four returns at a time; loading the table entries, which are
+/// adjacent, is more than half of the work.
 TERRACUT_VECTOR_CLONES_OF_INLINED void find_heights(const float* __restrict z_m,
                                                     const float* __restrict range_m,
                                                     const GroundOfRow& ground,
-                                                    float* __restrict highest_m,
                                                     std::span<float> height_m) noexcept {
   const RingGrid::BandMix* const __restrict of_step = ground.mixes.of_step;
   const std::int32_t* const __restrict first_cell = ground.first_cell;
   const GroundSurface::EdgeHeights* const __restrict heights = ground.heights;
-  const float* const __restrict highest_near_m = ground.highest_near_m;
   const FourFloats last_step = ground.mixes.last_step - FourFloats{};
   const std::size_t count = height_m.size();
   float* const __restrict out = height_m.data();
-  const auto mixed = [](auto from, auto to, auto share) __attribute__((always_inline)) {
-    return from + share * (to - from);
-  };
+  const auto mixed = [](auto from, auto to, auto share)
+                         __attribute__((always_inline)) { return from + share * (to - from); };
   std::size_t i = 0;
   for (; i + 4 <= count; i += 4) {
     const FourFloats steps = stage::load_four(range_m + i) * RingGrid::kStepsPerMetre;
@@ -74,10 +71,7 @@ TERRACUT_VECTOR_CLONES_OF_INLINED void find_heights(const float* __restrict z_m,
               __builtin_shufflevector(outer_ab, outer_cd, 2, 3, 6, 7), outer_share);
     const FourFloats surface = mixed(first, last, stage::load_four(ground.share_across + i));
     const FourFloats above = stage::load_four(z_m + i) - surface;
-    const FourFloats highest{highest_near_m[cell_a], highest_near_m[cell_b], highest_near_m[cell_c],
-                             highest_near_m[cell_d]};
     std::memcpy(out + i, &above, sizeof(above));
-    std::memcpy(highest_m + i, &highest, sizeof(highest));
   }
   for (; i < count; ++i) {
     const float steps = range_m[i] * RingGrid::kStepsPerMetre;
@@ -88,7 +82,6 @@ TERRACUT_VECTOR_CLONES_OF_INLINED void find_heights(const float* __restrict z_m,
     const float first_m = mixed(inner.first_m, outer.first_m, mix.outer_share);
     const float last_m = mixed(inner.last_m, outer.last_m, mix.outer_share);
     out[i] = z_m[i] - mixed(first_m, last_m, ground.share_across[i]);
-    highest_m[i] = highest_near_m[cell];
   }
 }
 
@@ -128,21 +121,26 @@ float height_in(double number) noexcept {
       static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number) >> 32));
 }
 
+/// The last bits of a return's range make place for its row: the range is good to 2^-15 of itself.
+constexpr std::uint32_t kRowBits = 0xFF;
+constexpr std::uint32_t kNoRow = kRowBits;  ///< The row is not known.
+
 /// Orders equally low returns by range, the nearer first. A larger lower half makes a positive
 /// number larger and a negative one smaller, so for these the bits are inverted.
-std::uint32_t lower_half(float height_m, float range_m) noexcept {
+std::uint32_t lower_half(float height_m, std::uint32_t range_and_row) noexcept {
   const auto all_if_negative =
       static_cast<std::uint32_t>(std::bit_cast<std::int32_t>(height_m) >> 31);
-  return std::bit_cast<std::uint32_t>(range_m) ^ all_if_negative;
+  return range_and_row ^ all_if_negative;
 }
 
-Extremes extremes_of(float height_m, float range_m) noexcept {
-  return Extremes{std::bit_cast<double>(upper_half(height_m) | lower_half(height_m, range_m)),
+Extremes extremes_of(float height_m, float range_m, std::uint32_t row) noexcept {
+  const std::uint32_t range_and_row = (std::bit_cast<std::uint32_t>(range_m) & ~kRowBits) | row;
+  return Extremes{std::bit_cast<double>(upper_half(height_m) | lower_half(height_m, range_and_row)),
                   std::bit_cast<double>(upper_half(-height_m))};
 }
-float range_of_lowest_m(const Extremes& extremes) noexcept {
+std::uint32_t range_and_row_of_lowest(const Extremes& extremes) noexcept {
   const auto bits = static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(extremes[0]));
-  return std::bit_cast<float>(lower_half(height_in(extremes[0]), std::bit_cast<float>(bits)));
+  return lower_half(height_in(extremes[0]), bits);
 }
 
 void take(const Extremes& more, Extremes& extremes) noexcept {
@@ -152,27 +150,32 @@ void take(const Extremes& more, Extremes& extremes) noexcept {
 constexpr float kNowhere_m = GroundSurface::kEmpty;  // for the lowest and, negated, the highest
 
 Extremes nothing() noexcept {
-  return Extremes{extremes_of(kNowhere_m, 0)[0], extremes_of(-kNowhere_m, 0)[1]};
+  return Extremes{extremes_of(kNowhere_m, 0, kNoRow)[0], extremes_of(-kNowhere_m, 0, kNoRow)[1]};
 }
 
 using EightFloats = float __attribute__((vector_size(32)));
 using EightInts = std::int32_t __attribute__((vector_size(32)));
 
-/// Writes the extremes of eight returns as if each were alone in its grid cell, four halves each;
-/// the third may have any value. Stores whole cells: single halves would be read back before they
-/// are in the cache.
-[[gnu::always_inline]] inline void find_eight_extremes(const float* z_m, const float* range_m,
+/// Writes the extremes of eight returns of a row, of which those in `ground_m` may be ground, as if
+/// each were alone in its grid cell, four halves each; the third may have any value. Stores whole
+/// cells: single halves would be read back before they are in the cache.
+[[gnu::always_inline]] inline void find_eight_extremes(const float* ground_m, const float* z_m,
+                                                       const float* range_m, std::uint32_t row,
                                                        std::uint32_t* halves) noexcept {
-  EightFloats z, range;
+  EightFloats ground, z, range;
+  std::memcpy(&ground, ground_m, sizeof(ground));
   std::memcpy(&z, z_m, sizeof(z));
   std::memcpy(&range, range_m, sizeof(range));
-  const EightInts has_return = z == z;
+  const EightInts may_be_ground = ground == ground;
   const EightFloats nowhere = kNowhere_m - EightFloats{};
-  const auto lowest = reinterpret_cast<EightInts>(has_return ? z : nowhere);
-  const auto below_highest = reinterpret_cast<EightInts>(has_return ? -z : nowhere);
-  const EightInts lower = (reinterpret_cast<EightInts>(range) & has_return) ^ lowest >> 31;
-  const auto store = [halves](std::size_t cell, const EightInts& two)
-      __attribute__((always_inline)) {
+  const auto lowest = reinterpret_cast<EightInts>(may_be_ground ? ground : nowhere);
+  const auto below_highest = reinterpret_cast<EightInts>(z == z ? -z : nowhere);
+  const auto of_row = static_cast<std::int32_t>(row);
+  const EightInts range_and_row =
+      (reinterpret_cast<EightInts>(range) & ~static_cast<std::int32_t>(kRowBits)) | of_row;
+  const EightInts lower = (range_and_row & may_be_ground) ^ lowest >> 31;
+  const auto store = [halves](std::size_t cell,
+                              const EightInts& two) __attribute__((always_inline)) {
     std::memcpy(halves + 4 * cell, &two, sizeof(two) / 2);
     std::memcpy(halves + 4 * (cell + 4), reinterpret_cast<const char*>(&two) + sizeof(two) / 2,
                 sizeof(two) / 2);
@@ -192,22 +195,22 @@ using EightInts = std::int32_t __attribute__((vector_size(32)));
 
 /// Does the same for any number of cells. Returns how many have a return.
 TERRACUT_VECTOR_CLONES_OF_INLINED std::uint32_t find_extremes(
-    const float* __restrict z_m, const float* __restrict range_m, std::size_t count,
-    std::uint32_t* __restrict halves) noexcept {
+    const float* __restrict ground_m, const float* __restrict z_m, const float* __restrict range_m,
+    std::uint32_t row, std::size_t count, std::uint32_t* __restrict halves) noexcept {
   constexpr std::size_t kEight = 8;
   std::uint32_t returns = 0;
   for (std::size_t i = 0; i < count; ++i) returns += z_m[i] == z_m[i];
   if (count < kEight) {
     for (std::size_t i = 0; i < count; ++i) {
-      const bool has_return = z_m[i] == z_m[i];
-      const Extremes one = has_return ? extremes_of(z_m[i], range_m[i]) : nothing();
+      Extremes one = z_m[i] == z_m[i] ? extremes_of(z_m[i], range_m[i], row) : nothing();
+      if (ground_m[i] != ground_m[i]) one[0] = nothing()[0];
       std::memcpy(halves + 4 * i, &one, sizeof(one));
     }
     return returns;
   }
   for (std::size_t next = 0; next < count; next += kEight) {
     const std::size_t first = std::min(next, count - kEight);  // the last block overlaps
-    find_eight_extremes(z_m + first, range_m + first, halves + 4 * first);
+    find_eight_extremes(ground_m + first, z_m + first, range_m + first, row, halves + 4 * first);
   }
   return returns;
 }
@@ -240,37 +243,36 @@ RingElevationMap::RingElevationMap(const Config& config, const mount::RingProfil
     : config_(config),
       shape_(shape),
       grid_(config.grid, profile, shape, memory),
-      surface_(config.surface, grid_, memory),
-      rough_(config.rough, config.obstacle_height_m, grid_, shape, memory),
+      surface_(config.surface, config.obstacle_height_m, grid_, memory),
+      lone_(config.lone_depth_m, grid_, shape, memory),
+      opening_(config.opening, config.surface.far_slope, grid_, profile, memory),
+      rows_below_horizon_(stage::rows_that_meet_ground(profile)),
       lowest_(memory.take<GroundSurface::LowestReturn>("ring grid", grid_.cells())),
       extremes_(memory.take<Extremes>("ring grid", grid_.cells())),
-      highest_m_(memory.take<float>("ring grid", grid_.cells())),
       row_halves_(
           memory.take<std::uint32_t>("ring grid", 4 * static_cast<std::size_t>(shape.columns))),
       row_steps_(memory.take<std::uint16_t>("ring grid", row_halves_.size() / 4)),
-      row_highest_m_(memory.take<float>("ring grid", row_steps_.size())) {}
+      row_kept_m_(memory.take<float>("ring grid", row_steps_.size())) {}
 
 void RingElevationMap::reset() noexcept {
-  traced_ = 0;
+  taken_ = 0;
+  traced_ = has_surface() ? opening_.reach() : 0;
   seen_ = seen_overflow_ = 0;
   was_overtaken_ = false;
   std::fill(extremes_.begin(), extremes_.end(), nothing());
   surface_.reset();
-  rough_.reset();
 }
 
-void RingElevationMap::trace_to(int end, const frame::RangeImage& image,
-                                const frame::PointPlanes& points) noexcept {
-  const RingGrid::Sectors sectors{traced_, end};
+void RingElevationMap::take_to(int end, const frame::RangeImage& image,
+                               const frame::PointPlanes& points) noexcept {
   if (image.measured() == nullptr) take_overflow(image);
-  if (traced_ == end) return;
-  take_columns(points, sectors);
-  for (std::size_t i = grid_.cell(sectors.begin, 0); i < grid_.cell(sectors.end, 0); ++i) {
-    highest_m_[i] = -height_in(extremes_[i][1]);
-    lowest_[i] = {height_in(extremes_[i][0]), range_of_lowest_m(extremes_[i]), highest_m_[i]};
-  }
-  if (has_surface()) surface_.trace(grid_, sectors, lowest_);
-  traced_ = end;
+  if (taken_ == end) return;
+  take_columns(points, {taken_, end});
+  taken_ = end;
+  const int traceable = has_surface() ? end - opening_.reach() : end;
+  if (traceable <= traced_) return;
+  trace({traced_, traceable});
+  traced_ = traceable;
 }
 
 void RingElevationMap::take_columns(const frame::PointPlanes& points,
@@ -281,17 +283,45 @@ void RingElevationMap::take_columns(const frame::PointPlanes& points,
       &grid_.first_cell_of_column()[static_cast<std::size_t>(columns.begin)];
   for (int row = 0; row < shape_.rows; ++row) {
     const std::size_t first = shape_.cell(row, columns.begin);
-    seen_ += find_extremes(&points.z_m[first], &points.ground_range_m[first], columns.size(),
+    const float* const z_m = &points.z_m[first];
+    const float* ground_m = z_m;
+    const float* const range_m = &points.ground_range_m[first];
+    if (has_surface() && row < rows_below_horizon_) {
+      lone_.take_out(&points.z_m[shape_.cell(row, 0)], columns, row_kept_m_);
+      ground_m = row_kept_m_.data();
+    }
+    if (has_surface() && opening_.has(row)) opening_.take(row, sectors, ground_m, range_m, grid_);
+    seen_ += find_extremes(ground_m, z_m, range_m, static_cast<std::uint32_t>(row), columns.size(),
                            row_halves_.data());
-    grid_.find_steps({&points.ground_range_m[first], steps.size()}, steps);
+    grid_.find_steps({range_m, steps.size()}, steps);
     take_each(row_halves_.data(), first_cell, steps, grid_, extremes_.data());
   }
 }
 
+void RingElevationMap::trace(RingGrid::Sectors sectors) noexcept {
+  if (has_surface()) opening_.open(sectors);
+  for (int sector = sectors.begin; sector < sectors.end; ++sector) {
+    for (std::size_t i = grid_.cell(sector, 0); i < grid_.cell(sector + 1, 0); ++i) {
+      const float height_m = height_in(extremes_[i][0]);
+      const std::uint32_t range_and_row = range_and_row_of_lowest(extremes_[i]);
+      const auto row = static_cast<int>(range_and_row & kRowBits);
+      const float highest_m = -height_in(extremes_[i][1]);
+      const bool has_only_lone = height_m == kNowhere_m && highest_m != -kNowhere_m;
+      const bool stands_out =
+          has_surface() && opening_.has(row) &&
+          height_m - opening_.opening_m(row, sector) > config_.obstacle_height_m;
+      lowest_[i] = {has_only_lone ? highest_m : height_m,
+                    std::bit_cast<float>(range_and_row & ~kRowBits), highest_m,
+                    has_only_lone || stands_out ? 1 : 0};
+    }
+  }
+  if (has_surface()) surface_.trace(grid_, sectors, lowest_);
+}
+
 void RingElevationMap::take_extra(int column, float z_m, float ground_range_m) noexcept {
   const int sector = grid_.sector_of(column);
-  was_overtaken_ |= sector < traced_;
-  take(extremes_of(z_m, ground_range_m),
+  was_overtaken_ |= sector < taken_;
+  take(extremes_of(z_m, ground_range_m, kNoRow),
        extremes_[grid_.cell(sector, grid_.band_of(ground_range_m))]);
   ++seen_overflow_;
 }
@@ -304,18 +334,16 @@ void RingElevationMap::take_overflow(const frame::RangeImage& image) noexcept {
 }
 
 void RingElevationMap::finalize(RingGrid::Sectors sectors) noexcept {
-  if (!has_surface()) return;
-  surface_.finalize(grid_, sectors, lowest_);
-  rough_.find_highest_near(sectors, grid_, highest_m_, surface_.heights());
+  if (has_surface()) surface_.finalize(grid_, sectors, lowest_);
 }
 
 void RingElevationMap::finalize_rest(std::span<std::uint8_t> is_current) noexcept {
   if (!has_surface()) return;
+  const int first = std::min(opening_.reach(), grid_.sectors());
+  trace({0, first});
+  if (traced_ < grid_.sectors()) trace({traced_, grid_.sectors()});
+  traced_ = grid_.sectors();
   surface_.finalize_rest(grid_, lowest_, is_current);
-  for (int sector = 0; sector < grid_.sectors(); ++sector) {
-    if (is_current[static_cast<std::size_t>(sector)] != 0) continue;
-    rough_.find_highest_near({sector, sector + 1}, grid_, highest_m_, surface_.heights());
-  }
 }
 
 void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRange columns,
@@ -323,9 +351,7 @@ void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRang
   constexpr std::size_t kShort = 512;  // column ranges too short for the processor to foresee
   const auto first = static_cast<std::size_t>(columns.begin);
   const GroundOfRow ground{&grid_.first_cell_of_column()[first], &grid_.share_across()[first],
-                           surface_.heights().data(), rough_.highest_near_m().data(),
-                           grid_.mixes()};
-  const std::span<float> highest_m = row_highest_m_.first(columns.size());
+                           surface_.heights().data(), grid_.mixes()};
   for (int row = 0; row < shape_.rows; ++row) {
     const std::size_t cell = shape_.cell(row, columns.begin);
     if (row + 1 < shape_.rows && columns.size() < kShort) {
@@ -334,14 +360,28 @@ void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRang
     }
     const std::span<float> height_m = planes.height_m.subspan(cell, columns.size());
     if (has_surface()) {
-      find_heights(&points.z_m[cell], &points.ground_range_m[cell], ground, highest_m.data(),
-                   height_m);
-      rough_.level(points, row, columns, highest_m, grid_, height_m);
+      find_heights(&points.z_m[cell], &points.ground_range_m[cell], ground, height_m);
     } else {
       find_heights_above(lowest_, grid_, &points.z_m[cell], &points.ground_range_m[cell],
                          columns.begin, height_m);
     }
     label_heights(height_m, config_.obstacle_height_m, &planes.label[cell]);
+    if (has_surface() && opening_.has(row)) {
+      label_standing_out(&points.z_m[cell], row, columns, &planes.label[cell]);
+    }
+  }
+}
+
+void RingElevationMap::label_standing_out(const float* z_m, int row, frame::ColumnRange columns,
+                                          frame::Label* label) const noexcept {
+  for (int column = columns.begin; column < columns.end;) {
+    const int sector = grid_.sector_of(column);
+    const int end = std::min(grid_.columns_of({sector, sector + 1}).end, columns.end);
+    const float least_m = opening_.opening_m(row, sector) + config_.obstacle_height_m;
+    for (; column < end; ++column) {
+      const int i = column - columns.begin;
+      if (z_m[i] > least_m) label[i] = frame::Label::kObstacle;
+    }
   }
 }
 

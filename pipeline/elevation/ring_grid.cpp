@@ -44,6 +44,18 @@ std::vector<double> band_ends_m(const RingGrid::Config& config, const mount::Rin
   return ends;
 }
 
+/// Returns how far apart the rings around a range lie on level ground: beyond the last ring, as far
+/// as the range limit; 0 within the first ring.
+double spacing_around(double range_m, const RingGrid::Config& config,
+                      const mount::RingProfile& profile) {
+  double inner_m = 0, outer_m = static_cast<double>(config.range_limit_m);
+  for (const mount::Ring& ring : profile.rings) {
+    if (ring.ground_distance_m <= range_m) inner_m = std::max(inner_m, ring.ground_distance_m);
+    if (ring.ground_distance_m > range_m) outer_m = std::min(outer_m, ring.ground_distance_m);
+  }
+  return inner_m > 0 ? std::max(outer_m - inner_m, 0.0) : 0.0;
+}
+
 TERRACUT_VECTOR_CLONES void find_steps_up_to(float last_step,
                                              const float* __restrict ground_range_m,
                                              std::span<std::uint16_t> steps) noexcept {
@@ -63,8 +75,15 @@ RingGrid::RingGrid(const Config& config, const mount::RingProfile& profile, fram
   const std::vector<double> ends = band_ends_m(config, profile);
   bands_ = static_cast<int>(ends.size());
   center_m_ = memory.take<float>("ring grid", ends.size());
+  unseen_m_ = memory.take<float>("ring grid", ends.size());
   for (std::size_t band = 0; band < ends.size(); ++band) {
     center_m_[band] = static_cast<float>(((band == 0 ? 0.0 : ends[band - 1]) + ends[band]) / 2);
+    unseen_m_[band] = std::max(
+        static_cast<float>(spacing_around(double{center_m_[band]}, config, profile)) - kFarApart_m,
+        0.0F);
+    if (band > 0) {
+      deepest_band_m_ = std::max(deepest_band_m_, static_cast<float>(ends[band] - ends[band - 1]));
+    }
   }
 
   last_step_ = config.range_limit_m * kStepsPerMetre;

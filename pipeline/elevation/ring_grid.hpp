@@ -30,6 +30,8 @@ class RingGrid {
     int columns_per_sector = 10;   ///< Image columns a sector covers; [1, 64].
   };
   static constexpr float kStepsPerMetre = 32.0F;  ///< Resolution of boundaries: 3 cm.
+  /// Rings that lie farther apart than this on level ground leave ground unseen between them.
+  static constexpr float kFarApart_m = 1.0F;
   static constexpr int kMaxBands = 250;  ///< Largest number that fits the 8-bit band numbers.
 
   /// Where a range lies between the middles of two adjacent bands, for linear interpolation.
@@ -61,6 +63,15 @@ class RingGrid {
   [[nodiscard]] float center_m(int band) const noexcept {
     return center_m_[static_cast<std::size_t>(band)];
   }
+
+  /// Returns how much of a step into this band is ground that no ring shows: how far apart the
+  /// rings on either side lie on level ground, less kFarApart_m; 0 where they lie nearer, and
+  /// within the first ring.
+  [[nodiscard]] float unseen_m(int band) const noexcept {
+    return unseen_m_[static_cast<std::size_t>(band)];
+  }
+  /// Returns the depth of the deepest band beyond the first ring, metres.
+  [[nodiscard]] float deepest_band_m() const noexcept { return deepest_band_m_; }
 
   /// Returns the band of a horizontal range; the last band for NaN. Real-time safe.
   [[nodiscard]] int band_of(float ground_range_m) const noexcept {
@@ -108,7 +119,9 @@ class RingGrid {
   int bands_ = 0;
   int sectors_ = 0;
   float last_step_ = 0;
+  float deepest_band_m_ = 0;
   std::span<float> center_m_;
+  std::span<float> unseen_m_;  // by band
   std::span<std::uint8_t> band_of_step_;
   std::span<BandMix> mixes_;  // by step
   std::span<std::uint16_t> sector_of_column_;

@@ -24,18 +24,11 @@ void done(stage::StageObserver* observer, stage::Stage stage) noexcept TERRACUT_
 CoarseStages::CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
                            frame::ImageShape shape, memory::FixedMemory& memory,
                            frame::FramePoints* made)
-    : CoarseStages(Suited{suited_to_rows(config, profile)}, profile, shape, memory, made) {}
-
-CoarseStages::CoarseStages(const Suited& suited, const mount::RingProfile& profile,
-                           frame::ImageShape shape, memory::FixedMemory& memory,
-                           frame::FramePoints* made)
-    : last_stage_(suited.config.last_stage),
+    : last_stage_(config.last_stage),
       shape_(shape),
-      map_(suited.config.elevation_map, profile, shape, memory),
-      adjacent_(suited.config.adjacent_points,
-                std::max(suited.config.elevation_map.obstacle_height_m,
-                         suited.config.seeds.min_obstacle_height_m),
-                profile, shape, memory),
+      map_(config.elevation_map, profile, shape, memory),
+      adjacent_(config.adjacent_points, config.elevation_map.obstacle_height_m, profile, shape,
+                memory),
       made_(made),
       is_current_(memory.take<std::uint8_t>("coarse stages",
                                             static_cast<std::size_t>(map_.grid().sectors()))) {}
@@ -50,14 +43,14 @@ void CoarseStages::begin(const frame::RangeImage& image) noexcept {
   if (made_ != nullptr) made_->begin(image);
 }
 
-void CoarseStages::trace_to(int end, const frame::RangeImage& image) noexcept {
+void CoarseStages::take_to(int end, const frame::RangeImage& image) noexcept {
   if (made_ != nullptr) {
     made_->make_until(map_.grid().columns_of({0, end}).end, image,
                       [this](int column, float z_m, float ground_range_m) noexcept {
                         map_.take_extra(column, z_m, ground_range_m);
                       });
   }
-  map_.trace_to(end, image, points_of(image));
+  map_.take_to(end, image, points_of(image));
 }
 
 void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,
@@ -67,14 +60,14 @@ void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,
   if (!has_begun(image)) begin(image);
   const elevation::RingGrid& grid = map_.grid();
   for (int block = 0; block < most_blocks; ++block) {
-    const int size = sectors_of_block(grid.sectors() - map_.traced());
-    const int end = map_.traced() + size;
+    const int size = sectors_of_block(grid.sectors() - map_.taken());
+    const int end = map_.taken() + size;
     if (end > grid.sectors() || grid.columns_of({0, end}).end > complete_columns) return;
     if (observer != nullptr) observer->resumed();
-    trace_to(end, image);
+    take_to(end, image);
     // The first sectors wait for the last ones: ground is interpolated across the seam.
     const elevation::RingGrid::Sectors next{std::max(labelled_, map_.reach()),
-                                            map_.traced() - map_.reach()};
+                                            map_.taken() - map_.reach()};
     if (next.end - next.begin < size) {
       done(observer, stage::Stage::kElevationMap);
       continue;
@@ -89,10 +82,10 @@ void CoarseStages::finish(const frame::RangeImage& image, stage::CellPlanes& pla
   const int sectors = map_.grid().sectors();
   if (observer != nullptr) observer->resumed();
   if (!has_begun(image)) begin(image);
-  trace_to(sectors, image);
+  take_to(sectors, image);
   if (!map_.saw_all_of(image)) {
     begin(image);
-    trace_to(sectors, image);
+    take_to(sectors, image);
   }
   map_.finalize_rest(is_current_);
   const int labelled_ahead = labelled_;

@@ -35,7 +35,7 @@ namespace terracut::ground {
 /// All memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
 class CoarseStages {
  public:
-  /// `profile` must have shape.rows rings; suited_to_rows() adapts `config` to the rings first.
+  /// `profile` must have shape.rows rings.
   /// `made` is for images that keep their returns as measured, else null: advance() fills it as
   /// columns are needed, and finish() with all points.
   CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
@@ -63,17 +63,10 @@ class CoarseStages {
               stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
 
  private:
-  /// A configuration that has been adapted to the sensor's rows.
-  struct Suited {
-    SegmenterConfig config;
-  };
-  CoarseStages(const Suited& suited, const mount::RingProfile& profile, frame::ImageShape shape,
-               memory::FixedMemory& memory, frame::FramePoints* made);
-
   static constexpr int kAnyNumber = std::numeric_limits<int>::max();
 
   void begin(const frame::RangeImage& image) noexcept;
-  void trace_to(int end, const frame::RangeImage& image) noexcept;
+  void take_to(int end, const frame::RangeImage& image) noexcept;
   [[nodiscard]] frame::PointPlanes points_of(const frame::RangeImage& image) const noexcept {
     return made_ != nullptr ? made_->planes() : image.points();
   }

@@ -28,12 +28,13 @@ FineStages::FineStages(const SegmenterConfig& config, const mount::RingProfile& 
                        memory::FixedMemory& memory, frame::FramePoints* made)
     : config_(config),
       shape_(shape),
-      seeds_(config.seeds, profile, shape, memory),
+      seeds_(config.seeds, config.adjacent_points.row_step_deg, profile, shape, memory),
       region_(config.region),
       made_(made),
       near_unknown_(shape, memory),
       min_cut_(shape, config.min_cut, memory),
-      return_labels_(config.returns, return_capacity, memory) {
+      return_labels_(config.returns, config.elevation_map.obstacle_height_m, return_capacity,
+                     memory) {
   if (config.road.enabled) road_surface_.emplace(config.road, shape, memory);
 }
 
@@ -94,6 +95,7 @@ stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
   done(stage::Stage::kLabels);
 
   report.count(return_labels_.labels());
+  report.below = stage::count_below(planes.height_m, -2 * config_.elevation_map.obstacle_height_m);
   return report;
 }
 

@@ -2,7 +2,9 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/ground/parameter_table.hpp"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 #include <type_traits>
 
 namespace terracut::ground {
@@ -39,60 +41,31 @@ constexpr std::array kParameters{
               TERRACUT_FIELD(elevation_map.reference)},
     Parameter{"elevation_map.obstacle_height_m", "m", "Obstacle from this height above the reference on", 0.01, 2, {},
               TERRACUT_FIELD(elevation_map.obstacle_height_m)},
+    Parameter{"elevation_map.lone_depth_m", "m", "A return alone so far below those beside it in its row is a ghost, no ground", 0.01, kFar, {},
+              TERRACUT_FIELD(elevation_map.lone_depth_m)},
+    Parameter{"elevation_map.window_m", "m", "What is no wider than this stands out of a row that comes up to it and goes down again", 0.1, 100, {},
+              TERRACUT_FIELD(elevation_map.opening.window_m)},
 
     Parameter{"surface.step_up_m", "m", "Rise accepted as ground at no distance", 0, 1, {},
               TERRACUT_FIELD(elevation_map.surface.step_up_m)},
-    Parameter{"surface.slope_tolerance", "m/m", "Further rise or fall accepted per metre traced", 0, 1, {},
+    Parameter{"surface.slope_tolerance", "m/m", "Further rise or fall accepted per metre of a step", 0, 1, {},
               TERRACUT_FIELD(elevation_map.surface.slope_tolerance)},
-    Parameter{"surface.step_up_limit_m", "m", "Largest rise ever accepted in one step", 0, 5, {},
+    Parameter{"surface.step_up_limit_m", "m", "... up to this rise", 0, 5, {},
               TERRACUT_FIELD(elevation_map.surface.step_up_limit_m)},
+    Parameter{"surface.far_slope", "m/m", "... and this much more per metre where rings lie farther apart than 1 m", 0, 2, {},
+              TERRACUT_FIELD(elevation_map.surface.far_slope)},
+    Parameter{"surface.extra_fall", "m/m", "Further fall accepted per metre", 0, 2, {},
+              TERRACUT_FIELD(elevation_map.surface.extra_fall)},
     Parameter{"surface.start_slope", "m/m", "Rise per metre above the mount's plane accepted of the first ground, beside step_up_m", 0, 2, {},
               TERRACUT_FIELD(elevation_map.surface.start_slope)},
-    Parameter{"surface.foot_rise_m", "m", "Largest rise accepted where something tall stands", 0, kFar, {},
-              TERRACUT_FIELD(elevation_map.surface.foot_rise_m)},
-    Parameter{"surface.tall_m", "m", "... which is this much higher than the lowest return of its cell", 0, 10, {},
+    Parameter{"surface.tall_m", "m", "Something tall is so much higher than the lowest return of its cell; there no step rises by obstacle_height_m", 0, 10, {},
               TERRACUT_FIELD(elevation_map.surface.tall_m)},
-    Parameter{"surface.extra_fall", "m/m", "Further fall accepted per metre traced", 0, 2, {},
-              TERRACUT_FIELD(elevation_map.surface.extra_fall)},
-    Parameter{"surface.slope_gain", "", "Share of a new step in the running slope", 0.01, 1, {},
-              TERRACUT_FIELD(elevation_map.surface.slope_gain)},
-    Parameter{"surface.max_slope", "m/m", "Largest running slope", 0, 1, {},
+    Parameter{"surface.max_slope", "m/m", "Steepest ground", 0, 1, {},
               TERRACUT_FIELD(elevation_map.surface.max_slope)},
-    Parameter{"surface.slope_memory_m", "m", "How far the running slope is carried over missing ground", 0, 50, {},
-              TERRACUT_FIELD(elevation_map.surface.slope_memory_m)},
-    Parameter{"surface.first_slope_run_m", "m", "Shorter steps count as this long for the slope", 0.1, 10, {},
-              TERRACUT_FIELD(elevation_map.surface.first_slope_run_m)},
-    Parameter{"surface.regain_length_m", "m", "Lost ground is found again after so many metres of passable steps", 0.5, 1000, {},
+    Parameter{"surface.regain_length_m", "m", "Lost ground is found again where passable steps lead on so far, and it is as wide", 0.5, 1000, {},
               TERRACUT_FIELD(elevation_map.surface.regain_length_m)},
-    Parameter{"surface.regain_slope", "m/m", "... that begin no steeper than this from the last ground ...", 0, 2, {},
-              TERRACUT_FIELD(elevation_map.surface.regain_slope)},
-    Parameter{"surface.regain_gap_m", "m", "... without a longer step among them ...", 0.5, kFar, {},
-              TERRACUT_FIELD(elevation_map.surface.regain_gap_m)},
-    Parameter{"surface.unconnected_gap_m", "m", "... (a way that began steeper ends at a longer step) ...", 0.5, kFar, {},
-              TERRACUT_FIELD(elevation_map.surface.unconnected_gap_m)},
-    Parameter{"surface.regain_width_m", "m", "... on a strip at least so wide", 0, 100, {},
-              TERRACUT_FIELD(elevation_map.surface.regain_width_m)},
     Parameter{"surface.interpolate_sectors", "sectors", "How far to each side a cell without ground is interpolated from", 0, 100, {},
               TERRACUT_FIELD(elevation_map.surface.interpolate_sectors)},
-    Parameter{"surface.traced_weight", "", "Weight of the traced prediction when interpolating", 0.01, 10, {},
-              TERRACUT_FIELD(elevation_map.surface.traced_weight)},
-    Parameter{"surface.max_cross_slope", "m/m", "Steepest ground across a sector, where nothing tall stands; 0: one height for all of it", 0, 2, {},
-              TERRACUT_FIELD(elevation_map.surface.max_cross_slope)},
-
-    Parameter{"rough.enabled", "", "Low returns with nothing tall near are level, higher ones where it is rough", 0, 1, kOffOn,
-              TERRACUT_FIELD(elevation_map.rough.enabled)},
-    Parameter{"rough.tall_m", "m", "Something so high above the reference is tall ...", 0, 10, {},
-              TERRACUT_FIELD(elevation_map.rough.tall_m)},
-    Parameter{"rough.near_sectors", "sectors", "... and near if it is so many sectors aside or fewer ...", 0, 100, {},
-              TERRACUT_FIELD(elevation_map.rough.near_sectors)},
-    Parameter{"rough.near_bands", "bands", "... and as many bands nearer or farther", 0, 100, {},
-              TERRACUT_FIELD(elevation_map.rough.near_bands)},
-    Parameter{"rough.rough_m", "m", "It is rough where rings bend more from column to column: there ...", 0, 1, {},
-              TERRACUT_FIELD(elevation_map.rough.rough_m)},
-    Parameter{"rough.rough_tall_m", "m", "... only something so high is tall ...", 0, 10, {},
-              TERRACUT_FIELD(elevation_map.rough.rough_tall_m)},
-    Parameter{"rough.rough_height_m", "m", "... and obstacles begin so high above the reference", 0, 10, {},
-              TERRACUT_FIELD(elevation_map.rough.rough_height_m)},
 
     Parameter{"adjacent.rule", "", "How a step too steep for ground is told", 0, 1, kAdjacentRules,
               TERRACUT_FIELD(adjacent_points.rule)},
@@ -117,16 +90,8 @@ constexpr std::array kParameters{
               TERRACUT_FIELD(seeds.ground_share)},
     Parameter{"seeds.window_rows", "steps", "Window reach up and down", 0, 8, {},
               TERRACUT_FIELD(seeds.window_rows)},
-    Parameter{"seeds.row_step_deg", "deg", "Elevation a row step covers at least", 0, 5, {},
-              TERRACUT_FIELD(seeds.row_step_deg)},
     Parameter{"seeds.window_columns", "columns", "Window reach to each side", 0, 16, {},
               TERRACUT_FIELD(seeds.window_columns)},
-    Parameter{"seeds.max_ground_height_m", "m", "Ground seeds lie no higher above the reference", 0, kFar, {},
-              TERRACUT_FIELD(seeds.max_ground_height_m)},
-    Parameter{"seeds.min_obstacle_height_m", "m", "Obstacles from this height on are seeds without being steep", 0, kFar, {},
-              TERRACUT_FIELD(seeds.min_obstacle_height_m)},
-    Parameter{"seeds.trust_all_obstacles", "", "Every obstacle of the stages before is a seed", 0, 1, kOffOn,
-              TERRACUT_FIELD(seeds.trust_all_obstacles)},
     Parameter{"seeds.rows", "", "Rows the MRF decides on: all, those whose beams meet the ground, or all of up to 64 (auto)", 0, 2, kCutRows,
               TERRACUT_FIELD(seeds.rows)},
 
@@ -163,8 +128,6 @@ constexpr std::array kParameters{
               TERRACUT_FIELD(returns.same_surface_range_m)},
     Parameter{"returns.same_surface_height_m", "m", "... and this near in height", 0, 10, {},
               TERRACUT_FIELD(returns.same_surface_height_m)},
-    Parameter{"returns.obstacle_height_m", "m", "Else it is an obstacle from this height on", 0.01, 2, {},
-              TERRACUT_FIELD(returns.obstacle_height_m)},
 
     Parameter{"road.enabled", "", "Tell the road surface from other ground", 0, 1, kOffOn,
               TERRACUT_FIELD(road.enabled)},
@@ -197,14 +160,6 @@ constexpr std::array kParameters{
     Parameter{"road.terrain_square_m", "m", "The terrain's slope is a plane over three by three such squares", 1, 60, {},
               TERRACUT_FIELD(road.terrain.square_m)},
 
-    Parameter{"sparse.from_deg", "deg", "Rows so far apart, 2 to 10 degrees below the horizon, are sparse: what follows holds for them", 0, 90, {},
-              TERRACUT_FIELD(sparse.from_deg)},
-    Parameter{"sparse.step_up_limit_m", "m", "In place of surface.step_up_limit_m", 0, 5, {},
-              TERRACUT_FIELD(sparse.step_up_limit_m)},
-    Parameter{"sparse.regain_gap_m", "m", "In place of surface.regain_gap_m", 0.5, kFar, {},
-              TERRACUT_FIELD(sparse.regain_gap_m)},
-    Parameter{"sparse.min_lower_height_m", "m", "In place of adjacent.min_lower_height_m", -1, kFar, {},
-              TERRACUT_FIELD(sparse.min_lower_height_m)},
 };
 // clang-format on
 #undef TERRACUT_FIELD
@@ -213,6 +168,34 @@ constexpr std::array kParameters{
 
 std::span<const Parameter> parameters() noexcept {
   return kParameters;
+}
+
+bool is_read(const Parameter& parameter, const SegmenterConfig& config) noexcept {
+  using elevation::AdjacentRule, elevation::GroundReference;
+  using random_field::BoundaryRule, random_field::RegionRule;
+  const bool has_surface = config.elevation_map.reference == GroundReference::kLocalSurface;
+  const bool has_ramp = config.region.rule == RegionRule::kHeightRamp;
+  const bool has_nearness = config.boundary.rule == BoundaryRule::kNearness;
+  struct Reader {
+    std::string_view keys;  // what they begin with
+    bool is_in_use;
+  };
+  const std::array readers{
+      Reader{"surface.", has_surface},
+      Reader{"elevation_map.lone", has_surface},
+      Reader{"elevation_map.window", has_surface},
+      Reader{"adjacent.min_", config.adjacent_points.rule == AdjacentRule::kSlope},
+      Reader{"region.even", has_ramp},
+      Reader{"region.ramp", has_ramp},
+      Reader{"region.bins", !has_ramp},
+      Reader{"region.empty", !has_ramp},
+      Reader{"boundary.scale", has_nearness},
+      Reader{"boundary.sigma", !has_nearness},
+      Reader{"boundary.min", !has_nearness},
+  };
+  return std::ranges::none_of(readers, [&](const Reader& reader) {
+    return !reader.is_in_use && parameter.key.starts_with(reader.keys);
+  });
 }
 
 Status set_parameter(SegmenterConfig& config, std::string_view key, std::string_view value) {

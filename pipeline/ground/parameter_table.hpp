@@ -17,6 +17,9 @@ using Parameter = ParameterOf<SegmenterConfig>;
 /// (docs/reference/parameters.md is printed from this table).
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
 
+/// True if the method with `config` reads the parameter: some belong to one rule of several.
+[[nodiscard]] bool is_read(const Parameter& parameter, const SegmenterConfig& config) noexcept;
+
 /// Sets one parameter from text ("0.2", "local_surface"). The error's message names the key, the
 /// value and the valid values, or, for an unknown key, the keys of the same stage.
 [[nodiscard]] Status set_parameter(SegmenterConfig& config, std::string_view key,

@@ -14,7 +14,6 @@ SegmenterConfig paper_profile() noexcept {
   config.elevation_map.grid.max_band_m = 1e9F;  // never split
   config.elevation_map.reference = elevation::GroundReference::kCellMinimum;
   config.elevation_map.obstacle_height_m = 0.20F;
-  config.elevation_map.rough.enabled = false;
 
   config.adjacent_points.rule = elevation::AdjacentRule::kRingSpacing;
   config.adjacent_points.max_slope_rad = 0.50F;
@@ -23,15 +22,12 @@ SegmenterConfig paper_profile() noexcept {
   config.adjacent_points.row_step_deg = 0;
   config.adjacent_points.column_reach = 3;
 
-  config.seeds.trust_all_obstacles = true;
   config.seeds.ground_share = 0.8F;
-  config.seeds.row_step_deg = 0;
   config.seeds.rows = random_field::CutRows::kAll;
 
   config.region.rule = random_field::RegionRule::kHistogram;
   config.region.lambda = 1.0F;
   config.boundary.rule = random_field::BoundaryRule::kHeightGradient;
-  config.returns.obstacle_height_m = config.elevation_map.obstacle_height_m;
   return config;
 }
 

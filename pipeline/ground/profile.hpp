@@ -6,7 +6,6 @@
 
 #include "pipeline/elevation/adjacent_points.hpp"
 #include "pipeline/elevation/ring_elevation_map.hpp"
-#include "pipeline/ground/sparse_rows.hpp"
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/min_cut/grid_cut.hpp"
 #include "pipeline/random_field/boundary_term.hpp"
@@ -30,7 +29,6 @@ struct SegmenterConfig {
   min_cut::GridCut::Config min_cut;
   stage::ReturnLabels::Config returns;
   road::RoadSurface::Config road;
-  SparseRows sparse;  ///< Replaces other parameters if rows are sparse; see suited_to_rows().
 };
 
 /// Returns the default profile: the paper's structure with measured improvements

@@ -14,20 +14,11 @@ namespace terracut::random_field {
 
 namespace {
 
-/// Returns the highest row whose beam meets the ground, plus one.
-int rows_that_see_ground(const mount::RingProfile& profile) {
-  int rows = 0;
-  for (std::size_t row = 0; row < profile.rings.size(); ++row) {
-    if (std::isfinite(profile.rings[row].ground_distance_m)) rows = static_cast<int>(row) + 1;
-  }
-  return rows;
-}
-
 int rows_to_cut(CutRows rows, const mount::RingProfile& profile, const frame::ImageShape& shape) {
   constexpr int kMostRowsToCutAll = 64;
   const bool all =
       rows == CutRows::kAll || (rows == CutRows::kAuto && shape.rows <= kMostRowsToCutAll);
-  return all ? shape.rows : rows_that_see_ground(profile);
+  return all ? shape.rows : stage::rows_that_meet_ground(profile);
 }
 
 /// Returns the seed that keeps the label of earlier stages.
@@ -44,11 +35,11 @@ min_cut::Seed kept(frame::Label label) noexcept {
   return min_cut::Seed::kNone;
 }
 
-/// The windows around the cells of a row, and the thresholds for trusted ground.
+/// The windows around the cells of a row, and the threshold for trusted ground.
 struct TrustedWindows {
   const std::uint8_t *ground_in_column, *returns_in_column;  ///< Starting at the first window.
   int columns;                                               ///< Columns of a window.
-  float ground_share, max_height_m;
+  float ground_share;
 };
 
 // Adds a row of labels to the counts of its columns; uncount() removes it.
@@ -82,11 +73,10 @@ template <class Sum>
   }
 }
 
-/// Finds the returns whose ground label is trusted: enough of the window is ground, and the return
-/// is low. `Sum` must hold the count of a window.
+/// Finds the returns whose ground label is trusted: enough of the window is ground. `Sum` must hold
+/// the count of a window.
 template <class Sum>
 [[gnu::always_inline]] inline void find_trusted_ground(const TrustedWindows& windows,
-                                                       const float* __restrict height_m,
                                                        Sum* __restrict ground,
                                                        Sum* __restrict returns,
                                                        std::span<std::uint8_t> trusted) noexcept {
@@ -95,42 +85,24 @@ template <class Sum>
   sum_windows(windows.returns_in_column, windows.columns, columns, returns);
   std::uint8_t* const __restrict out = trusted.data();
   for (std::size_t i = 0; i < columns; ++i) {
-    out[i] =
-        (static_cast<float>(ground[i]) > windows.ground_share * static_cast<float>(returns[i])) &
-        (height_m[i] < windows.max_height_m);
+    out[i] = static_cast<float>(ground[i]) > windows.ground_share * static_cast<float>(returns[i]);
   }
 }
 TERRACUT_VECTOR_CLONES void find_trusted_ground_small(const TrustedWindows& windows,
-                                                      const float* height_m, std::uint8_t* ground,
-                                                      std::uint8_t* returns,
+                                                      std::uint8_t* ground, std::uint8_t* returns,
                                                       std::span<std::uint8_t> trusted) noexcept {
-  find_trusted_ground(windows, height_m, ground, returns, trusted);
+  find_trusted_ground(windows, ground, returns, trusted);
 }
 TERRACUT_VECTOR_CLONES void find_trusted_ground_large(const TrustedWindows& windows,
-                                                      const float* height_m, std::uint16_t* ground,
-                                                      std::uint16_t* returns,
+                                                      std::uint16_t* ground, std::uint16_t* returns,
                                                       std::span<std::uint8_t> trusted) noexcept {
-  find_trusted_ground(windows, height_m, ground, returns, trusted);
+  find_trusted_ground(windows, ground, returns, trusted);
 }
 
-/// Finds the returns whose obstacle label is trusted: they are steep or high enough.
-TERRACUT_VECTOR_CLONES void find_trusted_obstacles(const std::uint8_t* __restrict steep,
-                                                   const float* __restrict height_m,
-                                                   float min_height_m,
-                                                   std::span<std::uint8_t> trusted) noexcept {
-  const std::size_t columns = trusted.size();
-  std::uint8_t* const __restrict out = trusted.data();
-  for (std::size_t i = 0; i < columns; ++i) {
-    const std::uint8_t is_high = height_m[i] > min_height_m;
-    out[i] = static_cast<std::uint8_t>((steep[i] & stage::kSteep) | is_high);
-  }
-}
-
-/// Keeps a trusted label and makes the others unknown. Has no branches: they would be mispredicted
-/// wherever ground and obstacles alternate.
+/// Keeps obstacles and trusted ground, and makes other ground unknown. Has no branches: they would
+/// be mispredicted wherever ground and obstacles alternate.
 TERRACUT_VECTOR_CLONES void choose(const frame::Label* __restrict label,
                                    const std::uint8_t* __restrict trusted_ground,
-                                   const std::uint8_t* __restrict trusted_obstacle,
                                    std::span<min_cut::Seed> seeds) noexcept {
   static_assert(
       static_cast<int>(min_cut::Seed::kNone) == static_cast<int>(frame::Label::kNone) &&
@@ -140,7 +112,7 @@ TERRACUT_VECTOR_CLONES void choose(const frame::Label* __restrict label,
   min_cut::Seed* const __restrict out = seeds.data();
   for (std::size_t i = 0; i < columns; ++i) {
     const bool trusted = ((label[i] == frame::Label::kGround) & (trusted_ground[i] != 0)) |
-                         ((label[i] == frame::Label::kObstacle) & (trusted_obstacle[i] != 0));
+                         (label[i] == frame::Label::kObstacle);
     const min_cut::Seed otherwise =
         label[i] == frame::Label::kNone ? min_cut::Seed::kNone : min_cut::Seed::kUnknown;
     out[i] = trusted ? static_cast<min_cut::Seed>(label[i]) : otherwise;
@@ -149,8 +121,9 @@ TERRACUT_VECTOR_CLONES void choose(const frame::Label* __restrict label,
 
 }  // namespace
 
-ConfidenceSeeds::ConfidenceSeeds(const Config& config, const mount::RingProfile& profile,
-                                 frame::ImageShape shape, memory::FixedMemory& memory)
+ConfidenceSeeds::ConfidenceSeeds(const Config& config, float row_step_deg,
+                                 const mount::RingProfile& profile, frame::ImageShape shape,
+                                 memory::FixedMemory& memory)
     : config_(config),
       shape_(shape),
       cut_rows_(rows_to_cut(config.rows, profile, shape)),
@@ -161,9 +134,8 @@ ConfidenceSeeds::ConfidenceSeeds(const Config& config, const mount::RingProfile&
           "seeds", static_cast<std::size_t>(shape.columns + 2 * config.window_columns))),
       returns_in_column_(memory.take<std::uint8_t>("seeds", ground_in_column_.size())),
       sums_(memory.take<std::uint16_t>("seeds", 2 * static_cast<std::size_t>(shape.columns))),
-      trusted_ground_(memory.take<std::uint8_t>("seeds", sums_.size() / 2)),
-      trusted_obstacle_(memory.take<std::uint8_t>("seeds", sums_.size() / 2)) {
-  const stage::RowSteps row_steps(profile, static_cast<double>(config.row_step_deg));
+      trusted_ground_(memory.take<std::uint8_t>("seeds", sums_.size() / 2)) {
+  const stage::RowSteps row_steps(profile, static_cast<double>(row_step_deg));
   for (int row = 0; row < shape.rows; ++row) {
     const auto i = static_cast<std::size_t>(row);
     window_begin_[i] = std::max(0, row_steps.down(row, config.window_rows));
@@ -189,13 +161,8 @@ void ConfidenceSeeds::select(const stage::CellPlanes& planes) noexcept {
 void ConfidenceSeeds::select_in_row(const stage::CellPlanes& planes, int row) noexcept {
   const std::size_t first =
       static_cast<std::size_t>(row) * static_cast<std::size_t>(shape_.stride());
-  const float min_obstacle_height_m = config_.trust_all_obstacles
-                                          ? -std::numeric_limits<float>::infinity()
-                                          : config_.min_obstacle_height_m;
-  find_trusted_ground_in_row(&planes.height_m[first]);
-  find_trusted_obstacles(&planes.steep[first], &planes.height_m[first], min_obstacle_height_m,
-                         trusted_obstacle_);
-  choose(&planes.label[first], trusted_ground_.data(), trusted_obstacle_.data(),
+  find_trusted_ground_in_row();
+  choose(&planes.label[first], trusted_ground_.data(),
          seeds_.subspan(first, trusted_ground_.size()));
 }
 
@@ -228,16 +195,15 @@ void ConfidenceSeeds::count_in_columns(const stage::CellPlanes& planes, int row)
   }
 }
 
-void ConfidenceSeeds::find_trusted_ground_in_row(const float* height_m) noexcept {
+void ConfidenceSeeds::find_trusted_ground_in_row() noexcept {
   const TrustedWindows windows{ground_in_column_.data(), returns_in_column_.data(),
-                               2 * config_.window_columns + 1, config_.ground_share,
-                               config_.max_ground_height_m};
+                               2 * config_.window_columns + 1, config_.ground_share};
   const std::size_t columns = trusted_ground_.size();
   if (most_in_window_ <= std::numeric_limits<std::uint8_t>::max()) {
     auto* const sums = reinterpret_cast<std::uint8_t*>(sums_.data());
-    find_trusted_ground_small(windows, height_m, sums, sums + columns, trusted_ground_);
+    find_trusted_ground_small(windows, sums, sums + columns, trusted_ground_);
   } else {
-    find_trusted_ground_large(windows, height_m, sums_.data(), &sums_[columns], trusted_ground_);
+    find_trusted_ground_large(windows, sums_.data(), &sums_[columns], trusted_ground_);
   }
 }
 

@@ -21,25 +21,22 @@ enum class CutRows : std::uint8_t {
 };
 
 /// Stage 3a: chooses the returns that initialise the MRF as "object" and "background"; other
-/// returns stay unknown (paper, section III-D). Obstacles of earlier stages are trusted if they are
-/// high or steep; ground is trusted if the share of ground in a window around it exceeds k.
+/// returns stay unknown (paper, section III-D). Obstacles of earlier stages are trusted: the random
+/// field decides where evidence is weak, it erases nothing that was seen. Ground is trusted if the
+/// share of ground in a window around it exceeds k.
 class ConfidenceSeeds {
  public:
   struct Config {
-    float ground_share = 0.7F;         ///< Share k of ground among the window's returns, [0, 1].
-    int window_rows = 2;               ///< Row steps the window extends up and down, [0, 8].
-    float row_step_deg = 0.25F;        ///< Least elevation of a row step (RowSteps), [0, 5].
-    int window_columns = 3;            ///< Columns the window extends to each side, [0, 16].
-    float max_ground_height_m = 1e9F;  ///< Highest ground seed above the reference.
-    float min_obstacle_height_m =
-        0.30F;                         ///< Obstacles this high are seeds; lower ones only if steep.
-    bool trust_all_obstacles = false;  ///< Makes all obstacles of earlier stages seeds, as printed.
+    float ground_share = 0.7F;  ///< Share k of ground among the window's returns, [0, 1].
+    int window_rows = 2;        ///< Row steps the window extends up and down, [0, 8].
+    int window_columns = 3;     ///< Columns the window extends to each side, [0, 16].
     CutRows rows = CutRows::kAuto;
   };
 
-  /// `profile` must have shape.rows rings.
-  ConfidenceSeeds(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
-                  memory::FixedMemory& memory);
+  /// `profile` must have shape.rows rings. `row_step_deg` is the least elevation of a row step
+  /// (RowSteps), [0, 5].
+  ConfidenceSeeds(const Config& config, float row_step_deg, const mount::RingProfile& profile,
+                  frame::ImageShape shape, memory::FixedMemory& memory);
 
   /// Chooses the seed of every cell from `planes`. Real-time safe.
   void select(const stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
@@ -53,7 +50,7 @@ class ConfidenceSeeds {
  private:
   void start_counting() noexcept;
   void count_in_columns(const stage::CellPlanes& planes, int row) noexcept;
-  void find_trusted_ground_in_row(const float* height_m) noexcept;
+  void find_trusted_ground_in_row() noexcept;
   void select_in_row(const stage::CellPlanes& planes, int row) noexcept;
 
   Config config_;
@@ -67,8 +64,8 @@ class ConfidenceSeeds {
   std::span<std::uint8_t> returns_in_column_;
   // Sums over whole windows; stored as bytes if most_in_window_ fits a byte.
   std::span<std::uint16_t> sums_;
-  int most_in_window_ = 0;                                     // most returns in a window
-  std::span<std::uint8_t> trusted_ground_, trusted_obstacle_;  // of the row being judged
+  int most_in_window_ = 0;                  // most returns in a window
+  std::span<std::uint8_t> trusted_ground_;  // of the row being judged
 };
 
 }  // namespace terracut::random_field

@@ -44,9 +44,11 @@ void write_labels(std::span<const std::uint8_t> of_firing, frame::Label* next) n
 
 }  // namespace
 
-ReturnLabels::ReturnLabels(const Config& config, std::size_t return_capacity,
-                           memory::FixedMemory& memory)
-    : config_(config), labels_(memory.take<frame::Label>("return labels", return_capacity + 1)) {}
+ReturnLabels::ReturnLabels(const Config& config, float obstacle_height_m,
+                           std::size_t return_capacity, memory::FixedMemory& memory)
+    : config_(config),
+      obstacle_height_m_(obstacle_height_m),
+      labels_(memory.take<frame::Label>("return labels", return_capacity + 1)) {}
 
 void ReturnLabels::assign(const frame::RangeImage& image, const CellPlanes& planes) noexcept {
   returns_ = image.returns();
@@ -71,7 +73,7 @@ frame::Label ReturnLabels::label_of_extra(float above_owner_m, float behind_owne
                             std::fabs(above_owner_m) < config_.same_surface_height_m;
   const float height_m = planes.height_m[cell] + above_owner_m;
   const frame::Label by_height =
-      height_m < config_.obstacle_height_m ? frame::Label::kGround : frame::Label::kObstacle;
+      height_m < obstacle_height_m_ ? frame::Label::kGround : frame::Label::kObstacle;
   return same_surface ? planes.label[cell] : by_height;
 }
 

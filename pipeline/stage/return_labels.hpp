@@ -24,11 +24,12 @@ class ReturnLabels {
   struct Config {
     float same_surface_range_m = 0.30F;   ///< Returns farther apart in range are not close.
     float same_surface_height_m = 0.10F;  ///< Returns farther apart in height are not close.
-    float obstacle_height_m = 0.15F;      ///< If not close, a return this high is an obstacle.
   };
 
+  /// A return that is not close is an obstacle from `obstacle_height_m` above the ground on.
   /// `return_capacity` is RangeImage::return_capacity() of the images that will be labelled.
-  ReturnLabels(const Config& config, std::size_t return_capacity, memory::FixedMemory& memory);
+  ReturnLabels(const Config& config, float obstacle_height_m, std::size_t return_capacity,
+               memory::FixedMemory& memory);
 
   /// Labels every return of `image`. Real-time safe.
   void assign(const frame::RangeImage& image,
@@ -62,6 +63,7 @@ class ReturnLabels {
                                          const CellPlanes& planes) const noexcept;
 
   Config config_;
+  float obstacle_height_m_;
   std::size_t returns_ = 0;
   std::span<frame::Label> labels_;
 };

@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/stage/row_steps.hpp"
 
+#include <cmath>
+
 #include "calib/beams/angle.hpp"
 
 namespace terracut::stage {
@@ -12,6 +14,14 @@ namespace {
 constexpr double kRounding_rad = beams::deg_to_rad(1e-6);
 
 }  // namespace
+
+int rows_that_meet_ground(const mount::RingProfile& profile) noexcept {
+  int rows = 0;
+  for (std::size_t row = 0; row < profile.rings.size(); ++row) {
+    if (std::isfinite(profile.rings[row].ground_distance_m)) rows = static_cast<int>(row) + 1;
+  }
+  return rows;
+}
 
 RowSteps::RowSteps(const mount::RingProfile& profile, double step_deg)
     : profile_(&profile), step_rad_(beams::deg_to_rad(step_deg)) {}

@@ -7,6 +7,9 @@
 
 namespace terracut::stage {
 
+/// Returns the number of rows up to the highest whose beams meet the ground; 0 if none does.
+[[nodiscard]] int rows_that_meet_ground(const mount::RingProfile& profile) noexcept;
+
 /// Steps over rows by angle. Rows may be unevenly spaced: those of an RS-Ruby128 are 0.1 degrees
 /// apart around the horizon and up to 5.4 degrees below, an HDL-64E's a third or half a degree. A
 /// step goes to the next row, or over as many rows as it takes to cover `step_deg`; so k steps

@@ -113,7 +113,8 @@ test::TestProblem cut_problem(const SegmenterConfig& config, const mount::RingPr
   memory::FixedMemory memory;
   stage::CellPlanes planes(shape, memory);
   ground::CoarseStages(config, profile, shape, memory).finish(image, planes);
-  random_field::ConfidenceSeeds seeds(config.seeds, profile, shape, memory);
+  random_field::ConfidenceSeeds seeds(config.seeds, config.adjacent_points.row_step_deg, profile,
+                                      shape, memory);
   seeds.select(planes);
   random_field::RegionTerm region(config.region);
   region.look_at(image.points(), planes, seeds.seeds());

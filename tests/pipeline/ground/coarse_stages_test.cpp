@@ -135,10 +135,6 @@ struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
         std::string_view(GetParam()) == "paper" ? paper_profile() : terracut_profile();
     if (std::string_view(GetParam()) == "elevation")
       config.last_stage = stage::Stage::kElevationMap;
-    // Whether high returns are steep matters, too.
-    if (std::string_view(GetParam()) == "low_seeds") config.seeds.min_obstacle_height_m = 10;
-    // As for rows far apart, though these are not.
-    if (std::string_view(GetParam()) == "sparse") config.sparse.from_deg = 0;
     return config;
   }
   /// What the stages make of the image as it is now, nothing done ahead.
@@ -154,11 +150,8 @@ struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
 
     memory::FixedMemory memory;
     const elevation::RingGrid grid(config().elevation_map.grid, way.profile, kShape, memory);
-    const test::PlainCoarseLabels plain(suited_to_rows(config(), way.profile), way.profile, grid,
-                                        image);
+    const test::PlainCoarseLabels plain(config(), way.profile, grid, image);
     const double obstacle_height_m = double{config().elevation_map.obstacle_height_m};
-    const double steep_matters_to_m =
-        std::max(obstacle_height_m, double{config().seeds.min_obstacle_height_m});
     constexpr double kSlack_m = 1e-3;
     int wrong_heights = 0, wrong_steps = 0, wrong_labels = 0;
     for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
@@ -168,17 +161,17 @@ struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
         wrong_heights += !std::isnan(way.planes.height_m[cell]);
         continue;
       }
-      const double least_m = plain.least_height_m[cell], most_m = plain.most_height_m[cell];
-      const double height_m = double{way.planes.height_m[cell]};
-      wrong_heights += !(height_m > least_m - kSlack_m && height_m < most_m + kSlack_m);
+      const double height_m = plain.height_m[cell];
+      wrong_heights += !(std::fabs(double{way.planes.height_m[cell]} - height_m) < kSlack_m);
       bool is_steep = false;
       if (config().last_stage >= stage::Stage::kAdjacentPoints) {
         is_steep = (way.planes.steep[cell] & stage::kSteep) != 0;
-        const bool matters = most_m <= steep_matters_to_m - kSlack_m;
+        const bool matters = height_m <= obstacle_height_m - kSlack_m;
         wrong_steps += is_steep ? !plain.may_be_steep[cell] : plain.must_be_steep[cell] && matters;
       }
-      const bool may_be_ground = !is_steep && least_m < obstacle_height_m + kSlack_m;
-      const bool may_be_obstacle = is_steep || most_m > obstacle_height_m - kSlack_m;
+      const double above_m = std::fmax(height_m, plain.stands_out_m[cell]);
+      const bool may_be_ground = !is_steep && above_m < obstacle_height_m + kSlack_m;
+      const bool may_be_obstacle = is_steep || above_m > obstacle_height_m - kSlack_m;
       wrong_labels += !(label == frame::Label::kGround && may_be_ground) &&
                       !(label == frame::Label::kObstacle && may_be_obstacle);
     }
@@ -268,7 +261,7 @@ TEST_P(CoarseStagesOfArrivingFrames, CompareAcrossTheSeamBothWays) {
         expect_right_labels(frame.image);
         const std::size_t upper = kShape.cell(22, lower_is_before ? after : last);
         EXPECT_EQ(way.planes.label[upper], frame::Label::kObstacle);
-        const bool matters = way.planes.height_m[upper] <= config().seeds.min_obstacle_height_m;
+        const bool matters = way.planes.height_m[upper] <= config().elevation_map.obstacle_height_m;
         const bool is_told = config().last_stage >= stage::Stage::kAdjacentPoints &&
                              (matters || std::string_view(GetParam()) == "paper");
         EXPECT_EQ(way.planes.steep[upper] & stage::kSteep, is_told);
@@ -426,7 +419,7 @@ TEST_P(CoarseStagesOfArrivingFrames, AllocateNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Profiles, CoarseStagesOfArrivingFrames,
-                         testing::Values("terracut", "low_seeds", "paper", "elevation", "sparse"),
+                         testing::Values("terracut", "paper", "elevation"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <set>
+#include <string_view>
 
 namespace terracut::ground {
 namespace {
@@ -32,6 +33,22 @@ TEST(ParameterTable, EveryKeyIsUniqueAndSetsAFieldOfItsOwn) {
           << p.key << " changed " << q.key;
     }
   }
+}
+
+TEST(ParameterTable, SaysWhichParametersAProfileReads) {
+  const auto is_read_by = [](std::string_view key, const SegmenterConfig& profile) {
+    return is_read(*find_parameter(parameters(), key), profile);
+  };
+  for (const std::string_view key : {"surface.max_slope", "elevation_map.window_m",
+                                     "adjacent.min_rise_m", "region.ramp_m", "boundary.scale_m"}) {
+    EXPECT_TRUE(is_read_by(key, terracut_profile())) << key;
+    EXPECT_FALSE(is_read_by(key, paper_profile())) << key;
+  }
+  for (const std::string_view key : {"region.bins_per_metre", "boundary.sigma"}) {
+    EXPECT_FALSE(is_read_by(key, terracut_profile())) << key;
+    EXPECT_TRUE(is_read_by(key, paper_profile())) << key;
+  }
+  EXPECT_TRUE(is_read_by("adjacent.max_slope_rad", paper_profile()));
 }
 
 TEST(ParameterTable, ReadsBackWhatItPrints) {

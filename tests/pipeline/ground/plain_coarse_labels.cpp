@@ -3,12 +3,17 @@
 #include "plain_coarse_labels.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <tuple>
 #include <utility>
+
+#include "pipeline/stage/row_steps.hpp"
 
 namespace terracut::test {
 namespace {
@@ -30,6 +35,7 @@ constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 struct Place {
   double range_m = 0, z_m = 0;
   double highest_m = 0;  // z of all that was seen in its grid cell
+  bool stands_out = false;
 };
 using LowestOfSector = std::vector<std::optional<Place>>;  // by band
 
@@ -47,9 +53,12 @@ struct TracedSector {
 
 class PlainSurface {
  public:
-  PlainSurface(const GroundSurface::Config& config, const RingGrid& grid,
+  PlainSurface(const GroundSurface::Config& config, double obstacle_height_m, const RingGrid& grid,
                std::vector<LowestOfSector> lowest)
-      : config_(config), grid_(grid), lowest_(std::move(lowest)) {
+      : config_(config),
+        obstacle_height_m_(obstacle_height_m),
+        grid_(grid),
+        lowest_(std::move(lowest)) {
     for (const LowestOfSector& sector : lowest_) traced_.push_back(trace(sector));
     is_donor_.resize(traced_.size());
     for (int sector = 0; sector < grid_.sectors(); ++sector) {
@@ -72,8 +81,7 @@ class PlainSurface {
   [[nodiscard]] double lowest_z_m(int sector, int band) const {
     const TracedSector& traced = at(traced_, sector);
     if (at(at(is_donor_, sector), band)) return at(traced.z_m, band);
-    double weights = double{config_.traced_weight};
-    double sum = weights * at(traced.z_m, band);
+    double weights = 0, sum = 0;
     const int reach = std::min(config_.interpolate_sectors, (grid_.sectors() - 1) / 2);
     for (int away = -reach; away <= reach; ++away) {
       const int donor = around(sector + away);
@@ -81,7 +89,7 @@ class PlainSurface {
       weights += 1.0 / std::abs(away);
       sum += at(at(traced_, donor).z_m, band) / std::abs(away);
     }
-    return sum / weights;
+    return weights > 0 ? sum / weights : at(traced.z_m, band);
   }
 
  private:
@@ -101,7 +109,7 @@ class PlainSurface {
     if (left_m * right_m <= 0) return 0;
     const double least_m = std::min(std::fabs(left_m), std::fabs(right_m));
     const double rise_m = std::min({std::fabs(left_m + right_m) / 2, 2 * least_m,
-                                    double{config_.max_cross_slope} * sector_width_m(band)});
+                                    double{config_.max_slope} * sector_width_m(band)});
     for (int s = sector - 1; s <= sector + 1; ++s) {
       if (!at(at(is_donor_, around(s)), band)) return 0;
       const Place& seen = *at(at(lowest_, around(s)), band);
@@ -110,25 +118,15 @@ class PlainSurface {
     return std::copysign(rise_m, left_m);
   }
 
-  [[nodiscard]] double expected_m(const Place& last, double slope, double range_m) const {
-    return last.z_m + slope * std::min(range_m - last.range_m, double{config_.slope_memory_m});
-  }
-
-  [[nodiscard]] double steepest(double slope) const {
-    return std::clamp(slope, -double{config_.max_slope}, double{config_.max_slope});
-  }
-
   [[nodiscard]] TracedSector trace(const LowestOfSector& lowest) const {
     const auto bands = static_cast<std::size_t>(grid_.bands());
     TracedSector sector{std::vector<double>(bands), std::vector<bool>(bands),
                         std::vector<bool>(bands)};
     Place last;
-    double slope = 0;
-    int lost = trace_from(0, false, lowest, last, slope, sector);
+    int lost = trace_from(0, 0, false, lowest, last, sector);
     while (const auto again = find_again(lost, grid_.bands(), last, lowest)) {
       last = *at(lowest, again->first);
-      slope = again->second;
-      lost = trace_from(again->first, true, lowest, last, slope, sector);
+      lost = trace_from(again->first, again->second, true, lowest, last, sector);
     }
     return sector;
   }
@@ -140,25 +138,28 @@ class PlainSurface {
            here.z_m < double{config_.step_up_m} + double{config_.start_slope} * here.range_m;
   }
 
+  /// Whether a step from the last ground to the lowest return of a band stays on the ground.
+  [[nodiscard]] bool is_step(const Place& last, const Place& here, int band) const {
+    if (here.stands_out || !may_follow(last, here)) return false;
+    const double run_m = here.range_m - last.range_m;
+    const double rise_m = here.z_m - last.z_m;
+    const double unseen_m = last.range_m == 0 ? 0 : std::min(run_m, double{grid_.unseen_m(band)});
+    const double most_m = double{config_.step_up_limit_m} + double{config_.far_slope} * unseen_m;
+    const double up_m =
+        std::min(double{config_.step_up_m} + double{config_.slope_tolerance} * run_m, most_m);
+    if (rise_m >= up_m || -rise_m >= up_m + double{config_.extra_fall} * run_m) return false;
+    const bool is_foot_of_something_tall = here.highest_m - here.z_m > double{config_.tall_m};
+    return !(is_foot_of_something_tall && rise_m > obstacle_height_m_);
+  }
+
   /// Returns the last band that is ground; -1 if none is.
-  int trace_from(int first, bool regained, const LowestOfSector& lowest, Place& last, double& slope,
-                 TracedSector& sector) const {
+  int trace_from(int first, double first_slope, bool regained, const LowestOfSector& lowest,
+                 Place& last, TracedSector& sector) const {
     int last_band = -1;
     for (int band = first; band < grid_.bands(); ++band) {
       const double middle_m = double{grid_.center_m(band)};
       const std::optional<Place>& here = at(lowest, band);
-      bool is_ground = false;
-      if (here) {
-        const double run_m = here->range_m - last.range_m;
-        const double off_m = here->z_m - expected_m(last, slope, here->range_m);
-        const double up_m =
-            std::min(double{config_.step_up_m} + double{config_.slope_tolerance} * run_m,
-                     double{config_.step_up_limit_m});
-        const bool is_foot_of_something_tall = off_m > double{config_.foot_rise_m} &&
-                                               here->highest_m - here->z_m > double{config_.tall_m};
-        is_ground = off_m < up_m && -off_m < up_m + double{config_.extra_fall} * run_m &&
-                    !is_foot_of_something_tall && may_follow(last, *here);
-      }
+      const bool is_ground = here && is_step(last, *here, band);
       // What would be jumped over has ground that can be found again.
       if (is_ground && here->range_m - last.range_m > double{config_.regain_length_m} &&
           find_again(last_band, band, last, lowest)) {
@@ -167,26 +168,31 @@ class PlainSurface {
       at(sector.is_ground, band) = is_ground;
       at(sector.is_regained, band) = is_ground && regained;
       if (!is_ground) {
-        at(sector.z_m, band) = expected_m(last, slope, middle_m);
+        at(sector.z_m, band) = last.z_m;
         continue;
       }
       const Place before = std::exchange(last, *here);
-      const double run_m =
-          std::max(last.range_m - before.range_m, double{config_.first_slope_run_m});
-      const double step_slope = steepest((last.z_m - before.z_m) / run_m);
-      const double gain = double{config_.slope_gain};
-      slope = steepest((1 - gain) * slope + gain * step_slope);
+      if (last.range_m == before.range_m) {  // where ground was found again
+        at(sector.z_m, band) = last.z_m + first_slope * (middle_m - last.range_m);
+        last_band = band;
+        continue;
+      }
+      const double slope = slope_of(before, last);
       // The middle of a band lies on the step that leads over it.
       if (last_band >= 0 && double{grid_.center_m(last_band)} > before.range_m) {
         at(sector.z_m, last_band) =
-            before.z_m + step_slope * (double{grid_.center_m(last_band)} - before.range_m);
+            before.z_m + slope * (double{grid_.center_m(last_band)} - before.range_m);
       }
-      at(sector.z_m, band) = middle_m < last.range_m
-                                 ? last.z_m + step_slope * (middle_m - last.range_m)
-                                 : expected_m(last, slope, middle_m);
+      at(sector.z_m, band) =
+          middle_m < last.range_m ? last.z_m + slope * (middle_m - last.range_m) : last.z_m;
       last_band = band;
     }
     return last_band;
+  }
+
+  [[nodiscard]] double slope_of(const Place& a, const Place& b) const {
+    return std::clamp((b.z_m - a.z_m) / std::max(b.range_m - a.range_m, 0.4),
+                      -double{config_.max_slope}, double{config_.max_slope});
   }
 
   /// The band where a chain of passable steps begins that is long enough before `end` and passable
@@ -194,38 +200,38 @@ class PlainSurface {
   [[nodiscard]] std::optional<std::pair<int, double>> find_again(
       int lost_band, int end, const Place& lost, const LowestOfSector& lowest) const {
     const auto passable = [this](const Place& a, const Place& b) {
-      return std::fabs(b.z_m - a.z_m) <= double{config_.regain_slope} * (b.range_m - a.range_m);
+      const double run_m = b.range_m - a.range_m, deep_m = double{grid_.deepest_band_m()};
+      return std::fabs(b.z_m - a.z_m) <= (run_m < deep_m
+                                              ? double{config_.max_slope} * run_m
+                                              : double{config_.max_slope} * deep_m +
+                                                    double{config_.far_slope} * (run_m - deep_m));
     };
     const auto leads_to = [&](const Place& start) {
       return passable(lost, start) && may_follow(lost, start);
     };
     std::vector<int> chain;
     for (int band = lost_band + 1; band < end; ++band) {
-      if (!at(lowest, band)) continue;
+      if (!at(lowest, band) || at(lowest, band)->stands_out) continue;
       const Place& here = *at(lowest, band);
       if (!chain.empty()) {
         const Place& before = *at(lowest, chain.back());
-        const double step_m = here.range_m - before.range_m;
-        const bool is_astray =
-            step_m > double{config_.unconnected_gap_m} && !leads_to(*at(lowest, chain.front()));
-        if (is_astray || step_m > double{config_.regain_gap_m} || !passable(before, here)) {
-          chain.clear();
-        }
+        const bool is_astray = here.range_m - before.range_m > double{config_.regain_length_m} &&
+                               !leads_to(*at(lowest, chain.front()));
+        if (is_astray || !passable(before, here)) chain.clear();
       }
       chain.push_back(band);
       const Place& start = *at(lowest, chain.front());
-      const double length_m = here.range_m - start.range_m;
-      if (leads_to(start) && length_m >= double{config_.regain_length_m}) {
-        return std::pair(chain.front(), steepest((here.z_m - start.z_m) / length_m));
+      if (leads_to(start) && here.range_m - start.range_m >= double{config_.regain_length_m}) {
+        return std::pair(chain.front(), slope_of(start, here));
       }
     }
     return std::nullopt;
   }
 
-  /// Whether ground goes on beside it, around the circle, for regain_width_m in all.
+  /// Whether ground goes on beside it, around the circle, for regain_length_m in all.
   [[nodiscard]] bool is_wide(int sector, int band) const {
     const int enough = std::min(
-        static_cast<int>(double{config_.regain_width_m} / sector_width_m(band)), grid_.sectors());
+        static_cast<int>(double{config_.regain_length_m} / sector_width_m(band)), grid_.sectors());
     const auto is_ground = [&](int s) { return at(at(traced_, around(s)).is_ground, band); };
     int wide = 1;
     for (int s = sector + 1; wide < enough && is_ground(s); ++s) ++wide;
@@ -234,33 +240,149 @@ class PlainSurface {
   }
 
   GroundSurface::Config config_;
+  double obstacle_height_m_;
   const RingGrid& grid_;
   std::vector<LowestOfSector> lowest_;
   std::vector<TracedSector> traced_;
   std::vector<std::vector<bool>> is_donor_;
 };
 
-std::vector<LowestOfSector> find_lowest(const RingGrid& grid, const RangeImage& image) {
+/// What rows show by themselves: their lone returns, and what stands out of them.
+class PlainRows {
+ public:
+  PlainRows(const RingElevationMap::Config& config, const RingGrid& grid,
+            const mount::RingProfile& profile, const RangeImage& image)
+      : config_(config), grid_(grid), profile_(profile), image_(image) {
+    for (int row = 0; row < image.shape().rows; ++row) {
+      lowest_.emplace_back(static_cast<std::size_t>(grid.sectors()));
+      for (int column = 0; column < image.shape().columns; ++column) {
+        if (std::isnan(z_m(row, column)) || is_lone(row, column)) continue;
+        std::optional<Place>& known = at(at(lowest_, row), grid.sector_of(column));
+        const double range_m = double{image.ground_range_m()[image.shape().cell(row, column)]};
+        if (!known || z_m(row, column) < known->z_m) known = Place{range_m, z_m(row, column)};
+      }
+    }
+  }
+
+  /// Far below a return beside it in its sector, and near the height of none.
+  [[nodiscard]] bool is_lone(int row, int column) const {
+    if (!has_surface() || row >= stage::rows_that_meet_ground(profile_)) return false;
+    const frame::ColumnRange own = columns_of_sector(column);
+    bool is_below = false, has_company = false;
+    for (int c = std::max(column - 2, own.begin); c <= std::min(column + 2, own.end - 1); ++c) {
+      if (c == column) continue;
+      // In float, as a difference of floats may hang on its last bit.
+      const float above_m = static_cast<float>(z_m(row, c)) - static_cast<float>(z_m(row, column));
+      is_below |= above_m > config_.lone_depth_m;
+      has_company |= std::fabs(above_m) < config_.lone_depth_m / 2;
+    }
+    return is_below && !has_company;
+  }
+
+  /// How far a height lies above what the row shows of the ground around a sector; NaN if the row
+  /// tells nothing.
+  [[nodiscard]] double standing_out_m(int row, int sector, double height_m) const {
+    if (!has_surface() || !is_far_from_next(row) || !at(at(lowest_, row), sector)) return kNoHeight;
+    const double width_m =
+        2 * std::numbers::pi / grid_.sectors() * at(at(lowest_, row), sector)->range_m;
+    const int reach =
+        std::min({static_cast<int>(std::ceil(double{config_.opening.window_m} / width_m)), 8,
+                  (grid_.sectors() - 1) / 2});
+    double opening_m = -std::numeric_limits<double>::infinity();
+    for (int first = sector - reach; first <= sector; ++first) {
+      double lowest_m = std::numeric_limits<double>::infinity();
+      for (int s = first; s <= first + reach; ++s) {
+        const std::optional<Place>& seen =
+            at(at(lowest_, row), (s + grid_.sectors()) % grid_.sectors());
+        if (!seen) continue;
+        lowest_m = std::min(lowest_m, seen->z_m + double{config_.surface.far_slope} * width_m *
+                                                      std::abs(s - sector));
+      }
+      opening_m = std::max(opening_m, lowest_m);
+    }
+    return height_m - opening_m;
+  }
+
+ private:
+  [[nodiscard]] bool has_surface() const {
+    return config_.reference == GroundReference::kLocalSurface;
+  }
+  [[nodiscard]] frame::ColumnRange columns_of_sector(int column) const {
+    const int sector = grid_.sector_of(column);
+    return grid_.columns_of({sector, sector + 1});
+  }
+  [[nodiscard]] double z_m(int row, int column) const {
+    const std::size_t cell = image_.shape().cell(row, column);
+    return image_.has_return(cell) ? double{image_.z_m()[cell]} : kNoHeight;
+  }
+  [[nodiscard]] bool is_far_from_next(int row) const {
+    const double own_m = at(profile_.rings, row).ground_distance_m;
+    if (!std::isfinite(own_m)) return false;
+    return std::ranges::none_of(profile_.rings, [&](const mount::Ring& ring) {
+      return ring.ground_distance_m > own_m && ring.ground_distance_m <= own_m + 1;
+    });
+  }
+
+  const RingElevationMap::Config& config_;
+  const RingGrid& grid_;
+  const mount::RingProfile& profile_;
+  const RangeImage& image_;
+  std::vector<LowestOfSector> lowest_;  // by row and sector
+};
+
+std::vector<LowestOfSector> find_lowest(const RingElevationMap::Config& config,
+                                        const RingGrid& grid, const RangeImage& image,
+                                        const PlainRows& rows) {
   std::vector<LowestOfSector> lowest(static_cast<std::size_t>(grid.sectors()),
                                      LowestOfSector(static_cast<std::size_t>(grid.bands())));
-  const auto take = [&](int column, float z_m, float range_m) {
-    std::optional<Place>& known = at(at(lowest, grid.sector_of(column)), grid.band_of(range_m));
-    Place place{double{range_m}, double{z_m}, double{z_m}};
-    const auto order = [](const Place& p) { return std::pair(p.z_m, p.range_m); };
+  constexpr int kNoRow = 255;
+  std::vector<std::vector<int>> row_of_lowest(
+      lowest.size(), std::vector<int>(static_cast<std::size_t>(grid.bands()), kNoRow));
+  const auto take = [&](int row, int column, float z_m, float range_m) {
+    const int sector = grid.sector_of(column), band = grid.band_of(range_m);
+    std::optional<Place>& known = at(at(lowest, sector), band);
+    // A range is kept to 15 bits.
+    const float kept_m = std::bit_cast<float>(std::bit_cast<std::uint32_t>(range_m) & ~0xFFU);
+    Place place{double{kept_m}, double{z_m}, double{z_m}};
+    int& row_of_known = at(at(row_of_lowest, sector), band);
+    const auto order = [](const Place& p, int r) { return std::tuple(p.z_m, p.range_m, r); };
     if (known) place.highest_m = std::max(place.highest_m, known->highest_m);
-    if (!known || order(place) < order(*known)) known = place;
+    if (!known || order(place, row) < order(*known, row_of_known)) {
+      known = place;
+      row_of_known = row;
+    }
     known->highest_m = place.highest_m;
   };
   const ImageShape& shape = image.shape();
   for (int row = 0; row < shape.rows; ++row) {
     for (int column = 0; column < shape.columns; ++column) {
       const std::size_t cell = shape.cell(row, column);
-      if (image.has_return(cell)) take(column, image.z_m()[cell], image.ground_range_m()[cell]);
+      if (!image.has_return(cell) || rows.is_lone(row, column)) continue;
+      take(row, column, image.z_m()[cell], image.ground_range_m()[cell]);
     }
   }
   for (const OverflowReturn& extra : image.overflow()) {
-    take(static_cast<int>(extra.cell) % shape.stride(), extra.point.z_m,
+    take(kNoRow, static_cast<int>(extra.cell) % shape.stride(), extra.point.z_m,
          extra.point.ground_range_m);
+  }
+  // A lone return is no ground, but it may be the highest of its cell.
+  for (int row = 0; row < shape.rows; ++row) {
+    for (int column = 0; column < shape.columns; ++column) {
+      const std::size_t cell = shape.cell(row, column);
+      if (!image.has_return(cell) || !rows.is_lone(row, column)) continue;
+      const int band = grid.band_of(image.ground_range_m()[cell]);
+      std::optional<Place>& known = at(at(lowest, grid.sector_of(column)), band);
+      if (known) known->highest_m = std::max(known->highest_m, double{image.z_m()[cell]});
+    }
+  }
+  for (int sector = 0; sector < grid.sectors(); ++sector) {
+    for (int band = 0; band < grid.bands(); ++band) {
+      std::optional<Place>& known = at(at(lowest, sector), band);
+      const int row = at(at(row_of_lowest, sector), band);
+      if (!known || row == kNoRow) continue;
+      known->stands_out =
+          rows.standing_out_m(row, sector, known->z_m) > double{config.obstacle_height_m};
+    }
   }
   return lowest;
 }
@@ -283,78 +405,6 @@ double interpolated_m(const RingGrid& grid, const PlainSurface& surface, int col
   const double share = (place_m - middle_m) / (double{grid.center_m(other)} - middle_m);
   return here_m + share * (surface.z_m(sector, other, across) - here_m);
 }
-
-/// Which low returns count as level.
-class PlainLevelling {
- public:
-  PlainLevelling(const RingElevationMap::Config& config, const RingGrid& grid,
-                 const RangeImage& image, const std::vector<LowestOfSector>& lowest,
-                 const PlainSurface& surface)
-      : config_(config), grid_(grid), image_(image), lowest_(lowest), surface_(surface) {}
-
-  /// `slack_m` more, or less, is granted at each bound; a bend is measured a hundred times better.
-  [[nodiscard]] bool is_level(int row, int column, double height_m, double slack_m) const {
-    const elevation::RoughGround::Config& rough = config_.rough;
-    const bool has_surface = config_.reference == GroundReference::kLocalSurface;
-    if (!rough.enabled || !has_surface || !(height_m > -slack_m)) return false;
-    const int sector = grid_.sector_of(column);
-    const float range_m = image_.ground_range_m()[image_.shape().cell(row, column)];
-    const double highest_m = highest_near_m(sector, grid_.mix_of(range_m).inner);
-    if (height_m < double{config_.obstacle_height_m} + slack_m &&
-        highest_m <= double{rough.tall_m} + slack_m) {
-      return true;
-    }
-    return height_m < double{rough.rough_height_m} + slack_m &&
-           highest_m <= double{rough.rough_tall_m} + slack_m &&
-           is_rough(row, sector, slack_m / 100);
-  }
-
- private:
-  [[nodiscard]] int around(int sector) const {
-    return (sector + grid_.sectors()) % grid_.sectors();
-  }
-  template <class Visit>
-  void for_each_sector_near(int sector, Visit visit) const {
-    const int reach = std::min(config_.rough.near_sectors, (grid_.sectors() - 1) / 2);
-    for (int away = -reach; away <= reach; ++away) visit(around(sector + away));
-  }
-  /// Above the ground of the grid cell.
-  [[nodiscard]] double highest_near_m(int sector, int band) const {
-    const int reach = config_.rough.near_bands;
-    double highest_m = -std::numeric_limits<double>::infinity();
-    for_each_sector_near(sector, [&](int near) {
-      for (int b = band - reach; b <= band + 1 + reach; ++b) {
-        if (b < 0 || b >= grid_.bands() || !at(at(lowest_, near), b)) continue;
-        highest_m = std::max(highest_m, at(at(lowest_, near), b)->highest_m);
-      }
-    });
-    return highest_m - surface_.lowest_z_m(sector, band);
-  }
-  [[nodiscard]] double z_m(int row, int column) const {
-    const std::size_t cell = image_.shape().cell(row, column);
-    return image_.has_return(cell) ? double{image_.z_m()[cell]} : kNoHeight;
-  }
-  [[nodiscard]] bool is_rough(int row, int sector, double slack_m) const {
-    int known = 0, rough = 0;
-    for (int r = std::max(row - 2, 0); r <= std::min(row + 2, image_.shape().rows - 1); ++r) {
-      for_each_sector_near(sector, [&](int near) {
-        const frame::ColumnRange columns = grid_.columns_of({near, near + 1});
-        for (int c = columns.begin + 1; c + 1 < columns.end; ++c) {
-          const double bend_m = std::fabs(z_m(r, c - 1) + z_m(r, c + 1) - 2 * z_m(r, c));
-          known += std::isnan(bend_m) ? 0 : 1;
-          rough += bend_m > double{config_.rough.rough_m} - slack_m ? 1 : 0;
-        }
-      });
-    }
-    return 2 * rough > known;
-  }
-
-  const RingElevationMap::Config& config_;
-  const RingGrid& grid_;
-  const RangeImage& image_;
-  const std::vector<LowestOfSector>& lowest_;
-  const PlainSurface& surface_;
-};
 
 /// The row so many steps up; -1 if there is none.
 int row_above(const mount::RingProfile& profile, int row, int steps, double step_deg) {
@@ -384,15 +434,15 @@ double ring_spacing_m(const mount::RingProfile& profile, int lower, int upper, d
 PlainCoarseLabels::PlainCoarseLabels(const SegmenterConfig& config,
                                      const mount::RingProfile& profile, const RingGrid& grid,
                                      const RangeImage& image)
-    : least_height_m(image.shape().cells(), kNoHeight),
-      most_height_m(least_height_m),
+    : height_m(image.shape().cells(), kNoHeight),
+      stands_out_m(height_m),
       may_be_steep(image.shape().cells()),
       must_be_steep(image.shape().cells()) {
   const ImageShape& shape = image.shape();
   const RingElevationMap::Config& map = config.elevation_map;
-  const std::vector<LowestOfSector> lowest = find_lowest(grid, image);
-  const PlainSurface surface(map.surface, grid, lowest);
-  const PlainLevelling levelling(map, grid, image, lowest, surface);
+  const PlainRows rows(map, grid, profile, image);
+  const std::vector<LowestOfSector> lowest = find_lowest(map, grid, image, rows);
+  const PlainSurface surface(map.surface, double{map.obstacle_height_m}, grid, lowest);
   for (int row = 0; row < shape.rows; ++row) {
     for (int column = 0; column < shape.columns; ++column) {
       const std::size_t cell = shape.cell(row, column);
@@ -402,19 +452,15 @@ PlainCoarseLabels::PlainCoarseLabels(const SegmenterConfig& config,
       const double ground_m = map.reference == GroundReference::kCellMinimum
                                   ? at(at(lowest, sector), grid.band_of(range_m))->z_m
                                   : interpolated_m(grid, surface, column, map.grid, range_m);
-      const double height_m = double{image.z_m()[cell]} - ground_m;
-      constexpr double kSlack_m = 1e-3;
-      const bool may_be_level = levelling.is_level(row, column, height_m, kSlack_m);
-      const bool must_be_level = levelling.is_level(row, column, height_m, -kSlack_m);
-      least_height_m[cell] = may_be_level ? std::min(height_m, 0.0) : height_m;
-      most_height_m[cell] = must_be_level ? 0 : std::max(height_m, may_be_level ? 0 : height_m);
+      height_m[cell] = double{image.z_m()[cell]} - ground_m;
+      stands_out_m[cell] = rows.standing_out_m(row, sector, double{image.z_m()[cell]});
     }
   }
 
   const AdjacentPoints::Config& rule = config.adjacent_points;
   const double tan_slope = std::tan(double{rule.max_slope_rad});
   const auto compare = [&](std::size_t lower, std::size_t upper, double bound_m, double slack,
-                           const std::vector<double>& height_m, std::vector<bool>& steep) {
+                           std::vector<bool>& steep) {
     const double dx = double{image.x_m()[upper]} - double{image.x_m()[lower]};
     const double dy = double{image.y_m()[upper]} - double{image.y_m()[lower]};
     const double run_m = std::hypot(dx, dy);
@@ -442,8 +488,8 @@ PlainCoarseLabels::PlainCoarseLabels(const SegmenterConfig& config,
               shape.cell(above, (column + aside + shape.columns) % shape.columns);
           if (!image.has_return(lower) || !image.has_return(upper)) continue;
           constexpr double kSlack = 1e-4;  // metres, and of 1
-          compare(lower, upper, bound_m, kSlack, most_height_m, may_be_steep);
-          compare(lower, upper, bound_m, -kSlack, least_height_m, must_be_steep);
+          compare(lower, upper, bound_m, kSlack, may_be_steep);
+          compare(lower, upper, bound_m, -kSlack, must_be_steep);
         }
       }
     }

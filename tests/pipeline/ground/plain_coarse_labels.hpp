@@ -16,14 +16,14 @@ namespace terracut::test {
 /// other, in double. Only the grid itself is taken over, which has tests of its own.
 ///
 /// Where a rule hangs on less than float can tell, either answer is right; `may_be` and `must_be`
-/// are a steep step with the slack given to it and taken from it, `least` and `most` a height that
-/// may count as level or not.
+/// are a steep step with the slack given to it and taken from it.
 struct PlainCoarseLabels {
   PlainCoarseLabels(const ground::SegmenterConfig& config, const mount::RingProfile& profile,
                     const elevation::RingGrid& grid, const frame::RangeImage& image);
 
   // By cell of the image, padding included.
-  std::vector<double> least_height_m, most_height_m;  ///< NaN without a return.
+  std::vector<double> height_m;      ///< NaN without a return.
+  std::vector<double> stands_out_m;  ///< Above what its row shows of the ground; NaN: nothing.
   std::vector<bool> may_be_steep, must_be_steep;
 };
 

@@ -161,8 +161,7 @@ TEST_F(SegmenterOnSyntheticFrames, TheSameFrameGivesTheSameLabelsWhateverCameBef
   const std::vector<frame::Label> first(first_view.begin(), first_view.end());
   std::mt19937 random(5);
   std::uniform_real_distribution<double> range_m(0.5, 119);
-  test::cast_frame(
-      profile, [&](double, double) { return range_m(random); }, image);
+  test::cast_frame(profile, [&](double, double) { return range_m(random); }, image);
   (void)segmenter->segment(image);
   test::cast_frame(profile, wall, image);
   (void)segmenter->segment(image);

@@ -27,7 +27,7 @@ struct LabelledPlanes : testing::Test {
     return static_cast<std::size_t>(row * kShape.stride() + column);
   }
   std::span<const min_cut::Seed> select(const ConfidenceSeeds::Config& config = {}) {
-    stage = std::make_unique<ConfidenceSeeds>(config, profile, kShape, memory);
+    stage = std::make_unique<ConfidenceSeeds>(config, 0.25F, profile, kShape, memory);
     stage->select(planes);
     return stage->seeds();
   }
@@ -61,37 +61,26 @@ TEST_F(LabelledPlanes, GroundBesideObstaclesIsUnknownAlsoAcrossTheSeam) {
   EXPECT_EQ(seeds[at(4, 0)], min_cut::Seed::kObstacle);
 }
 
-TEST_F(LabelledPlanes, LowObstaclesAreSeedsOnlyWhenSteep) {
-  planes.label[at(3, 9)] = planes.label[at(3, 10)] = frame::Label::kObstacle;
-  planes.height_m[at(3, 9)] = planes.height_m[at(3, 10)] = 0.2F;
-  planes.steep[at(3, 10)] = 1;
-  const auto seeds = select();
-  EXPECT_EQ(seeds[at(3, 9)], min_cut::Seed::kUnknown);
-  EXPECT_EQ(seeds[at(3, 10)], min_cut::Seed::kObstacle);
-  ConfidenceSeeds::Config as_printed;
-  as_printed.trust_all_obstacles = true;
-  EXPECT_EQ(select(as_printed)[at(3, 9)], min_cut::Seed::kObstacle);
-}
-
-TEST_F(LabelledPlanes, HighGroundIsNotTrustedIfAsked) {
-  planes.height_m[at(5, 5)] = 0.12F;
-  EXPECT_EQ(select()[at(5, 5)], min_cut::Seed::kGround);
-  ConfidenceSeeds::Config config;
-  config.max_ground_height_m = 0.10F;
-  EXPECT_EQ(select(config)[at(5, 5)], min_cut::Seed::kUnknown);
+TEST_F(LabelledPlanes, EveryObstacleIsASeedHoweverLow) {
+  planes.label[at(3, 9)] = frame::Label::kObstacle;
+  planes.height_m[at(3, 9)] = 0.2F;
+  EXPECT_EQ(select()[at(3, 9)], min_cut::Seed::kObstacle);
 }
 
 TEST_F(LabelledPlanes, RowsThatNeverSeeGroundKeepTheirLabelsIfAsked) {
-  planes.label[at(7, 10)] = planes.label[at(2, 10)] = frame::Label::kObstacle;
-  planes.height_m[at(7, 10)] = planes.height_m[at(2, 10)] = 0.2F;
+  for (const int row : {1, 2, 3, 6, 7}) {
+    for (const int column : {9, 10, 12, 13}) {
+      planes.label[at(row, column)] = frame::Label::kObstacle;
+    }
+  }
   ConfidenceSeeds::Config config;
   config.rows = CutRows::kGround;
   const auto seeds = select(config);
   EXPECT_EQ(stage->cut_rows(), 5);
   EXPECT_EQ(seeds[at(7, 10)], min_cut::Seed::kObstacle);
   EXPECT_EQ(seeds[at(7, 11)], min_cut::Seed::kGround);
-  EXPECT_EQ(seeds[at(2, 10)], min_cut::Seed::kUnknown);
-  EXPECT_EQ(select()[at(7, 10)], min_cut::Seed::kUnknown) << "by default every row is decided";
+  EXPECT_EQ(seeds[at(2, 11)], min_cut::Seed::kUnknown);
+  EXPECT_EQ(select()[at(7, 11)], min_cut::Seed::kUnknown) << "by default every row is decided";
 }
 
 struct SlidingWindow : LabelledPlanes, testing::WithParamInterface<ConfidenceSeeds::Config> {};

@@ -34,10 +34,10 @@ struct ReturnLabelsOfOneCell : testing::Test {
   memory::FixedMemory memory;
   frame::RangeImage image{kShape, 4, memory};
   CellPlanes planes{kShape, memory};
-  ReturnLabels labels{
-      {.same_surface_range_m = 0.30F, .same_surface_height_m = 0.10F, .obstacle_height_m = 0.15F},
-      image.return_capacity(),
-      memory};
+  ReturnLabels labels{{.same_surface_range_m = 0.30F, .same_surface_height_m = 0.10F},
+                      0.15F,
+                      image.return_capacity(),
+                      memory};
 };
 
 TEST_F(ReturnLabelsOfOneCell, OnItsOwnersSurfaceASecondReturnGetsItsOwnersLabel) {

@@ -125,7 +125,7 @@ TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
     const BothWays ways = both_ways(entry.path());
     iou_g += ways.packets_iou_g - ways.direct_iou_g;
     recall_o += ways.packets_recall_o - ways.direct_recall_o;
-    EXPECT_NEAR(ways.packets_recall_o, ways.direct_recall_o, 0.02) << entry.path();
+    EXPECT_NEAR(ways.packets_recall_o, ways.direct_recall_o, 0.025) << entry.path();
     ++count;
   }
   ASSERT_GT(count, 0);

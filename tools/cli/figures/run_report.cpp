@@ -43,6 +43,7 @@ std::vector<Figure> frame_figures(const FrameRecord& frame) {
       {"complete", frame.info.complete},
       {"returns_in", count(frame.info.returns)},
       {"returns_labelled", count(frame.segmentation.labelled())},
+      {"returns_below", count(frame.segmentation.below)},
       {"losses", status::counts_of("cause", status::causes_of(frame.info.losses))}};
   const auto add_ms = [&](std::string_view key, std::int64_t ns) {
     figures.push_back({key, status::Duration{ns}, {}, {}, "ms"});
@@ -147,6 +148,7 @@ void FrameTotals::add(const FrameRecord& frame, bool has_motion) {
   complete += frame.info.complete ? 1 : 0;
   returns_in += frame.info.returns;
   returns_labelled += frame.segmentation.labelled();
+  returns_below += frame.segmentation.below;
   losses += frame.info.losses;
   deskewed += is_deskewed(frame) ? 1 : 0;
   if (has_motion) newest_motion_ns.push_back(frame.info.deskew.newest_motion_ns);
@@ -192,6 +194,7 @@ std::vector<Figure> Report::summary_figures() const {
       {"complete_frames", totals.complete, {}, {"frames", " ({} complete)"}},
       {"returns_in", totals.returns_in, {}, {"returns", "{} in"}},
       {"returns_labelled", totals.returns_labelled, {}, {"returns", "{} labelled"}},
+      {"returns_below", totals.returns_below, {}, {"returns", "{} below the ground", Shown::kIfAny}},
       {"segment_wall_ms", &times.wall}};
   const auto add = [&](std::initializer_list<Figure> more) { figures.insert(figures.end(), more); };
   std::ranges::copy(times.figures(), std::back_inserter(figures));

@@ -39,7 +39,7 @@ struct TimeSummary {
 
 /// The sums over the records of all frames.
 struct FrameTotals {
-  std::uint64_t frames = 0, complete = 0, returns_in = 0, returns_labelled = 0;
+  std::uint64_t frames = 0, complete = 0, returns_in = 0, returns_labelled = 0, returns_below = 0;
   frame::LossCounters losses;
   std::uint64_t deskewed = 0;
   std::vector<std::int64_t> newest_motion_ns;  ///< One for each frame of a run with motion.
@@ -101,7 +101,7 @@ struct Report {
   ///   interrupted     the run was ended before all of its input was read
   ///   sensor_warning  why clouds may not be one sensor's in its own frame
   ///   input_warning   where the input broke off, if it did; of clouds what could not be used
-  ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
+  ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled, returns_below,
   ///                   losses{cause: count}, ms{stage: processor time; decode, total, and
   ///                   after_frame: of it, after the frame's last packet}, segment_wall_ms,
   ///                   min_cut{unknown, coarse, ops}; with a CAN recording deskewed

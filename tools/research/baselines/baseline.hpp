@@ -43,7 +43,7 @@ class Baseline : public ground::FrameMethod {
            std::size_t return_capacity, memory::FixedMemory& memory)
       : planes_(shape, memory),
         last_stage_(last_stage),
-        return_labels_({.obstacle_height_m = obstacle_height_m}, return_capacity, memory) {}
+        return_labels_({}, obstacle_height_m, return_capacity, memory) {}
 
   /// Fills `height_m` and `label` of planes_, and reports the stages before kLabels.
   virtual void label_cells(const frame::RangeImage& image,

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "pipeline/elevation/ring_elevation_map.hpp"
+
 namespace terracut::baselines {
 namespace {
 
@@ -24,7 +26,7 @@ int mirrored(int row, int rows) noexcept {
 
 ColumnAngles::ColumnAngles(const Config& config, const mount::RingProfile&, frame::ImageShape shape,
                            std::size_t return_capacity, memory::FixedMemory& memory)
-    : Baseline(stage::Stage::kAdjacentPoints, stage::ReturnLabels::Config().obstacle_height_m,
+    : Baseline(stage::Stage::kAdjacentPoints, elevation::RingElevationMap::Config().obstacle_height_m,
                shape, return_capacity, memory),
       config_(config),
       shape_(shape),

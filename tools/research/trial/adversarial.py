@@ -21,7 +21,7 @@ from .live import Live, losses, misses, times
 from .program import Program
 from .report import Report
 
-HARD = {"seeds.ground_share": 1, "seeds.max_ground_height_m": 0, "min_cut.max_unknown": 262144}
+HARD = {"seeds.ground_share": 1, "min_cut.max_unknown": 262144}
 SETTINGS = [f"--set={key}={value}" for key, value in HARD.items()]
 SEVERAL_TIMES = 3  # least time of the hard cut relative to the usual one
 WAKING_UP_MS = 1.5  # from the last packet to the segmenter

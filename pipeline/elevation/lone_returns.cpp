@@ -24,20 +24,21 @@ TERRACUT_VECTOR_CLONES void take_out_inner(const float* __restrict z_m, const Ap
                                            float depth_m, std::size_t count,
                                            float* __restrict kept_m) noexcept {
   const float near_m = depth_m / 2;
-  const auto is_more = [](float a, float b) { return a > b ? 1 : 0; };
   for (std::size_t i = 0; i < count; ++i) {
     const float here_m = z_m[i];
-    const float above_a = z_m[i - 2] - here_m + apart.left_2[i];
-    const float above_b = z_m[i - 1] - here_m + apart.left_1[i];
-    const float above_c = z_m[i + 1] - here_m + apart.right_1[i];
-    const float above_d = z_m[i + 2] - here_m + apart.right_2[i];
-    const int is_below = is_more(above_a, depth_m) | is_more(above_b, depth_m) |
-                         is_more(above_c, depth_m) | is_more(above_d, depth_m);
-    const int has_company =
-        is_more(near_m, std::fabs(above_a)) | is_more(near_m, std::fabs(above_b)) |
-        is_more(near_m, std::fabs(above_c)) | is_more(near_m, std::fabs(above_d));
-    const int is_lone = is_below & (1 - has_company);
-    kept_m[i] = is_lone != 0 ? kNone : here_m;
+    float most_above_m = 0, nearest_m = depth_m;
+    const auto compare = [&](float other_m, float apart_m) __attribute__((always_inline)) {
+      const float above_m = other_m - here_m + apart_m;
+      const float away_m = std::fabs(above_m);
+      most_above_m = above_m > most_above_m ? above_m : most_above_m;
+      nearest_m = away_m < nearest_m ? away_m : nearest_m;
+    };
+    compare(z_m[i - 2], apart.left_2[i]);
+    compare(z_m[i - 1], apart.left_1[i]);
+    compare(z_m[i + 1], apart.right_1[i]);
+    compare(z_m[i + 2], apart.right_2[i]);
+    const float alone_m = nearest_m < near_m ? here_m : kNone;
+    kept_m[i] = most_above_m > depth_m ? alone_m : here_m;
   }
 }
 
@@ -60,28 +61,21 @@ LoneReturns::LoneReturns(float depth_m, const RingGrid& grid, frame::ImageShape 
 
 void LoneReturns::take_out(const float* z_m, frame::ColumnRange columns,
                            std::span<float> kept_m) const noexcept {
-  // The outermost columns are compared by themselves: what lies beyond may not be read.
-  const auto compare_alone = [&](int column) {
-    float beside[2 * kReach + 1];
-    const float same[1] = {0.0F};
-    for (int offset = -kReach; offset <= kReach; ++offset) {
-      const int other = column + offset;
-      const bool is_known = other >= columns.begin && other < columns.end;
-      const float apart = apart_[offset + kReach][static_cast<std::size_t>(column)];
-      beside[offset + kReach] = is_known && apart == 0.0F ? z_m[other] : kNone;
-    }
-    take_out_inner(&beside[kReach], {same, same, same, same}, depth_m_, 1,
-                   &kept_m[static_cast<std::size_t>(column - columns.begin)]);
-  };
-  const int inner_begin = std::min(columns.begin + kReach, columns.end);
-  const int inner_end = std::max(columns.end - kReach, inner_begin);
-  for (int column = columns.begin; column < inner_begin; ++column) compare_alone(column);
-  const auto first = static_cast<std::size_t>(inner_begin);
-  take_out_inner(z_m + first,
-                 {&apart_[0][first], &apart_[1][first], &apart_[3][first], &apart_[4][first]},
-                 depth_m_, static_cast<std::size_t>(inner_end - inner_begin),
-                 kept_m.data() + (inner_begin - columns.begin));
-  for (int column = inner_end; column < columns.end; ++column) compare_alone(column);
+  // What lies beyond `columns` may not be read, so pieces are compared in a copy with a margin.
+  constexpr int kPiece = 512;
+  float copy_m[kReach + kPiece + kReach];
+  for (int begin = columns.begin; begin < columns.end; begin += kPiece) {
+    const int end = std::min(begin + kPiece, columns.end);
+    const int first = std::max(begin - kReach, columns.begin);
+    const int last = std::min(end + kReach, columns.end);
+    std::fill_n(copy_m, kReach, kNone);
+    std::copy(z_m + first, z_m + last, copy_m + kReach - (begin - first));
+    std::fill_n(copy_m + kReach + (last - begin), kReach - (last - end), kNone);
+    const auto at = static_cast<std::size_t>(begin);
+    take_out_inner(copy_m + kReach,
+                   {&apart_[0][at], &apart_[1][at], &apart_[3][at], &apart_[4][at]}, depth_m_,
+                   static_cast<std::size_t>(end - begin), kept_m.data() + (begin - columns.begin));
+  }
 }
 
 }  // namespace terracut::elevation

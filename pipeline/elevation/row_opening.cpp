@@ -72,18 +72,24 @@ float RowOpening::opened(int slot, int sector) const noexcept {
   const float sector_m = sector_rad_ * range_m_[place(slot, sector)];
   const auto width = static_cast<int>(std::ceil(std::min(window_m_ / sector_m, 1e3F)));
   const int reach = std::min(width, reach_);
-  // The lowest height from here to each distance on the left and on the right.
-  std::array<float, kMostReach + 1> left_m, right_m;
-  left_m[0] = right_m[0] = here_m;
-  for (int distance = 1; distance <= reach; ++distance) {
-    const auto i = static_cast<std::size_t>(distance);
-    const int left = sector >= distance ? sector - distance : sector - distance + sectors_;
-    const int right =
-        sector + distance < sectors_ ? sector + distance : sector + distance - sectors_;
-    const float rise_m = slope_ * static_cast<float>(distance) * sector_m;
-    left_m[i] = std::min(left_m[i - 1], lowest_m_[place(slot, left)] + rise_m);
-    right_m[i] = std::min(right_m[i - 1], lowest_m_[place(slot, right)] + rise_m);
-  }
+  // The lowest height from here to each distance on either side.
+  using Lowest = std::array<float, kMostReach + 1>;
+  const auto find_lowest = [&](int side, Lowest& lowest_m) {
+    lowest_m[0] = here_m;
+    for (int distance = 1; distance <= reach; ++distance) {
+      int other = sector + side * distance;
+      if (other < 0) other += sectors_;
+      if (other >= sectors_) other -= sectors_;
+      const float seen_m =
+          lowest_m_[place(slot, other)] + slope_ * static_cast<float>(distance) * sector_m;
+      const auto i = static_cast<std::size_t>(distance);
+      lowest_m[i] = std::min(lowest_m[i - 1], seen_m);
+    }
+    return lowest_m[static_cast<std::size_t>(reach)];
+  };
+  Lowest left_m, right_m;
+  // Nothing stands out where a window to one side has nothing lower.
+  if (find_lowest(-1, left_m) == here_m || find_lowest(1, right_m) == here_m) return here_m;
   float opening_m = -kEmpty;
   for (int distance = 0; distance <= reach; ++distance) {
     opening_m = std::max(opening_m, std::min(left_m[static_cast<std::size_t>(distance)],

@@ -264,6 +264,7 @@ class APage(unittest.TestCase):
                 self.browser.open(served.url)
                 self.browser.wait_for("document.getElementById('frame').dataset.number")
                 served.wait_until(lambda figures: figures["browsers"]["sent"] >= 60)
+                self.browser.wait_for("document.getElementById('rate').textContent")
                 rate = self.browser.evaluate("document.getElementById('rate').textContent")
                 returns = self.browser.evaluate("document.getElementById('frame').textContent")
                 picture(self.browser, "live")

@@ -18,14 +18,14 @@ struct Apart {
   const float *left_2, *left_1, *right_1, *right_2;
 };
 
-/// Compares `count` returns with those beside them. Has no branches, so that the compiler
-/// vectorises it; comparisons with NaN are false.
+/// Compares `count` returns with those beside them; `z_m` begins two columns before the first. Has
+/// no branches, so that the compiler vectorises it; comparisons with NaN are false.
 TERRACUT_VECTOR_CLONES void take_out_inner(const float* __restrict z_m, const Apart apart,
                                            float depth_m, std::size_t count,
                                            float* __restrict kept_m) noexcept {
   const float near_m = depth_m / 2;
   for (std::size_t i = 0; i < count; ++i) {
-    const float here_m = z_m[i];
+    const float here_m = z_m[i + 2];
     float most_above_m = 0, nearest_m = depth_m;
     const auto compare = [&](float other_m, float apart_m) __attribute__((always_inline)) {
       const float above_m = other_m - here_m + apart_m;
@@ -33,10 +33,10 @@ TERRACUT_VECTOR_CLONES void take_out_inner(const float* __restrict z_m, const Ap
       most_above_m = above_m > most_above_m ? above_m : most_above_m;
       nearest_m = away_m < nearest_m ? away_m : nearest_m;
     };
-    compare(z_m[i - 2], apart.left_2[i]);
-    compare(z_m[i - 1], apart.left_1[i]);
-    compare(z_m[i + 1], apart.right_1[i]);
-    compare(z_m[i + 2], apart.right_2[i]);
+    compare(z_m[i], apart.left_2[i]);
+    compare(z_m[i + 1], apart.left_1[i]);
+    compare(z_m[i + 3], apart.right_1[i]);
+    compare(z_m[i + 4], apart.right_2[i]);
     const float alone_m = nearest_m < near_m ? here_m : kNone;
     kept_m[i] = most_above_m > depth_m ? alone_m : here_m;
   }
@@ -72,9 +72,9 @@ void LoneReturns::take_out(const float* z_m, frame::ColumnRange columns,
     std::copy(z_m + first, z_m + last, copy_m + kReach - (begin - first));
     std::fill_n(copy_m + kReach + (last - begin), kReach - (last - end), kNone);
     const auto at = static_cast<std::size_t>(begin);
-    take_out_inner(copy_m + kReach,
-                   {&apart_[0][at], &apart_[1][at], &apart_[3][at], &apart_[4][at]}, depth_m_,
-                   static_cast<std::size_t>(end - begin), kept_m.data() + (begin - columns.begin));
+    take_out_inner(copy_m, {&apart_[0][at], &apart_[1][at], &apart_[3][at], &apart_[4][at]},
+                   depth_m_, static_cast<std::size_t>(end - begin),
+                   kept_m.data() + (begin - columns.begin));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "rt/vector_clones.hpp"
@@ -47,11 +48,11 @@ TERRACUT_VECTOR_CLONES void take_out_inner(const float* __restrict z_m, const Ap
 LoneReturns::LoneReturns(float depth_m, const RingGrid& grid, frame::ImageShape shape,
                          memory::FixedMemory& memory)
     : depth_m_(depth_m) {
-  for (int offset = -kReach; offset <= kReach; ++offset) {
-    std::span<float>& apart = apart_[offset + kReach];
+  for (std::size_t i = 0; i < std::size(kOffsets); ++i) {
+    std::span<float>& apart = apart_[i];
     apart = memory.take<float>("lone returns", static_cast<std::size_t>(shape.columns));
     for (int column = 0; column < shape.columns; ++column) {
-      const int other = column + offset;
+      const int other = column + kOffsets[i];
       const bool is_beside =
           other >= 0 && other < shape.columns && grid.sector_of(other) == grid.sector_of(column);
       apart[static_cast<std::size_t>(column)] = is_beside ? 0.0F : kNone;
@@ -72,7 +73,7 @@ void LoneReturns::take_out(const float* z_m, frame::ColumnRange columns,
     std::copy(z_m + first, z_m + last, copy_m + kReach - (begin - first));
     std::fill_n(copy_m + kReach + (last - begin), kReach - (last - end), kNone);
     const auto at = static_cast<std::size_t>(begin);
-    take_out_inner(copy_m, {&apart_[0][at], &apart_[1][at], &apart_[3][at], &apart_[4][at]},
+    take_out_inner(copy_m, {&apart_[0][at], &apart_[1][at], &apart_[2][at], &apart_[3][at]},
                    depth_m_, static_cast<std::size_t>(end - begin),
                    kept_m.data() + (begin - columns.begin));
   }

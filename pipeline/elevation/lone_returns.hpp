@@ -31,10 +31,12 @@ class LoneReturns {
 
  private:
   static constexpr int kReach = 2;  // columns compared to either side
+  static constexpr int kOffsets[2 * kReach] = {-2, -1, 1, 2};
 
   float depth_m_;
-  // By offset and column: 0 if the column that far to the right is in the same sector, else NaN.
-  std::span<float> apart_[2 * kReach + 1];
+  // By offset (kOffsets) and column: 0 if the column that far to the right is in the same sector,
+  // else NaN.
+  std::span<float> apart_[2 * kReach];
 };
 
 }  // namespace terracut::elevation

@@ -245,8 +245,9 @@ RingElevationMap::RingElevationMap(const Config& config, const mount::RingProfil
       grid_(config.grid, profile, shape, memory),
       surface_(config.surface, config.obstacle_height_m, grid_, memory),
       lone_(config.lone_depth_m, grid_, shape, memory),
-      opening_(config.opening, config.surface.far_slope, grid_, profile, memory),
-      rows_below_horizon_(stage::rows_that_meet_ground(profile)),
+      opening_(config.opening, config.surface.far_slope, grid_,
+               has_surface() ? profile : mount::RingProfile{}, memory),
+      rows_with_lone_(has_surface() ? stage::rows_that_meet_ground(profile) : 0),
       lowest_(memory.take<GroundSurface::LowestReturn>("ring grid", grid_.cells())),
       extremes_(memory.take<Extremes>("ring grid", grid_.cells())),
       row_halves_(
@@ -256,7 +257,7 @@ RingElevationMap::RingElevationMap(const Config& config, const mount::RingProfil
 
 void RingElevationMap::reset() noexcept {
   taken_ = 0;
-  traced_ = has_surface() ? opening_.reach() : 0;
+  traced_ = opening_.reach();
   seen_ = seen_overflow_ = 0;
   was_overtaken_ = false;
   std::fill(extremes_.begin(), extremes_.end(), nothing());
@@ -269,7 +270,7 @@ void RingElevationMap::take_to(int end, const frame::RangeImage& image,
   if (taken_ == end) return;
   take_columns(points, {taken_, end});
   taken_ = end;
-  const int traceable = has_surface() ? end - opening_.reach() : end;
+  const int traceable = end - opening_.reach();
   if (traceable <= traced_) return;
   trace({traced_, traceable});
   traced_ = traceable;
@@ -286,11 +287,11 @@ void RingElevationMap::take_columns(const frame::PointPlanes& points,
     const float* const z_m = &points.z_m[first];
     const float* ground_m = z_m;
     const float* const range_m = &points.ground_range_m[first];
-    if (has_surface() && row < rows_below_horizon_) {
+    if (row < rows_with_lone_) {
       lone_.take_out(&points.z_m[shape_.cell(row, 0)], columns, row_kept_m_);
       ground_m = row_kept_m_.data();
     }
-    if (has_surface() && opening_.has(row)) opening_.take(row, sectors, ground_m, range_m, grid_);
+    if (opening_.has(row)) opening_.take(row, sectors, ground_m, range_m, grid_);
     seen_ += find_extremes(ground_m, z_m, range_m, static_cast<std::uint32_t>(row), columns.size(),
                            row_halves_.data());
     grid_.find_steps({range_m, steps.size()}, steps);
@@ -299,7 +300,7 @@ void RingElevationMap::take_columns(const frame::PointPlanes& points,
 }
 
 void RingElevationMap::trace(RingGrid::Sectors sectors) noexcept {
-  if (has_surface()) opening_.open(sectors);
+  opening_.open(sectors);
   for (int sector = sectors.begin; sector < sectors.end; ++sector) {
     for (std::size_t i = grid_.cell(sector, 0); i < grid_.cell(sector + 1, 0); ++i) {
       const float height_m = height_in(extremes_[i][0]);
@@ -307,9 +308,8 @@ void RingElevationMap::trace(RingGrid::Sectors sectors) noexcept {
       const auto row = static_cast<int>(range_and_row & kRowBits);
       const float highest_m = -height_in(extremes_[i][1]);
       const bool has_only_lone = height_m == kNowhere_m && highest_m != -kNowhere_m;
-      const bool stands_out =
-          has_surface() && opening_.has(row) &&
-          height_m - opening_.opening_m(row, sector) > config_.obstacle_height_m;
+      const bool stands_out = opening_.has(row) && height_m - opening_.opening_m(row, sector) >
+                                                       config_.obstacle_height_m;
       lowest_[i] = {has_only_lone ? highest_m : height_m,
                     std::bit_cast<float>(range_and_row & ~kRowBits), highest_m,
                     has_only_lone || stands_out ? 1 : 0};
@@ -339,8 +339,7 @@ void RingElevationMap::finalize(RingGrid::Sectors sectors) noexcept {
 
 void RingElevationMap::finalize_rest(std::span<std::uint8_t> is_current) noexcept {
   if (!has_surface()) return;
-  const int first = std::min(opening_.reach(), grid_.sectors());
-  trace({0, first});
+  trace({0, opening_.reach()});
   if (traced_ < grid_.sectors()) trace({traced_, grid_.sectors()});
   traced_ = grid_.sectors();
   surface_.finalize_rest(grid_, lowest_, is_current);
@@ -366,7 +365,7 @@ void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRang
                          columns.begin, height_m);
     }
     label_heights(height_m, config_.obstacle_height_m, &planes.label[cell]);
-    if (has_surface() && opening_.has(row)) {
+    if (opening_.has(row)) {
       label_standing_out(&points.z_m[cell], row, columns, &planes.label[cell]);
     }
   }

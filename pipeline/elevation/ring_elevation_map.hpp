@@ -32,7 +32,7 @@ class RingElevationMap {
     GroundReference reference = GroundReference::kLocalSurface;
     GroundSurface::Config surface;    ///< Used with kLocalSurface.
     RowOpening::Config opening;       ///< Used with kLocalSurface.
-    float lone_depth_m = 0.10F;       ///< LoneReturns, used with kLocalSurface.
+    float lone_depth_m = 0.10F;       ///< Depth of LoneReturns, used with kLocalSurface.
     float obstacle_height_m = 0.15F;  ///< A return this far above its reference is an obstacle.
   };
   /// Two numbers that encode a cell's extreme returns: the first is smaller the lower the lowest
@@ -91,10 +91,10 @@ class RingElevationMap {
   GroundSurface surface_;
   LoneReturns lone_;
   RowOpening opening_;
-  int rows_below_horizon_;  // number of rows up to the highest whose beams meet level ground
-  int taken_ = 0;           // number of sectors taken
-  int traced_ = 0;          // end of the sectors traced; the first reach of opening_ come last
-  std::size_t seen_ = 0;    // number of returns in the taken sectors that own a cell
+  int rows_with_lone_;    // number of rows, from the lowest, whose lone returns are looked for
+  int taken_ = 0;         // number of sectors taken
+  int traced_ = 0;        // end of the sectors traced; the first reach of opening_ come last
+  std::size_t seen_ = 0;  // number of returns in the taken sectors that own a cell
   // Number of returns that own no cell: from the overflow list or take_extra().
   std::size_t seen_overflow_ = 0;
   bool was_overtaken_ = false;

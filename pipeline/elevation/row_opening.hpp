@@ -29,7 +29,8 @@ class RowOpening {
     float window_m = 5.0F;  ///< Widest thing that stands out, along the ring.
   };
 
-  /// `slope`: rise over run along a ring that does not stand out. The rows are those of `profile`.
+  /// `slope`: rise over run along a ring that does not stand out. The rows are those of `profile`,
+  /// of which none need be there.
   RowOpening(const Config& config, float slope, const RingGrid& grid,
              const mount::RingProfile& profile, memory::FixedMemory& memory);
 

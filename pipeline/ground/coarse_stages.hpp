@@ -24,7 +24,7 @@ namespace terracut::ground {
 /// while the frame is arriving, on columns just written and still in the core's caches:
 ///
 ///   columns   0 ......................................................... all
-///             |  labelled  | traced: their lowest returns known |  to come  |
+///             |  labelled  |  taken: their lowest returns known |  to come  |
 ///                          '-- as many sectors as give ground to a neighbour --'
 ///
 /// Later columns can change the ground of sectors already labelled: at the seam, where the circle

@@ -14,6 +14,7 @@
 
 #include "pipeline/ground/parameter_table.hpp"
 #include "tools/research/baselines/parameter_table.hpp"
+#include "tools/research/statistics/measure_json.hpp"
 #include "tools/research/statistics/measures.hpp"
 
 namespace terracut::eval {
@@ -21,6 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using quality::Quality;
+using statistics::mean, statistics::number_if;
 
 /// A scope with its name in the report; all scopes are shown side by side.
 struct NamedScope {
@@ -37,51 +39,33 @@ constexpr std::string_view kMeasures[] = {"iou_g", "recall_o", "precision", "rec
 bool has_ground(const Quality& q) {
   return q.ground_as_ground + q.ground_as_obstacle + q.obstacle_as_ground > 0;
 }
-bool has_key_obstacles(const Quality& q) {
-  return q.key_as_ground + q.key_as_obstacle > 0;
-}
-
-Json share(bool defined, double value) {
-  return defined ? Json(value) : Json(nullptr);
-}
 
 Json measures_json(const Quality& q) {
-  return {{"iou_g", share(has_ground(q), q.iou_ground())},
-          {"recall_o", share(has_key_obstacles(q), q.recall_key_obstacles())},
-          {"precision", share(q.ground_as_ground + q.obstacle_as_ground > 0, q.precision_ground())},
-          {"recall", share(q.ground_as_ground + q.ground_as_obstacle > 0, q.recall_ground())},
-          {"f1", share(has_ground(q), statistics::f1_ground(q))}};
+  return {
+      {"iou_g", statistics::iou_g(q)},
+      {"recall_o", statistics::recall_o(q)},
+      {"precision", number_if(q.ground_as_ground + q.obstacle_as_ground > 0, q.precision_ground())},
+      {"recall", number_if(q.ground_as_ground + q.ground_as_obstacle > 0, q.recall_ground())},
+      {"f1", number_if(has_ground(q), statistics::f1_ground(q))}};
 }
 
 Json tall_json(const statistics::TallCounts& tall) {
   return {{"returns", tall.returns},
           {"as_ground", tall.as_ground},
-          {"share", share(tall.returns > 0, static_cast<double>(tall.as_ground) /
-                                                static_cast<double>(tall.returns))}};
+          {"share", number_if(tall.returns > 0, static_cast<double>(tall.as_ground) /
+                                                    static_cast<double>(tall.returns))}};
 }
 
 Json flips_json(const statistics::FlipCounts& flips) {
   const auto of_returns = [&](std::uint64_t count) {
-    return share(flips.returns > 0,
-                 static_cast<double>(count) / static_cast<double>(flips.returns));
+    return number_if(flips.returns > 0,
+                     static_cast<double>(count) / static_cast<double>(flips.returns));
   };
   return {{"returns", flips.returns},
           {"flips", flips.flips},
           {"true_flips", flips.true_flips},
           {"share", of_returns(flips.flips)},
           {"true_share", of_returns(flips.true_flips)}};
-}
-
-/// Returns the mean of the defined values; null without any.
-Json mean(const std::vector<Json>& values) {
-  double sum = 0;
-  int count = 0;
-  for (const Json& value : values) {
-    if (value.is_null()) continue;
-    sum += value.get<double>();
-    ++count;
-  }
-  return count == 0 ? Json(nullptr) : Json(sum / count);
 }
 
 /// Returns {min, mean, max} of the defined values.
@@ -93,9 +77,9 @@ Json spread(const std::vector<Json>& values) {
     least = std::min(least.value_or(number), number);
     most = std::max(most.value_or(number), number);
   }
-  return {{"min", share(least.has_value(), least.value_or(0))},
+  return {{"min", number_if(least.has_value(), least.value_or(0))},
           {"mean", mean(values)},
-          {"max", share(most.has_value(), most.value_or(0))}};
+          {"max", number_if(most.has_value(), most.value_or(0))}};
 }
 
 double milliseconds(std::int64_t ns) {
@@ -294,9 +278,9 @@ class MethodJson {
     const Quality all = statistics::quality_of(counts, classes_, {});
     const Quality road =
         statistics::quality_of(counts, classes_, {.ground = datasets::GroundDefinition::kRoad});
-    return {{"iou_g", share(has_ground(all), all.iou_ground())},
-            {"recall_o", share(has_key_obstacles(all), all.recall_key_obstacles())},
-            {"iou_road", share(has_ground(road), road.iou_ground())}};
+    return {{"iou_g", statistics::iou_g(all)},
+            {"recall_o", statistics::recall_o(all)},
+            {"iou_road", statistics::iou_g(road)}};
   }
 
   [[nodiscard]] Json sequences() const {

@@ -13,34 +13,13 @@
 #include "disturbance.hpp"
 #include "hazard_kind.hpp"
 #include "spots.hpp"
+#include "tools/research/statistics/measure_json.hpp"
 
 namespace terracut::hazards {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using quality::Quality;
-
-Json iou_g(const Quality& quality) {
-  const bool any =
-      quality.ground_as_ground + quality.ground_as_obstacle + quality.obstacle_as_ground > 0;
-  return any ? Json(quality.iou_ground()) : Json(nullptr);
-}
-
-Json recall_o(const Quality& quality) {
-  const bool any = quality.key_as_ground + quality.key_as_obstacle > 0;
-  return any ? Json(quality.recall_key_obstacles()) : Json(nullptr);
-}
-
-Json mean(const std::vector<Json>& values) {
-  double sum = 0;
-  int count = 0;
-  for (const Json& value : values) {
-    if (value.is_null()) continue;
-    sum += value.get<double>();
-    ++count;
-  }
-  return count == 0 ? Json(nullptr) : Json(sum / count);
-}
+using statistics::iou_g, statistics::mean, statistics::recall_o;
 
 /// Returns the measures as means over `parts`.
 Json elsewhere_json(const std::vector<Elsewhere>& parts) {

@@ -55,6 +55,15 @@ int laser_of(int point) {
   return point / kColumns;
 }
 
+/// Of all labels fewer than one in 500 differ.
+void expect_alike(const std::vector<std::uint32_t>& labels,
+                  const std::vector<std::uint32_t>& others) {
+  ASSERT_EQ(labels.size(), others.size());
+  std::size_t differ = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) differ += labels[i] != others[i] ? 1U : 0U;
+  EXPECT_LT(differ, labels.size() / 500);
+}
+
 class CliClouds : public Cli {
  protected:
   void write_clouds(const std::string& folder, int count, const std::string& ending = ".pcd") {
@@ -135,12 +144,8 @@ TEST_F(CliClouds, AreSeenFromTheirViewpointWhereTheyAreNotAroundTheOrigin) {
   const Outcome outcome = run("segment map --labels map_labels");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("stood at each file's VIEWPOINT"));
-  const auto own = ids_of(folder_ / "own_labels/000000.label"),
-             map = ids_of(folder_ / "map_labels/000000.label");
-  ASSERT_EQ(own.size(), map.size());
-  std::size_t differ = 0;
-  for (std::size_t i = 0; i < own.size(); ++i) differ += own[i] != map[i] ? 1U : 0U;
-  EXPECT_LT(differ, own.size() / 500);
+  const auto own = ids_of(folder_ / "own_labels/000000.label");
+  expect_alike(own, ids_of(folder_ / "map_labels/000000.label"));
 
   // Drivers also write where in a map they were, beside points in their own frame.
   write_cloud(folder_ / "driven/000000.pcd", as_seen, laser_of, "5 -2 1.8 0.5 0.5 0.5 0.5");
@@ -169,12 +174,8 @@ TEST_F(CliClouds, OfATiltedSensorInALevelledFrameGetTheLabelsOfItsOwn) {
   const Outcome outcome = run("segment levelled --labels levelled_labels");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("its axis 14.9 degrees from theirs"));
-  const auto own = ids_of(folder_ / "own_labels/000000.label"),
-             again = ids_of(folder_ / "levelled_labels/000000.label");
-  ASSERT_EQ(own.size(), again.size());
-  std::size_t differ = 0;
-  for (std::size_t i = 0; i < own.size(); ++i) differ += own[i] != again[i] ? 1U : 0U;
-  EXPECT_LT(differ, own.size() / 500);
+  expect_alike(ids_of(folder_ / "own_labels/000000.label"),
+               ids_of(folder_ / "levelled_labels/000000.label"));
 }
 
 TEST_F(CliClouds, ThatTellNoLaserAreRefusedWithTheirFieldsAndTheirName) {

@@ -82,14 +82,14 @@ GroundSurface::GroundSurface(const Config& config, float obstacle_height_m, cons
     : config_(config),
       foot_rise_m_(obstacle_height_m),
       deep_m_(grid.deepest_band_m()),
-      interpolate_sectors_(std::min(config.interpolate_sectors, (grid.sectors() - 1) / 2)),
+      behind_(std::min(config.interpolate_sectors, (grid.sectors() - 1) / 2)),
+      ahead_(std::min({config.sectors_ahead, config.interpolate_sectors, behind_})),
       traced_m_(memory.take<float>("ground surface", grid.cells())),
       heights_(memory.take<EdgeHeights>("ground surface", grid.cells() + 1)),
       found_(memory.take<Origin>("ground surface", grid.cells())),
       origin_(memory.take<Origin>("ground surface", grid.cells())),
       has_regained_(
           memory.take<std::uint8_t>("ground surface", static_cast<std::size_t>(grid.sectors()))),
-      is_open_(memory.take<std::uint8_t>("ground surface", has_regained_.size())),
       wide_from_(
           memory.take<std::int32_t>("ground surface", static_cast<std::size_t>(grid.bands()))),
       max_rise_m_(memory.take<float>("ground surface", wide_from_.size())) {
@@ -98,42 +98,10 @@ GroundSurface::GroundSurface(const Config& config, float obstacle_height_m, cons
     const auto i = static_cast<std::size_t>(band);
     const float sector_m = sector_rad * grid.center_m(band);
     const float sectors_wide = config.regain_length_m / sector_m;
-    wide_from_[i] =
-        static_cast<std::int32_t>(std::min(sectors_wide, static_cast<float>(grid.sectors())));
+    constexpr auto kMostSectors = static_cast<float>(kStripBehind + kStripAhead);
+    wide_from_[i] = static_cast<std::int32_t>(
+        std::min({sectors_wide, kMostSectors, static_cast<float>(grid.sectors())}));
     max_rise_m_[i] = config.max_slope * sector_m;
-  }
-}
-
-void GroundSurface::reset() noexcept {
-  std::fill(found_.begin(), found_.end(), kPredicted);
-  std::fill(origin_.begin(), origin_.end(), kPredicted);
-  std::fill(has_regained_.begin(), has_regained_.end(), std::uint8_t{0});
-  std::fill(is_open_.begin(), is_open_.end(), std::uint8_t{1});
-}
-
-void GroundSurface::trace(const RingGrid& grid, RingGrid::Sectors sectors,
-                          std::span<const LowestReturn> lowest) noexcept {
-  for (int sector = sectors.begin; sector < sectors.end; ++sector) {
-    trace_outward(grid, sector, lowest);
-  }
-}
-
-void GroundSurface::finalize(const RingGrid& grid, RingGrid::Sectors sectors,
-                             std::span<const LowestReturn> lowest) noexcept {
-  const int first = std::max(sectors.begin - reach(), 0);
-  const int end = std::min(sectors.end + reach(), grid.sectors());
-  for (int sector = first; sector < end; ++sector) find_donors(grid, sector);
-  for (int sector = sectors.begin; sector < sectors.end; ++sector) {
-    estimate(grid, sector, lowest);
-  }
-}
-
-void GroundSurface::finalize_rest(const RingGrid& grid, std::span<const LowestReturn> lowest,
-                                  std::span<std::uint8_t> is_current) noexcept {
-  for (int sector = 0; sector < grid.sectors(); ++sector) find_donors(grid, sector);
-  for (int sector = 0; sector < grid.sectors(); ++sector) {
-    const auto i = static_cast<std::size_t>(sector);
-    if (is_open_[i] != 0 && estimate(grid, sector, lowest)) is_current[i] = 0;
   }
 }
 
@@ -165,8 +133,9 @@ inline float GroundSurface::slope_of(float rise_m, float run_m) const noexcept {
                     config_.max_slope);
 }
 
-void GroundSurface::trace_outward(const RingGrid& grid, int sector,
-                                  std::span<const LowestReturn> lowest) noexcept {
+void GroundSurface::trace(const RingGrid& grid, int sector,
+                          std::span<const LowestReturn> lowest) noexcept {
+  sector = grid.wrapped(sector);
   Ground ground;
   has_regained_[static_cast<std::size_t>(sector)] = 0;
   int lost_band = trace_on(grid, sector, 0, kMeasured, ground, lowest);
@@ -243,24 +212,14 @@ GroundSurface::Detour GroundSurface::find_ground_again(
 }
 
 void GroundSurface::find_donors(const RingGrid& grid, int sector) noexcept {
+  sector = grid.wrapped(sector);
   const std::span<const Origin> found = of_sector(found_, grid, sector);
   const std::span<Origin> origin = of_sector(origin_, grid, sector);
-  bool has_changed = false;
-  if (has_regained_[static_cast<std::size_t>(sector)] == 0) {
-    has_changed = std::memcmp(found.data(), origin.data(), found.size_bytes()) != 0;
-    std::memcpy(origin.data(), found.data(), found.size_bytes());
-  } else {
-    for (int band = 0; band < grid.bands(); ++band) {
-      const auto i = static_cast<std::size_t>(band);
-      const bool is_narrow = found[i] == kRegained && !lies_on_wide_strip(grid, sector, band);
-      const Origin now = is_narrow ? kPredicted : found[i];
-      has_changed |= now != origin[i];
-      origin[i] = now;
-    }
-  }
-  if (!has_changed) return;
-  for (int i = sector - reach(); i <= sector + reach(); ++i) {
-    is_open_[static_cast<std::size_t>(grid.wrapped(i))] = 1;
+  std::memcpy(origin.data(), found.data(), found.size_bytes());
+  if (has_regained_[static_cast<std::size_t>(sector)] == 0) return;
+  for (int band = 0; band < grid.bands(); ++band) {
+    Origin& own = origin[static_cast<std::size_t>(band)];
+    if (own == kRegained && !lies_on_wide_strip(grid, sector, band)) own = kPredicted;
   }
 }
 
@@ -271,14 +230,15 @@ bool GroundSurface::lies_on_wide_strip(const RingGrid& grid, int sector, int ban
     return found_[grid.cell(grid.wrapped(s), band)] != kPredicted;
   };
   int first = sector, end = sector + 1;
-  while (end - first < wide_from && is_ground(end)) ++end;
-  while (end - first < wide_from && is_ground(first - 1)) --first;
+  while (end - first < wide_from && end - sector <= kStripAhead && is_ground(end)) ++end;
+  while (end - first < wide_from && sector - first < kStripBehind && is_ground(first - 1)) --first;
   return end - first >= wide_from;
 }
 
-bool GroundSurface::estimate(const RingGrid& grid, int sector,
+void GroundSurface::estimate(const RingGrid& grid, int sector,
                              std::span<const LowestReturn> lowest) noexcept {
   static_assert(sizeof(Origin) == 1 && kPredicted == 0);
+  sector = grid.wrapped(sector);
   const auto bands = static_cast<std::size_t>(grid.bands());
   const auto found_in = [&](int s) {
     const std::size_t first = grid.cell(grid.wrapped(s), 0);
@@ -292,33 +252,27 @@ bool GroundSurface::estimate(const RingGrid& grid, int sector,
   find_rises(found_in(sector - 1), here, found_in(sector + 1), config_.tall_m, max_rise_m_.data(),
              bands, rise_m.data());
   const std::span<EdgeHeights> heights = of_sector(heights_, grid, sector);
-  bool has_changed = false;
   for (std::size_t band = 0; band < bands; ++band) {
     const float lower_m = is_missing[band] != 0
                               ? interpolated_m(grid, sector, static_cast<int>(band))
                               : here.traced_m[band];
-    const EdgeHeights now{lower_m + std::max(-rise_m[band], 0.0F),
-                          lower_m + std::max(rise_m[band], 0.0F)};
-    has_changed |= now != heights[band];
-    heights[band] = now;
+    heights[band] = {lower_m + std::max(-rise_m[band], 0.0F),
+                     lower_m + std::max(rise_m[band], 0.0F)};
   }
-  is_open_[static_cast<std::size_t>(sector)] = 0;
-  return has_changed;
 }
 
 float GroundSurface::interpolated_m(const RingGrid& grid, int sector, int band) const noexcept {
-  const int sectors = grid.sectors();
   float weights = 0, sum_m = 0;
-  for (int distance = 1; distance <= interpolate_sectors_; ++distance) {
+  const auto take = [&](int neighbour, int distance) {
+    const std::size_t donor = grid.cell(grid.wrapped(neighbour), band);
+    if (origin_[donor] == kPredicted) return;
     const float weight = 1.0F / static_cast<float>(distance);
-    const int left = sector >= distance ? sector - distance : sector - distance + sectors;
-    const int right = sector + distance < sectors ? sector + distance : sector + distance - sectors;
-    for (const int neighbour : {left, right}) {
-      const std::size_t donor = grid.cell(neighbour, band);
-      if (origin_[donor] == kPredicted) continue;
-      sum_m += weight * traced_m_[donor];
-      weights += weight;
-    }
+    sum_m += weight * traced_m_[donor];
+    weights += weight;
+  };
+  for (int distance = 1; distance <= behind_; ++distance) {
+    take(sector - distance, distance);
+    if (distance <= ahead_) take(sector + distance, distance);
   }
   return weights > 0 ? sum_m / weights : traced_m_[grid.cell(sector, band)];
 }

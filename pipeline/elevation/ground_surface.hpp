@@ -49,7 +49,8 @@ class GroundSurface {
     float regain_length_m = 4.0F;  ///< Length of passable path on which lost ground is found again,
                                    ///< least width of such ground, and longest step of a path that
                                    ///< no passable step leads to.
-    int interpolate_sectors = 14;  ///< Sectors to each side from which a cell is interpolated.
+    int interpolate_sectors = 14;  ///< Sectors behind from which a cell is interpolated ...
+    int sectors_ahead = 5;         ///< ... and sectors ahead, which are waited for.
   };
 
   /// Heights of the ground above the mount's plane at the first and the last edge of a sector.
@@ -63,25 +64,25 @@ class GroundSurface {
   GroundSurface(const Config& config, float obstacle_height_m, const RingGrid& grid,
                 memory::FixedMemory& memory);
 
-  // Order of calls for a frame, which may still be arriving: reset(); trace() for sectors as they
-  // become known; finalize() for sectors whose surface is needed early; then finalize_rest().
+  // Sectors are numbered on without end: beyond the last sector come those of the circle's
+  // beginning. Each of the next three functions takes every sector of a circle once, in order, as
+  // soon as the function before it has taken the sectors named there. All are real-time safe.
 
-  /// Begins a frame with no sector traced. All functions of this class are real-time safe.
-  void reset() noexcept TERRACUT_NONBLOCKING;
-  /// Traces these sectors; the lowest returns in them must be known.
-  void trace(const RingGrid& grid, RingGrid::Sectors sectors,
+  /// Traces a sector; its lowest returns must be known.
+  void trace(const RingGrid& grid, int sector,
              std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
-  /// Estimates the surface in sectors that have been traced. Sectors not traced yet contribute
-  /// nothing.
-  void finalize(const RingGrid& grid, RingGrid::Sectors sectors,
+  /// Finds which ground of a sector its neighbours may use: all ground, except a strip found again
+  /// that is too narrow to be ground (a row of car roofs, for example). Sectors from kStripBehind
+  /// behind it to kStripAhead ahead of it must be traced.
+  void find_donors(const RingGrid& grid, int sector) noexcept TERRACUT_NONBLOCKING;
+  /// Estimates the surface of a sector from the ground in the sector and in its neighbours. Sectors
+  /// from behind() behind it to ahead() ahead of it must have their donors.
+  void estimate(const RingGrid& grid, int sector,
                 std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
-  /// Estimates the surface of the whole frame once all sectors have been traced. Sets
-  /// `is_current[s]` to 0 if this changes the surface that finalize() found for sector s.
-  void finalize_rest(const RingGrid& grid, std::span<const LowestReturn> lowest,
-                     std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
-  /// Returns how many sectors to each side the surface of a sector depends on. Beside a strip that
-  /// may be too narrow to be ground, the surface may depend on more.
-  [[nodiscard]] int reach() const noexcept { return std::max(interpolate_sectors_, 1); }
+
+  static constexpr int kStripBehind = 14, kStripAhead = 2;
+  [[nodiscard]] int behind() const noexcept { return std::max(behind_, 1); }
+  [[nodiscard]] int ahead() const noexcept { return std::max(ahead_, 1); }
 
   /// Returns the ground at the middle of each grid cell's band; valid in cells with a return and in
   /// the bands next to such cells. One extra element at the end gives every cell a successor.
@@ -118,8 +119,6 @@ class GroundSurface {
   [[nodiscard]] bool is_passable(const LowestReturn& from, const LowestReturn& to) const noexcept;
   /// Returns the slope of a step, limited to +-max_slope.
   [[nodiscard]] float slope_of(float rise_m, float run_m) const noexcept;
-  void trace_outward(const RingGrid& grid, int sector,
-                     std::span<const LowestReturn> lowest) noexcept;
   /// Traces from `band` to the end of the sector, or to where ground is lost that can be found
   /// again nearer than the trace would continue. Returns the last band with ground, or -1.
   int trace_on(const RingGrid& grid, int sector, int band, Origin origin, Ground& ground,
@@ -134,25 +133,18 @@ class GroundSurface {
   [[nodiscard]] Detour find_ground_again(const RingGrid& grid, int sector, int lost_band,
                                          int end_band, const Ground& ground,
                                          std::span<const LowestReturn> lowest) const noexcept;
-  /// Finds which ground of a sector its neighbours may use: all ground, except a strip found again
-  /// that is too narrow to be ground (a row of car roofs, for example).
-  void find_donors(const RingGrid& grid, int sector) noexcept;
   [[nodiscard]] bool lies_on_wide_strip(const RingGrid& grid, int sector, int band) const noexcept;
-  /// Estimates the surface of a sector from the ground in the sector and in its neighbours. Returns
-  /// true if the surface changed.
-  bool estimate(const RingGrid& grid, int sector, std::span<const LowestReturn> lowest) noexcept;
   [[nodiscard]] float interpolated_m(const RingGrid& grid, int sector, int band) const noexcept;
 
   Config config_;
-  float foot_rise_m_;        // largest rise of a step to the foot of something tall
-  float deep_m_;             // depth of the deepest bands
-  int interpolate_sectors_;  // at most half the circle
+  float foot_rise_m_;   // largest rise of a step to the foot of something tall
+  float deep_m_;        // depth of the deepest bands
+  int behind_, ahead_;  // sectors to either side that a cell is interpolated from
   std::span<float> traced_m_;
   std::span<EdgeHeights> heights_;
   std::span<Origin> found_;   // origin found by the trace; kPredicted where nothing is traced
   std::span<Origin> origin_;  // found_ without the narrow strips
   std::span<std::uint8_t> has_regained_;  // by sector: 1 if found_ has kRegained
-  std::span<std::uint8_t> is_open_;       // by sector: 1 if the surface must be estimated again
   std::span<std::int32_t> wide_from_;     // by band: number of sectors from which a strip is wide
   std::span<float> max_rise_m_;           // by band: largest rise across a sector
 };

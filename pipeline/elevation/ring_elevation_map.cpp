@@ -256,24 +256,45 @@ RingElevationMap::RingElevationMap(const Config& config, const mount::RingProfil
       row_kept_m_(memory.take<float>("ring grid", row_steps_.size())) {}
 
 void RingElevationMap::reset() noexcept {
-  taken_ = 0;
-  traced_ = opening_.reach();
+  const auto starting_at = [this](int sector) {
+    return Progress{sector, sector, sector + grid_.sectors()};
+  };
+  taken_ = starting_at(0);
+  traced_ = starting_at(opening_.behind());
+  given_ = starting_at(traced_.begin + (has_surface() ? GroundSurface::kStripBehind : 0));
+  settled_ = starting_at(given_.begin + (has_surface() ? surface_.behind() : 0));
+  settles_at_end_ = settled_.begin >= grid_.sectors();
+  if (settles_at_end_) traced_ = given_ = settled_ = starting_at(0);
   seen_ = seen_overflow_ = 0;
   was_overtaken_ = false;
   std::fill(extremes_.begin(), extremes_.end(), nothing());
-  surface_.reset();
 }
 
 void RingElevationMap::take_to(int end, const frame::RangeImage& image,
                                const frame::PointPlanes& points) noexcept {
   if (image.measured() == nullptr) take_overflow(image);
-  if (taken_ == end) return;
-  take_columns(points, {taken_, end});
-  taken_ = end;
-  const int traceable = end - opening_.reach();
-  if (traceable <= traced_) return;
-  trace({traced_, traceable});
-  traced_ = traceable;
+  if (taken_.next < end) take_columns(points, {taken_.next, end});
+  taken_.next = end;
+  settle();
+}
+
+void RingElevationMap::settle() noexcept {
+  if (settles_at_end_ && taken_.next < taken_.end) return;
+  const auto go_on = [](Progress& step, int stop, auto take) {
+    for (; step.next < std::min(step.end, stop); ++step.next) take(step.next);
+  };
+  go_on(traced_, taken_.stop_of_next_step(opening_.ahead()), [this](int sector) {
+    find_lowest(grid_.wrapped(sector));
+    if (has_surface()) surface_.trace(grid_, sector, lowest_);
+  });
+  if (!has_surface()) {
+    settled_.next = traced_.next;
+    return;
+  }
+  go_on(given_, traced_.stop_of_next_step(GroundSurface::kStripAhead),
+        [this](int sector) { surface_.find_donors(grid_, sector); });
+  go_on(settled_, given_.stop_of_next_step(surface_.ahead()),
+        [this](int sector) { surface_.estimate(grid_, sector, lowest_); });
 }
 
 void RingElevationMap::take_columns(const frame::PointPlanes& points,
@@ -299,28 +320,25 @@ void RingElevationMap::take_columns(const frame::PointPlanes& points,
   }
 }
 
-void RingElevationMap::trace(RingGrid::Sectors sectors) noexcept {
-  opening_.open(sectors);
-  for (int sector = sectors.begin; sector < sectors.end; ++sector) {
-    for (std::size_t i = grid_.cell(sector, 0); i < grid_.cell(sector + 1, 0); ++i) {
-      const float height_m = height_in(extremes_[i][0]);
-      const std::uint32_t range_and_row = range_and_row_of_lowest(extremes_[i]);
-      const auto row = static_cast<int>(range_and_row & kRowBits);
-      const float highest_m = -height_in(extremes_[i][1]);
-      const bool has_only_lone = height_m == kNowhere_m && highest_m != -kNowhere_m;
-      const bool stands_out = opening_.has(row) && height_m - opening_.opening_m(row, sector) >
-                                                       config_.obstacle_height_m;
-      lowest_[i] = {has_only_lone ? highest_m : height_m,
-                    std::bit_cast<float>(range_and_row & ~kRowBits), highest_m,
-                    has_only_lone || stands_out ? 1 : 0};
-    }
+void RingElevationMap::find_lowest(int sector) noexcept {
+  opening_.open(sector);
+  for (std::size_t i = grid_.cell(sector, 0); i < grid_.cell(sector + 1, 0); ++i) {
+    const float height_m = height_in(extremes_[i][0]);
+    const std::uint32_t range_and_row = range_and_row_of_lowest(extremes_[i]);
+    const auto row = static_cast<int>(range_and_row & kRowBits);
+    const float highest_m = -height_in(extremes_[i][1]);
+    const bool has_only_lone = height_m == kNowhere_m && highest_m != -kNowhere_m;
+    const bool stands_out =
+        opening_.has(row) && height_m - opening_.opening_m(row, sector) > config_.obstacle_height_m;
+    lowest_[i] = {has_only_lone ? highest_m : height_m,
+                  std::bit_cast<float>(range_and_row & ~kRowBits), highest_m,
+                  has_only_lone || stands_out ? 1 : 0};
   }
-  if (has_surface()) surface_.trace(grid_, sectors, lowest_);
 }
 
 void RingElevationMap::take_extra(int column, float z_m, float ground_range_m) noexcept {
   const int sector = grid_.sector_of(column);
-  was_overtaken_ |= sector < taken_;
+  was_overtaken_ |= sector < taken_.next;
   take(extremes_of(z_m, ground_range_m, kNoRow),
        extremes_[grid_.cell(sector, grid_.band_of(ground_range_m))]);
   ++seen_overflow_;
@@ -331,18 +349,6 @@ void RingElevationMap::take_overflow(const frame::RangeImage& image) noexcept {
   for (const frame::OverflowReturn& extra : image.overflow().subspan(seen_overflow_)) {
     take_extra(static_cast<int>(extra.cell % stride), extra.point.z_m, extra.point.ground_range_m);
   }
-}
-
-void RingElevationMap::finalize(RingGrid::Sectors sectors) noexcept {
-  if (has_surface()) surface_.finalize(grid_, sectors, lowest_);
-}
-
-void RingElevationMap::finalize_rest(std::span<std::uint8_t> is_current) noexcept {
-  if (!has_surface()) return;
-  trace({0, opening_.reach()});
-  if (traced_ < grid_.sectors()) trace({traced_, grid_.sectors()});
-  traced_ = grid_.sectors();
-  surface_.finalize_rest(grid_, lowest_, is_current);
 }
 
 void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRange columns,

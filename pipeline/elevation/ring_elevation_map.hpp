@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "firmware_io/frame/point_planes.hpp"
@@ -43,32 +44,33 @@ class RingElevationMap {
                    memory::FixedMemory& memory);
 
   // Order of calls for a frame, which may still be arriving (CoarseStages): reset(); take_to() for
-  // sector after sector; finalize() for sectors to be labelled early; finalize_rest() when all
-  // sectors are taken. label() may be called for every final sector.
+  // sector after sector; label() for sectors that are settled.
 
   /// Begins a frame. All functions of this class are real-time safe.
   void reset() noexcept TERRACUT_NONBLOCKING;
   /// Takes a return that shares its cell with another return, if frames keep returns as measured.
   void take_extra(int column, float z_m, float ground_range_m) noexcept TERRACUT_NONBLOCKING;
-  /// Takes the sectors from taken() to `end`, whose columns must be complete, and traces those that
-  /// can be traced by now. `points` has the returns that own their cells; other returns are in the
-  /// image's overflow list or came by take_extra().
+  /// Takes the sectors from taken() to `end`, whose columns must be complete, and settles those
+  /// whose ground is known by now. `points` has the returns that own their cells; other returns are
+  /// in the image's overflow list or came by take_extra().
   void take_to(int end, const frame::RangeImage& image,
                const frame::PointPlanes& points) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] int taken() const noexcept { return taken_; }
+  [[nodiscard]] int taken() const noexcept { return taken_.next; }
   /// Returns false if a return came after its sector was taken, which makes the result invalid.
   /// Call it once all sectors have been taken.
   [[nodiscard]] bool saw_all_of(const frame::RangeImage& image) const noexcept {
     return !was_overtaken_ && seen_ + seen_overflow_ == image.returns();
   }
-  void finalize(RingGrid::Sectors sectors) noexcept TERRACUT_NONBLOCKING;
-  /// Traces what is left and calls GroundSurface::finalize_rest().
-  void finalize_rest(std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
-  /// Returns how many sectors to either side must be taken before a sector is final.
-  [[nodiscard]] int reach() const noexcept {
-    return has_surface() ? surface_.reach() + opening_.reach() : 0;
+  /// Returns the sectors whose ground is known. They are numbered on beyond the last sector: the
+  /// ground of the first ones depends on the last, so these come at the end.
+  [[nodiscard]] RingGrid::Sectors settled() const noexcept {
+    return {settled_.begin, settled_.next};
   }
-  /// Fills `height_m` and `label` in these columns.
+  /// Returns how many sectors that follow a sector must be taken before it is settled.
+  [[nodiscard]] int ahead() const noexcept {
+    return has_surface() ? opening_.ahead() + GroundSurface::kStripAhead + surface_.ahead() : 0;
+  }
+  /// Fills `height_m` and `label` in these columns, which must be of settled sectors.
   void label(const frame::PointPlanes& points, frame::ColumnRange columns,
              stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
@@ -80,7 +82,9 @@ class RingElevationMap {
   }
   void take_overflow(const frame::RangeImage& image) noexcept;
   void take_columns(const frame::PointPlanes& points, RingGrid::Sectors sectors) noexcept;
-  void trace(RingGrid::Sectors sectors) noexcept;
+  /// Lets each step go on as far as the step before it has come.
+  void settle() noexcept;
+  void find_lowest(int sector) noexcept;
   /// Labels what stands out of a row obstacle.
   void label_standing_out(const float* z_m, int row, frame::ColumnRange columns,
                           frame::Label* label) const noexcept;
@@ -91,9 +95,18 @@ class RingElevationMap {
   GroundSurface surface_;
   LoneReturns lone_;
   RowOpening opening_;
-  int rows_with_lone_;    // number of rows, from the lowest, whose lone returns are looked for
-  int taken_ = 0;         // number of sectors taken
-  int traced_ = 0;        // end of the sectors traced; the first reach of opening_ come last
+  int rows_with_lone_;  // number of rows, from the lowest, whose lone returns are looked for
+  /// How far a step has come on its way around the circle, in sectors.
+  struct Progress {
+    int begin = 0, next = 0, end = 0;
+
+    /// Returns where a step must stop that needs `ahead` sectors of this one beyond its own.
+    [[nodiscard]] int stop_of_next_step(int ahead) const noexcept {
+      return next == end ? std::numeric_limits<int>::max() : next - ahead;
+    }
+  };
+  Progress taken_, traced_, given_, settled_;  // in this order; given_: donors are found
+  bool settles_at_end_ = false;                // true for circles of few sectors
   std::size_t seen_ = 0;  // number of returns in the taken sectors that own a cell
   // Number of returns that own no cell: from the overflow list or take_extra().
   std::size_t seen_overflow_ = 0;

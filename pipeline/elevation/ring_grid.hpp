@@ -100,9 +100,12 @@ class RingGrid {
   struct Sectors {
     int begin, end;
   };
-  /// Maps a sector number up to one revolution below 0 or above the last to a valid number.
+  /// Maps a sector number up to one revolution below 0, or any number above the last, to a valid
+  /// number.
   [[nodiscard]] int wrapped(int sector) const noexcept {
-    return sector < 0 ? sector + sectors_ : sector >= sectors_ ? sector - sectors_ : sector;
+    if (sector < 0) return sector + sectors_;
+    while (sector >= sectors_) sector -= sectors_;
+    return sector;
   }
   /// Returns the image columns that `sectors` cover.
   [[nodiscard]] frame::ColumnRange columns_of(Sectors sectors) const noexcept {

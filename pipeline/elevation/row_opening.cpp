@@ -27,13 +27,15 @@ RowOpening::RowOpening(const Config& config, float slope, const RingGrid& grid,
       sector_rad_(2 * std::numbers::pi_v<float> / static_cast<float>(grid.sectors())),
       window_m_(config.window_m),
       slope_(slope),
-      reach_(std::min(kMostReach, (grid.sectors() - 1) / 2)),
       slots_(memory.take<std::int16_t>("row opening", profile.rings.size())) {
   for (std::size_t row = 0; row < profile.rings.size(); ++row) {
     const bool is_used = is_far_from_next(profile.rings[row], profile);
     slots_[row] = static_cast<std::int16_t>(is_used ? used_++ : -1);
   }
-  if (used_ == 0) reach_ = 0;
+  if (used_ > 0) {
+    behind_ = std::min(kMostBehind, (sectors_ - 1) / 2);
+    ahead_ = std::min(kMostAhead, (sectors_ - 1) / 2);
+  }
   const auto places = static_cast<std::size_t>(used_ * sectors_);
   lowest_m_ = memory.take<float>("row opening", places);
   range_m_ = memory.take<float>("row opening", places);
@@ -58,12 +60,8 @@ void RowOpening::take(int row, RingGrid::Sectors sectors, const float* z_m, cons
   }
 }
 
-void RowOpening::open(RingGrid::Sectors sectors) noexcept {
-  for (int slot = 0; slot < used_; ++slot) {
-    for (int sector = sectors.begin; sector < sectors.end; ++sector) {
-      opening_m_[place(slot, sector)] = opened(slot, sector);
-    }
-  }
+void RowOpening::open(int sector) noexcept {
+  for (int slot = 0; slot < used_; ++slot) opening_m_[place(slot, sector)] = opened(slot, sector);
 }
 
 float RowOpening::opened(int slot, int sector) const noexcept {
@@ -71,29 +69,32 @@ float RowOpening::opened(int slot, int sector) const noexcept {
   if (here_m == kEmpty) return kEmpty;
   const float sector_m = sector_rad_ * range_m_[place(slot, sector)];
   const auto width = static_cast<int>(std::ceil(std::min(window_m_ / sector_m, 1e3F)));
-  const int reach = std::min(width, reach_);
+  const int reach = std::min(width, behind_);
   // The lowest height from here to each distance on either side.
-  using Lowest = std::array<float, kMostReach + 1>;
-  const auto find_lowest = [&](int side, Lowest& lowest_m) {
+  using Lowest = std::array<float, kMostBehind + 1>;
+  const auto find_lowest = [&](int side, int most, Lowest& lowest_m) {
     lowest_m[0] = here_m;
     for (int distance = 1; distance <= reach; ++distance) {
+      const auto i = static_cast<std::size_t>(distance);
+      lowest_m[i] = lowest_m[i - 1];
+      if (distance > most) continue;
       int other = sector + side * distance;
       if (other < 0) other += sectors_;
       if (other >= sectors_) other -= sectors_;
       const float seen_m =
           lowest_m_[place(slot, other)] + slope_ * static_cast<float>(distance) * sector_m;
-      const auto i = static_cast<std::size_t>(distance);
-      lowest_m[i] = std::min(lowest_m[i - 1], seen_m);
+      lowest_m[i] = std::min(lowest_m[i], seen_m);
     }
     return lowest_m[static_cast<std::size_t>(reach)];
   };
-  Lowest left_m, right_m;
+  Lowest behind_m, ahead_m;
   // Nothing stands out where a window to one side has nothing lower.
-  if (find_lowest(-1, left_m) == here_m || find_lowest(1, right_m) == here_m) return here_m;
+  if (find_lowest(-1, behind_, behind_m) == here_m) return here_m;
+  if (find_lowest(1, ahead_, ahead_m) == here_m) return here_m;
   float opening_m = -kEmpty;
   for (int distance = 0; distance <= reach; ++distance) {
-    opening_m = std::max(opening_m, std::min(left_m[static_cast<std::size_t>(distance)],
-                                             right_m[static_cast<std::size_t>(reach - distance)]));
+    opening_m = std::max(opening_m, std::min(behind_m[static_cast<std::size_t>(distance)],
+                                             ahead_m[static_cast<std::size_t>(reach - distance)]));
   }
   return opening_m;
 }

@@ -22,7 +22,8 @@ namespace terracut::elevation {
 /// The lowest heights of the row's sectors are opened (Matheron 1967): the opening at a sector is
 /// the highest of the lowest heights of all windows around it. A window is `window_m` wide along
 /// the ring, and heights may rise by `slope` along it, as banks and roads do. What lies more than
-/// an obstacle's height above the opening stands out.
+/// an obstacle's height above the opening stands out. Of a window at most kMostBehind sectors lie
+/// behind a sector and kMostAhead ahead of it.
 class RowOpening {
  public:
   struct Config {
@@ -34,11 +35,14 @@ class RowOpening {
   RowOpening(const Config& config, float slope, const RingGrid& grid,
              const mount::RingProfile& profile, memory::FixedMemory& memory);
 
-  /// Returns how many sectors to either side must be taken before a sector is opened.
-  [[nodiscard]] int reach() const noexcept { return reach_; }
+  static constexpr int kMostBehind = 8, kMostAhead = 3;
+  /// Returns how many sectors behind and ahead must be taken before a sector is opened.
+  [[nodiscard]] int behind() const noexcept { return behind_; }
+  [[nodiscard]] int ahead() const noexcept { return ahead_; }
 
-  // Order of calls for a frame: take() for each row with sectors that became known; open() for
-  // sectors when all in reach() of them are taken. All functions below are real-time safe.
+  // Order of calls: take() for each row with sectors that became known; open() for a sector when
+  // all from behind() before it to ahead() after it are taken. All functions below are real-time
+  // safe.
 
   /// True if what stands out of the row is told.
   [[nodiscard]] bool has(int row) const noexcept {
@@ -49,7 +53,7 @@ class RowOpening {
   /// columns. NaN: no return.
   void take(int row, RingGrid::Sectors sectors, const float* z_m, const float* range_m,
             const RingGrid& grid) noexcept TERRACUT_NONBLOCKING;
-  void open(RingGrid::Sectors sectors) noexcept TERRACUT_NONBLOCKING;
+  void open(int sector) noexcept TERRACUT_NONBLOCKING;
   /// Returns the opening of a row that has() one, above which things stand out; a height above all
   /// returns if the row has none in the sector.
   [[nodiscard]] float opening_m(int row, int sector) const noexcept {
@@ -57,7 +61,6 @@ class RowOpening {
   }
 
  private:
-  static constexpr int kMostReach = 8;
   static constexpr float kEmpty = 1e9F;
 
   [[nodiscard]] std::size_t place(int slot, int sector) const noexcept {
@@ -68,7 +71,7 @@ class RowOpening {
   int sectors_;
   float sector_rad_;
   float window_m_, slope_;
-  int reach_;
+  int behind_ = 0, ahead_ = 0;
   int used_ = 0;                   // number of rows with a slot
   std::span<std::int16_t> slots_;  // by row: its number among the rows that are opened, or -1
   std::span<float> lowest_m_;      // by slot and sector; kEmpty if there is no return

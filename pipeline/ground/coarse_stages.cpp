@@ -15,10 +15,6 @@ int sectors_of_block(int sectors_to_come) noexcept TERRACUT_NONBLOCKING {
   return std::clamp(sectors_to_come / 2, kLeast, kMost);
 }
 
-void done(stage::StageObserver* observer, stage::Stage stage) noexcept TERRACUT_NONBLOCKING {
-  if (observer != nullptr) observer->stage_done(stage);
-}
-
 }  // namespace
 
 CoarseStages::CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
@@ -29,18 +25,19 @@ CoarseStages::CoarseStages(const SegmenterConfig& config, const mount::RingProfi
       map_(config.elevation_map, profile, shape, memory),
       adjacent_(config.adjacent_points, config.elevation_map.obstacle_height_m, profile, shape,
                 memory),
-      made_(made),
-      is_current_(memory.take<std::uint8_t>("coarse stages",
-                                            static_cast<std::size_t>(map_.grid().sectors()))) {}
+      made_(made) {}
 
 void CoarseStages::begin(const frame::RangeImage& image) noexcept {
   assert((image.measured() != nullptr) == (made_ != nullptr));
   image_ = &image;
   generation_ = image.generation();
-  labelled_ = 0;
-  std::ranges::fill(is_current_, std::uint8_t{0});
   map_.reset();
+  labelled_ = map_.settled().begin;
   if (made_ != nullptr) made_->begin(image);
+}
+
+void CoarseStages::done(stage::Stage stage) noexcept {
+  if (observer_ != nullptr) observer_->stage_done(stage);
 }
 
 void CoarseStages::take_to(int end, const frame::RangeImage& image) noexcept {
@@ -57,29 +54,22 @@ void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,
                            stage::CellPlanes& planes, stage::StageObserver* observer,
                            int most_blocks) noexcept {
   if (image.returns() == 0) return;  // a stream's first frame has an empty predecessor
+  observer_ = observer;
   if (!has_begun(image)) begin(image);
   const elevation::RingGrid& grid = map_.grid();
   for (int block = 0; block < most_blocks; ++block) {
-    const int size = sectors_of_block(grid.sectors() - map_.taken());
-    const int end = map_.taken() + size;
+    const int end = map_.taken() + sectors_of_block(grid.sectors() - map_.taken());
     if (end > grid.sectors() || grid.columns_of({0, end}).end > complete_columns) return;
     if (observer != nullptr) observer->resumed();
     take_to(end, image);
-    // The first sectors wait for the last ones: ground is interpolated across the seam.
-    const elevation::RingGrid::Sectors next{std::max(labelled_, map_.reach()),
-                                            map_.taken() - map_.reach()};
-    if (next.end - next.begin < size) {
-      done(observer, stage::Stage::kElevationMap);
-      continue;
-    }
-    map_.finalize(next);
-    label(next, image, planes, observer);
+    label_settled(image, planes);
   }
 }
 
 void CoarseStages::finish(const frame::RangeImage& image, stage::CellPlanes& planes,
                           stage::StageObserver* observer) noexcept {
   const int sectors = map_.grid().sectors();
+  observer_ = observer;
   if (observer != nullptr) observer->resumed();
   if (!has_begun(image)) begin(image);
   take_to(sectors, image);
@@ -87,65 +77,43 @@ void CoarseStages::finish(const frame::RangeImage& image, stage::CellPlanes& pla
     begin(image);
     take_to(sectors, image);
   }
-  map_.finalize_rest(is_current_);
-  const int labelled_ahead = labelled_;
-  if (labelled_ < sectors) label({labelled_, sectors}, image, planes, observer);
-  label_changed(labelled_ahead, image, planes);
+  label_settled(image, planes);
   if (uses_adjacent_points() && adjacent_.reach() > 0) {
-    adjacent_.compare_across_seam(points_of(image), planes);
-    adjacent_.mark({0, adjacent_.reach()}, planes);
-    adjacent_.mark({shape_.columns - adjacent_.reach(), shape_.columns}, planes);
+    compare_across(0, image, planes);
+    if (first_column() != 0) compare_across(first_column(), image, planes);
   }
-  done(observer, stage::Stage::kAdjacentPoints);
+  done(stage::Stage::kAdjacentPoints);
   image_ = nullptr;
 }
 
+void CoarseStages::label_settled(const frame::RangeImage& image,
+                                 stage::CellPlanes& planes) noexcept {
+  const int sectors = map_.grid().sectors(), end = map_.settled().end;
+  if (labelled_ < std::min(end, sectors)) label({labelled_, std::min(end, sectors)}, image, planes);
+  labelled_ = std::max(labelled_, std::min(end, sectors));
+  if (labelled_ < end) label({labelled_ - sectors, end - sectors}, image, planes);
+  labelled_ = end;
+}
+
 void CoarseStages::label(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
-                         stage::CellPlanes& planes, stage::StageObserver* observer) noexcept {
+                         stage::CellPlanes& planes) noexcept {
   const frame::ColumnRange columns = map_.grid().columns_of(sectors);
   map_.label(points_of(image), columns, planes);
-  done(observer, stage::Stage::kElevationMap);
-  if (uses_adjacent_points()) {
-    adjacent_.reset(columns, planes);
-    adjacent_.compare(points_of(image), columns, planes);
-    adjacent_.mark({std::max(columns.begin - adjacent_.reach(), 0), columns.end}, planes);
-    done(observer, stage::Stage::kAdjacentPoints);
-  }
-  labelled_ = sectors.end;
-  for (int sector = sectors.begin; sector < sectors.end; ++sector) {
-    is_current_[static_cast<std::size_t>(sector)] = 1;
-  }
-}
-
-void CoarseStages::label_changed(int end, const frame::RangeImage& image,
-                                 stage::CellPlanes& planes) noexcept {
-  const auto has_changed = [&](int sector) {
-    return sector < end && is_current_[static_cast<std::size_t>(sector)] == 0;
-  };
-  for (int sector = 0; sector < end; ++sector) {
-    const int first = sector;
-    while (has_changed(sector)) ++sector;
-    if (sector > first) label_again({first, sector}, image, planes);
-  }
-}
-
-void CoarseStages::label_again(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
-                               stage::CellPlanes& planes) noexcept {
-  // Columns next to changed ones were compared with old heights, so they are reset as well.
-  const auto widened = [this](frame::ColumnRange columns) {
-    return frame::ColumnRange{std::max(columns.begin - adjacent_.reach(), 0),
-                              std::min(columns.end + adjacent_.reach(), shape_.columns)};
-  };
-  const frame::ColumnRange changed = map_.grid().columns_of(sectors);
-  if (!uses_adjacent_points()) {
-    map_.label(points_of(image), changed, planes);
-    return;
-  }
-  const frame::ColumnRange columns = widened(changed);
-  map_.label(points_of(image), columns, planes);
+  done(stage::Stage::kElevationMap);
+  if (!uses_adjacent_points()) return;
   adjacent_.reset(columns, planes);
-  adjacent_.compare(points_of(image), {columns.begin, widened(columns).end}, planes);
-  adjacent_.mark(columns, planes);
+  const int leftmost = columns.begin >= first_column() ? first_column() : 0;
+  adjacent_.compare(points_of(image), columns, leftmost, planes);
+  adjacent_.mark({std::max(columns.begin - adjacent_.reach(), leftmost), columns.end}, planes);
+  done(stage::Stage::kAdjacentPoints);
+}
+
+void CoarseStages::compare_across(int column, const frame::RangeImage& image,
+                                  stage::CellPlanes& planes) noexcept {
+  adjacent_.compare_across(column, points_of(image), planes);
+  adjacent_.mark({column, column + adjacent_.reach()}, planes);
+  const int end = column == 0 ? shape_.columns : column;
+  adjacent_.mark({end - adjacent_.reach(), end}, planes);
 }
 
 }  // namespace terracut::ground

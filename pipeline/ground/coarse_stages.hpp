@@ -24,13 +24,12 @@ namespace terracut::ground {
 /// while the frame is arriving, on columns just written and still in the core's caches:
 ///
 ///   columns   0 ......................................................... all
-///             |  labelled  |  taken: their lowest returns known |  to come  |
-///                          '-- as many sectors as give ground to a neighbour --'
+///             | later |  labelled  |  taken: their lowest returns known |  to come  |
+///                 |                '-- RingElevationMap::ahead(): ground to interpolate from
+///                 '-- labelled at the end: their ground depends on the last columns, too
 ///
-/// Later columns can change the ground of sectors already labelled: at the seam, where the circle
-/// closes, and sometimes beside a strip too narrow to be ground. finish() labels those sectors
-/// again. So the labels are bit for bit the same as if the whole frame had come at once, in
-/// whatever order packets came and whatever was labelled ahead.
+/// The labels are bit for bit the same as if the whole frame had come at once, in whatever order
+/// packets came and whatever was labelled ahead.
 ///
 /// All memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
 class CoarseStages {
@@ -54,7 +53,8 @@ class CoarseStages {
   [[nodiscard]] float share_ahead(const frame::RangeImage& image) const noexcept
       TERRACUT_NONBLOCKING {
     if (!has_begun(image)) return 0;
-    return static_cast<float>(labelled_) / static_cast<float>(map_.grid().sectors());
+    return static_cast<float>(labelled_ - map_.settled().begin) /
+           static_cast<float>(map_.grid().sectors());
   }
 
   /// Completes a whole frame: fills `height_m`, `label` and, if adjacent points are among the
@@ -66,6 +66,7 @@ class CoarseStages {
   static constexpr int kAnyNumber = std::numeric_limits<int>::max();
 
   void begin(const frame::RangeImage& image) noexcept;
+  void done(stage::Stage stage) noexcept;
   void take_to(int end, const frame::RangeImage& image) noexcept;
   [[nodiscard]] frame::PointPlanes points_of(const frame::RangeImage& image) const noexcept {
     return made_ != nullptr ? made_->planes() : image.points();
@@ -73,15 +74,18 @@ class CoarseStages {
   [[nodiscard]] bool has_begun(const frame::RangeImage& image) const noexcept {
     return image_ == &image && generation_ == image.generation();
   }
-  /// Labels sectors for the first time. The sectors to the left have been labelled, or
-  /// label_again() will label them and compare them with these.
+  /// Labels the sectors that are settled and not labelled yet.
+  void label_settled(const frame::RangeImage& image, stage::CellPlanes& planes) noexcept;
   void label(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
-             stage::CellPlanes& planes, stage::StageObserver* observer) noexcept;
-  /// Labels sectors of a labelled frame again.
-  void label_again(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
-                   stage::CellPlanes& planes) noexcept;
-  /// Labels again the sectors in [0, end) whose ground surface has changed.
-  void label_changed(int end, const frame::RangeImage& image, stage::CellPlanes& planes) noexcept;
+             stage::CellPlanes& planes) noexcept;
+  /// Compares the columns labelled first with those labelled last, on either side of `column`.
+  void compare_across(int column, const frame::RangeImage& image,
+                      stage::CellPlanes& planes) noexcept;
+  /// Returns the first column that is labelled.
+  [[nodiscard]] int first_column() const noexcept {
+    const int sector = map_.grid().wrapped(map_.settled().begin);
+    return map_.grid().columns_of({sector, sector + 1}).begin;
+  }
   [[nodiscard]] bool uses_adjacent_points() const noexcept {
     return last_stage_ >= stage::Stage::kAdjacentPoints;
   }
@@ -93,8 +97,8 @@ class CoarseStages {
   frame::FramePoints* made_;
   const frame::RangeImage* image_ = nullptr;  // the frame in work
   std::uint32_t generation_ = 0;
-  int labelled_ = 0;                    // number of sectors labelled
-  std::span<std::uint8_t> is_current_;  // by sector: 1 if labelled with the present surface
+  stage::StageObserver* observer_ = nullptr;
+  int labelled_ = 0;  // the next sector to label, among RingElevationMap::settled()
 };
 
 }  // namespace terracut::ground

@@ -109,7 +109,7 @@ class FrameReceiver {
   static constexpr int kMostBatches = 10'000;
   /// One block has at least eight times the columns of a packet, so the coarse stages catch up.
   static constexpr int kBlocksAPacket = 1;
-  static constexpr float kEnoughAhead = 0.75F;
+  static constexpr float kEnoughAhead = 0.5F;
 
   void take(const packet::Datagram& datagram, std::int64_t now_ns) noexcept {
     newest_packet_ns_ = datagram.stamp_ns;

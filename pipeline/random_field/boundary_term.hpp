@@ -27,8 +27,7 @@ class BoundaryTerm {
   struct Config {
     BoundaryRule rule = BoundaryRule::kNearness;
     // Settings of kHeightGradient
-    float sigma = 10.0F;           ///< Adjustment coefficient of Eq. 14, 1/m.
-    float min_distance_m = 0.05F;  ///< Least d: on walls d nears 0 and the exponent infinity.
+    float sigma = 10.0F;  ///< Adjustment coefficient of Eq. 14, 1/m.
     // Settings of kNearness
     float scale_m = 0.10F;          ///< Distance at which the weight is 1/e, at range 0.
     float scale_per_metre = 0.01F;  ///< Growth of that distance per metre of range.
@@ -39,7 +38,6 @@ class BoundaryTerm {
                const frame::PointPlanes& points) noexcept
       : rule_(config.rule),
         sigma_(all(config.sigma)),
-        min_distance_m_(all(config.min_distance_m)),
         scale_m_(all(config.scale_m)),
         scale_per_two_metres_(all(0.5F * config.scale_per_metre)),
         exp_(&negative_exp),
@@ -63,6 +61,9 @@ class BoundaryTerm {
   }
 
  private:
+  /// The least d of Eq. 14: on walls d nears 0 and the exponent infinity.
+  static constexpr float kLeastDistance_m = 0.05F;
+
   using FourFloats = stage::FourFloats;
   using FourInts = stage::FourInts;
   /// A value of each neighbour: those in directions 0, 2, 4, 6 and those in 1, 3, 5, 7.
@@ -100,7 +101,8 @@ class BoundaryTerm {
         rule_ == BoundaryRule::kNearness
             ? (*exp_)(stage::square_root(along + dz * dz) /
                       (scale_m_ + scale_per_two_metres_ * ranges_m))
-            : (*exp_)(sigma_ * dz * dz / at_least(stage::square_root(along), min_distance_m_));
+            : (*exp_)(sigma_ * dz * dz /
+                      at_least(stage::square_root(along), all(kLeastDistance_m)));
     return __builtin_convertvector(weight * static_cast<float>(min_cut::kCapacityScale), FourInts);
   }
   [[nodiscard]] static FourFloats at_least(FourFloats four, FourFloats least) noexcept {
@@ -108,7 +110,7 @@ class BoundaryTerm {
   }
 
   BoundaryRule rule_;
-  FourFloats sigma_, min_distance_m_, scale_m_, scale_per_two_metres_;
+  FourFloats sigma_, scale_m_, scale_per_two_metres_;
   const stage::NegativeExp* exp_;
   const float *x_m_, *y_m_, *z_m_, *ground_range_m_;
 };

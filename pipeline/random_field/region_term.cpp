@@ -36,12 +36,12 @@ void RegionTerm::count_seeds(std::span<const min_cut::Seed> seeds) noexcept {
 RegionTerm::BinCosts RegionTerm::costs_of(const Histogram& counts) const noexcept {
   double total = 0;
   for (const std::uint32_t count : counts) total += count;
-  const auto floor = static_cast<double>(config_.empty_bin_count);
-  const double log_total = stage::portable_log(total + floor * kMaxBins);
+  constexpr double kAdded = 1;  // to every bin: an empty one would cost infinity
+  const double log_total = stage::portable_log(total + kAdded * kMaxBins);
   const double scale = static_cast<double>(config_.lambda) * min_cut::kCapacityScale;
   BinCosts costs{};
   for (std::size_t bin = 0; bin < counts.size(); ++bin) {
-    const double cost = scale * (log_total - stage::portable_log(counts[bin] + floor));
+    const double cost = scale * (log_total - stage::portable_log(counts[bin] + kAdded));
     costs[bin] = static_cast<std::int32_t>(std::min(cost, double{min_cut::kMaxTerminalCost}));
   }
   return costs;

@@ -33,7 +33,6 @@ class RegionTerm {
     float lambda = 1.0F;  ///< Weight against the boundary term, > 0.
     // Settings of kHistogram
     float bins_per_metre = 10.0F;  ///< k of Eq. 10.
-    float empty_bin_count = 1.0F;  ///< Least count of a bin, > 0; an empty bin would cost infinity.
     // Settings of kHeightRamp
     float even_height_m = 0.12F;  ///< Ground and obstacle cost the same at this height.
     float ramp_m = 0.15F;  ///< Farther than this from even_height_m the cost stays at lambda.

@@ -170,12 +170,19 @@ TEST(AdjacentPoints, ComparesColumnsTogetherAsIfOneByOne) {
       }
       AdjacentPoints stage(config, kMaxHeight_m, test::even_profile(8), shape, memory);
       stage.reset({0, columns}, planes);
-      for (int begin = 0; begin < columns;) {
-        const int end = std::min(columns, begin + 1 + static_cast<int>(random() % 70U));
-        stage.compare(points, {begin, end}, planes);
-        begin = end;
-      }
-      stage.compare_across_seam(points, planes);
+      // Around the circle from some column on.
+      const int first = static_cast<int>(random() % 3U) * (columns / 3);
+      const auto compare_all = [&](frame::ColumnRange all) {
+        for (int begin = all.begin; begin < all.end;) {
+          const int end = std::min(all.end, begin + 1 + static_cast<int>(random() % 70U));
+          stage.compare(points, {begin, end}, all.begin, planes);
+          begin = end;
+        }
+      };
+      compare_all({first, columns});
+      compare_all({0, first});
+      stage.compare_across(0, points, planes);
+      if (first > 0) stage.compare_across(first, points, planes);
       const auto expected = steep_one_by_one(config, kMaxHeight_m, shape, points, planes.height_m);
       for (std::size_t cell = 0; cell < expected.size(); ++cell) {
         EXPECT_EQ(planes.steep[cell] & stage::kSteep, expected[cell]) << columns << " " << reach;

@@ -33,10 +33,13 @@ struct SurfaceOverGrid : testing::Test {
       for (int b = 0; b < grid.bands(); ++b)
         lowest[grid.cell(s, b)] = {height_of_range(grid.center_m(b)), grid.center_m(b)};
   }
-  void estimate() {
-    surface.reset();
-    surface.trace(grid, {0, grid.sectors()}, lowest);
-    surface.finalize(grid, {0, grid.sectors()}, lowest);
+  void estimate() { estimate_from(0); }
+  /// Each step goes around the circle from this sector on.
+  void estimate_from(int first) {
+    const int end = first + grid.sectors();
+    for (int s = first; s < end; ++s) surface.trace(grid, s, lowest);
+    for (int s = first; s < end; ++s) surface.find_donors(grid, s);
+    for (int s = first; s < end; ++s) surface.estimate(grid, s, lowest);
   }
   /// Where it is lowest in a cell.
   float at(int sector, float range_m) { return edges(sector, range_m).lower_m(); }
@@ -260,18 +263,16 @@ TEST_F(SurfaceOverGrid, InterpolatesAcrossTheSeamFromOneSideAlone) {
       }
     }
     estimate();
-    EXPECT_NEAR(at(is_right ? 0 : grid.sectors() - 1, 40.0F), true_m, 0.25F);
+    EXPECT_NEAR(at(is_right ? 0 : grid.sectors() - 1, 40.0F), true_m, 0.25F) << is_right;
   }
 }
 
-TEST_F(SurfaceOverGrid, GivesGroundThatTheLastSectorsTellToAllThatWereFinalBefore) {
-  // Behind a ditch there is ground on a strip across the seam only; its part to the right of it is
-  // too narrow to be ground by itself.
+TEST_F(SurfaceOverGrid, IsTheSameWhereverTheCircleIsBegun) {
+  // Behind a ditch there is ground on a strip across the seam only.
   fill([](float range_m) {
     return range_m < 10 ? 0.0F : range_m < 16 ? GroundSurface::kEmpty : 9;
   });
-  constexpr int kRight = 3, kLeft = 8, kFirst = 14, kFinal = 60, kTraced = 80;
-  for (int n = -kLeft; n < kRight; ++n) {
+  for (int n = -12; n < 8; ++n) {
     for (int band = grid.band_of(16.5F); band < grid.bands(); ++band) {
       lowest[grid.cell(grid.wrapped(n), band)].height_m = 0.8F;
     }
@@ -280,17 +281,29 @@ TEST_F(SurfaceOverGrid, GivesGroundThatTheLastSectorsTellToAllThatWereFinalBefor
   const std::vector<GroundSurface::EdgeHeights> expected(surface.heights().begin(),
                                                          surface.heights().end());
   EXPECT_GT(at(1, 20.0F), 0.7F);
+  for (const int first : {1, 20, 203}) {
+    GroundSurface fresh({}, 0.15F, grid, memory);
+    std::swap(surface, fresh);
+    estimate_from(first);
+    EXPECT_TRUE(std::ranges::equal(surface.heights(), expected)) << first;
+  }
+}
 
-  surface.reset();
-  surface.trace(grid, {0, kTraced}, lowest);
-  surface.finalize(grid, {kFirst, kFinal}, lowest);
-  surface.trace(grid, {kTraced, grid.sectors()}, lowest);
-  std::vector<std::uint8_t> is_current(static_cast<std::size_t>(grid.sectors()), 1);
-  surface.finalize_rest(grid, lowest, is_current);
-  EXPECT_TRUE(std::ranges::equal(surface.heights(), expected));
-  // Ground is interpolated over 14 sectors, so to those from 14 to 16 by the strip's.
-  for (int sector = kFirst; sector < kFinal; ++sector) {
-    EXPECT_EQ(is_current[static_cast<std::size_t>(sector)], sector >= kFirst + kRight) << sector;
+TEST_F(SurfaceOverGrid, WaitsForFiveSectorsAheadAndTwoMoreForTheStripTheyLieOn) {
+  // Ground of all sectors, hidden in one; what lies beyond what is waited for is not looked at.
+  fill([](float range_m) { return 0.03F * range_m; });
+  constexpr int kHere = 50;
+  const int band = grid.band_of(40.0F);
+  for (int b = grid.band_of(8.0F); b < grid.bands(); ++b) {
+    for (int s = kHere - 30; s <= kHere; ++s) lowest[grid.cell(s, b)].height_m = 9.0F;
+  }
+  const float true_m = 0.03F * grid.center_m(band);
+  for (const int ahead : {5, 6}) {
+    for (int b = grid.band_of(8.0F); b < grid.bands(); ++b) {
+      for (int s = kHere; s < kHere + ahead; ++s) lowest[grid.cell(s, b)].height_m = 9.0F;
+    }
+    estimate();
+    EXPECT_EQ(std::fabs(at(kHere, 40.0F) - true_m) < 0.01F, ahead == 5) << ahead;
   }
 }
 

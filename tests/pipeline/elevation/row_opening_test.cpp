@@ -32,7 +32,7 @@ struct OpeningOfARow : testing::Test {
         range_m(1800, 20.0F) {}
   void open() {
     stage.take(kRow, {0, grid.sectors()}, z_m.data(), range_m.data(), grid);
-    stage.open({0, grid.sectors()});
+    for (int sector = 0; sector < grid.sectors(); ++sector) stage.open(sector);
   }
   /// Puts a thing of this width around the middle of a sector onto the ground.
   void put(int sector, float width_m, float height_m) {
@@ -97,14 +97,14 @@ TEST_F(OpeningOfARow, WhereNothingReturnsNothingStandsOut) {
   EXPECT_LT(height_above(50, 10), 0);
 }
 
-TEST_F(OpeningOfARow, SectorsOpenedOneByOneAreOpenedAsAllAtOnce) {
-  put(50, 1.8F, 0.5F);
-  open();
-  std::vector<float> at_once;
-  for (int s = 0; s < grid.sectors(); ++s) at_once.push_back(stage.opening_m(kRow, s));
-  for (int s = 0; s < grid.sectors(); ++s) stage.open({s, s + 1});
-  for (int s = 0; s < grid.sectors(); ++s) {
-    EXPECT_EQ(stage.opening_m(kRow, s), at_once[static_cast<std::size_t>(s)]) << s;
+TEST_F(OpeningOfARow, LooksThreeSectorsAhead) {
+  // A wall that ends behind a sector, and so many sectors ahead of it.
+  for (const int ahead : {3, 4}) {
+    std::fill(z_m.begin(), z_m.end(), 0.0F);
+    const frame::ColumnRange wall = grid.columns_of({50, 50 + ahead});
+    std::fill(z_m.begin() + wall.begin, z_m.begin() + wall.end, 0.5F);
+    open();
+    EXPECT_EQ(height_above(50, 0.5F) > 0.25F, ahead == 3) << ahead;
   }
 }
 

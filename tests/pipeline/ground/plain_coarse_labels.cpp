@@ -82,8 +82,9 @@ class PlainSurface {
     const TracedSector& traced = at(traced_, sector);
     if (at(at(is_donor_, sector), band)) return at(traced.z_m, band);
     double weights = 0, sum = 0;
-    const int reach = std::min(config_.interpolate_sectors, (grid_.sectors() - 1) / 2);
-    for (int away = -reach; away <= reach; ++away) {
+    const int behind = std::min(config_.interpolate_sectors, (grid_.sectors() - 1) / 2);
+    const int ahead = std::min(config_.sectors_ahead, behind);
+    for (int away = -behind; away <= ahead; ++away) {
       const int donor = around(sector + away);
       if (away == 0 || !at(at(is_donor_, donor), band)) continue;
       weights += 1.0 / std::abs(away);
@@ -230,12 +231,13 @@ class PlainSurface {
 
   /// Whether ground goes on beside it, around the circle, for regain_length_m in all.
   [[nodiscard]] bool is_wide(int sector, int band) const {
-    const int enough = std::min(
-        static_cast<int>(double{config_.regain_length_m} / sector_width_m(band)), grid_.sectors());
+    const int enough =
+        std::min({static_cast<int>(double{config_.regain_length_m} / sector_width_m(band)), 16,
+                  grid_.sectors()});
     const auto is_ground = [&](int s) { return at(at(traced_, around(s)).is_ground, band); };
     int wide = 1;
-    for (int s = sector + 1; wide < enough && is_ground(s); ++s) ++wide;
-    for (int s = sector - 1; wide < enough && is_ground(s); --s) ++wide;
+    for (int s = sector + 1; s <= sector + 2 && is_ground(s); ++s) ++wide;
+    for (int s = sector - 1; s >= sector - 14 && is_ground(s); --s) ++wide;
     return wide >= enough;
   }
 
@@ -288,10 +290,11 @@ class PlainRows {
     const int reach =
         std::min({static_cast<int>(std::ceil(double{config_.opening.window_m} / width_m)), 8,
                   (grid_.sectors() - 1) / 2});
+    const int most_ahead = std::min(3, (grid_.sectors() - 1) / 2);
     double opening_m = -std::numeric_limits<double>::infinity();
     for (int first = sector - reach; first <= sector; ++first) {
       double lowest_m = std::numeric_limits<double>::infinity();
-      for (int s = first; s <= first + reach; ++s) {
+      for (int s = first; s <= std::min(first + reach, sector + most_ahead); ++s) {
         const std::optional<Place>& seen =
             at(at(lowest_, row), (s + grid_.sectors()) % grid_.sectors());
         if (!seen) continue;

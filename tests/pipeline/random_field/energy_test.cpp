@@ -52,7 +52,6 @@ TEST_F(FourCells, HistogramCostIsTheNegativeLogOfTheSeedsShareAtThatHeight) {
   config.rule = RegionRule::kHistogram;
   config.lambda = 1.0F;
   config.bins_per_metre = 10.0F;
-  config.empty_bin_count = 1.0F;
   RegionTerm region(config);
   for (int i = 0; i < 3; ++i) put(0, i, 5, 0.0F, min_cut::Seed::kGround, 0);
   put(0, 3, 5, 1.0F, min_cut::Seed::kObstacle, 1);

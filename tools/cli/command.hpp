@@ -24,6 +24,7 @@ enum class Command : std::uint8_t {
   kInfo,
   kPlan,
   kParameters,
+  kDetection,
   kBench,
   kSend,
   kLive,
@@ -60,6 +61,9 @@ inline constexpr std::array kCommands{
     CommandText{"parameters",
                 "Every parameter of the method, as a table for "
                 "docs/reference/parameters.md"},
+    CommandText{"detection",
+                "The lowest obstacles that are always found, by sensor, mount height and range,\n"
+                "as tables for docs/reference/detection.md"},
     CommandText{"bench", "Time decoding and every stage on one core"},
     CommandText{"send", "Send a capture's datagrams by UDP, as its sensor would"},
     CommandText{"live",

@@ -20,6 +20,7 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run_info(const Options& options);
 [[nodiscard]] ExitCode run_plan(const Options& options);
 [[nodiscard]] ExitCode run_parameters(const Options& options);
+[[nodiscard]] ExitCode run_detection(const Options& options);
 [[nodiscard]] ExitCode run_bench(const Options& options);
 [[nodiscard]] ExitCode run_send(const Options& options);
 [[nodiscard]] ExitCode run_live(const Options& options);

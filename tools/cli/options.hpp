@@ -19,6 +19,7 @@
 #include "firmware_io/vehicle/motion_signals.hpp"
 #include "pipeline/stage/stage.hpp"
 #include "tools/lab/packets/return_mode.hpp"
+#include "tools/research/detection/assumptions.hpp"
 
 /// The options of a command, from command line and configuration file. Names, ranges and meanings
 /// are in the table of settings (settings/setting_table.cpp); the values here are the defaults.
@@ -214,7 +215,7 @@ struct EvalOptions {
   std::filesystem::path classes;        ///< Empty: the dataset's own table.
   std::filesystem::path predictions, report;
   std::filesystem::path hazard_scans;  ///< Folder for scans with hazards; empty: none are written.
-  std::filesystem::path changes;  ///< Given: no journal is kept.
+  std::filesystem::path changes;       ///< Given: no journal is kept.
 };
 
 enum class FleetFormat : std::uint8_t { kLabels, kMcap };
@@ -226,6 +227,12 @@ struct FleetOptions {
   std::string shard = "1/1";       ///< Part I of N to label, as I/N.
   FleetFormat format = FleetFormat::kLabels;
   std::filesystem::path status;  ///< Folder to report on instead of labelling.
+};
+
+/// The ground on which obstacles are to be found; tools/research/detection/assumptions.hpp.
+struct DetectionOptions {
+  double slope = detection::Assumptions{}.slope;
+  double roughness_m = detection::Assumptions{}.roughness_m;
 };
 
 /// Two labelings of the same recordings.
@@ -271,6 +278,7 @@ struct Options {
   EvalOptions eval;
   FleetOptions fleet;
   CompareOptions compare;
+  DetectionOptions detection;
 
   std::string watched;  ///< Name of the process to ask; empty: the only running one.
   double wait_s = 30;   ///< Time to wait for its answer.

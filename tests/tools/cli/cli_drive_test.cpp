@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -418,6 +419,41 @@ TEST_F(Cli, ParametersPageShowsWhatTheProgramHas) {
   EXPECT_THAT(content_of(test::source_folder() / "docs/reference/parameters.md"),
               testing::EndsWith(table.out))
       << "print it anew with `terracut parameters`";
+}
+
+TEST_F(Cli, DetectionPageShowsWhatTheProgramPromises) {
+  const Outcome tables = run("detection");
+  EXPECT_EQ(tables.exit_code, 0);
+  EXPECT_THAT(content_of(test::source_folder() / "docs/reference/detection.md"),
+              testing::EndsWith(tables.out))
+      << "print it anew with `terracut detection`";
+}
+
+TEST_F(Cli, ReadmeQuotesWhatIsAlwaysFound) {
+  expect_done("detection --mount-height 1.73 --json promises.json");
+  const auto promises = json("promises.json");
+  const auto quoted_for = [&](std::string_view sensor, double to_m) {
+    double least_m = 0;
+    for (const auto& box : promises["boxes"]) {
+      if (box["sensor"] != sensor || box["width_m"] != 0.5 || box["to_m"] > to_m) continue;
+      least_m = std::max(least_m, box["least_height_m"].get<double>());
+    }
+    return fmt::format("{:.2f} m on, 5 to {} m away", least_m, to_m);
+  };
+  const std::string readme = content_of(test::source_folder() / "README.md");
+  EXPECT_THAT(readme, testing::HasSubstr(quoted_for("Velodyne HDL-64E (S2/S3)", 30)));
+  EXPECT_THAT(readme, testing::HasSubstr(quoted_for("Velodyne VLP-16", 20)));
+}
+
+TEST_F(Cli, DetectionFollowsItsOptions) {
+  expect_done("detection --sensor vlp16 --mount-height 2 --json level.json --slope 0");
+  expect_done("detection --sensor vlp16 --mount-height 2 --json paper.json --profile paper");
+  const auto boxes = json("level.json")["boxes"];
+  EXPECT_EQ(boxes[0]["sensor"], "Velodyne VLP-16");
+  EXPECT_EQ(boxes[0]["mount_height_m"], 2);
+  EXPECT_GT(boxes[1]["least_height_m"], 0.15);
+  const auto paper = json("paper.json");
+  for (const auto& box : paper["boxes"]) EXPECT_TRUE(box["least_height_m"].is_null());
 }
 
 TEST_F(Cli, SetChangesWhatTheMethodDoes) {

@@ -19,10 +19,11 @@ namespace terracut::cli {
 namespace {
 
 /// Indexed by Command.
-constexpr std::array kRun{
-    run_replay, run_view,      run_segment, run_manifest, run_relabel,    run_compare, run_simulate,
-    run_encode, run_calibrate, run_info,    run_plan,     run_parameters, run_bench,   run_send,
-    run_live,   run_node,      run_dump,    run_eval,     run_top,        run_config,  run_doctor};
+constexpr std::array kRun{run_replay,  run_view,       run_segment,   run_manifest,  run_relabel,
+                          run_compare, run_simulate,   run_encode,    run_calibrate, run_info,
+                          run_plan,    run_parameters, run_detection, run_bench,     run_send,
+                          run_live,    run_node,       run_dump,      run_eval,      run_top,
+                          run_config,  run_doctor};
 static_assert(kRun.size() == kCommands.size());
 
 /// Opens closed standard descriptors: otherwise the next opened file would get one of their

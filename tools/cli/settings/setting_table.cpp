@@ -36,7 +36,7 @@ constexpr CommandSet kPublished = kFrames | C::kLive;
 constexpr CommandSet kDrives = C::kSimulate | C::kEval;
 constexpr CommandSet kSending = C::kSend | C::kSimulate;
 constexpr CommandSet kDds = C::kReplay | C::kLive | C::kSegment | C::kNode;
-constexpr CommandSet kResults = C::kInfo | C::kPlan | C::kBench;
+constexpr CommandSet kResults = C::kInfo | C::kPlan | C::kBench | C::kDetection;
 
 template <class Value, class Words>
 ChoiceField choice(Value& value, const Words& words) {
@@ -98,7 +98,9 @@ constexpr std::array kSettings{
 
     Setting{.key = "sensor.model", .option = "--sensor", .commands = kPackets | C::kSimulate | C::kPlan | C::kEval | C::kRelabel, .help = "Sensor model; auto: the one found, or hdl64e where there is none to find",
             .field = [](O& o) -> F { return choice(o.capture.sensor, kSensorWords); }},
-    Setting{.key = "sensor.calibration", .option = "--calibration", .commands = kPackets | C::kSegment | C::kSimulate | C::kEncode, .help = "The unit's table: db.xml or yaml of an HDL-64E, angle.csv of a Ruby128 (default: the one in the packets; of scans: fitted to them; simulate: a nominal one)",
+    Setting{.option = "--sensor", .commands = C::kDetection, .help = "Sensor model; auto: each of them",
+            .field = [](O& o) -> F { return choice(o.capture.sensor, kSensorWords); }},
+    Setting{.key = "sensor.calibration", .option = "--calibration", .commands = kPackets | C::kSegment | C::kSimulate | C::kEncode | C::kDetection, .help = "The unit's table: db.xml or yaml of an HDL-64E, angle.csv of a Ruby128 (default: the one in the packets; of scans: fitted to them; simulate, detection: a nominal one)",
             .reads = "the calibration", .field = [](O& o) -> F { return &o.capture.calibration; }},
     Setting{.key = "sensor.nominal_calibration", .option = "--nominal-calibration", .commands = kPackets | C::kRelabel, .help = "Ruby128: take the model's table where there is none of the unit; heights may be off",
             .bare = "yes", .field = [](O& o) -> F { return &o.capture.nominal_calibration; }},
@@ -150,6 +152,12 @@ constexpr std::array kSettings{
             .reads = "the setup", .field = [](O& o) -> F { return &o.mount.setup; }},
     Setting{.key = "mount.height_m", .option = "--mount-height", .commands = kMounted | C::kRelabel, .unit = "m", .help = "From the ground to the sensor's origin (default: the setup's, else found in the first frames; simulate, eval: 1.73)",
             .least = 0.2, .most = 6, .field = [](O& o) -> F { return &o.mount.height_m; }},
+    Setting{.option = "--mount-height", .commands = C::kDetection, .unit = "m", .help = "From the ground to the sensor's origin (default: 1, 1.73 and 3)",
+            .least = 0.2, .most = 6, .field = [](O& o) -> F { return &o.mount.height_m; }},
+    Setting{.option = "--slope", .commands = C::kDetection, .unit = "m/m", .help = "Most slope of the ground against the mount's plane, errors of the mount included",
+            .least = 0, .most = 0.3, .field = [](O& o) -> F { return &o.detection.slope; }},
+    Setting{.option = "--roughness", .commands = C::kDetection, .unit = "m", .help = "Most height of a ground return above or below a plane",
+            .least = 0, .most = 0.5, .field = [](O& o) -> F { return &o.detection.roughness_m; }},
     Setting{.key = "mount.roll_deg", .option = "--mount-roll", .commands = kMounted | C::kRelabel, .unit = "deg", .help = "Left side up, 180 for a sensor that hangs upside down (default: the setup's, else found; simulate, eval: 0)",
             .least = -180, .most = 180, .field = [](O& o) -> F { return &o.mount.roll_deg; }},
     Setting{.key = "mount.pitch_deg", .option = "--mount-pitch", .commands = kMounted | C::kRelabel, .unit = "deg", .help = "Looking down in front (default: the setup's, else found; simulate, eval: 0)",
@@ -157,11 +165,11 @@ constexpr std::array kSettings{
     Setting{.key = "mount.guess", .option = "--mount-guess", .commands = kGuessing, .help = "Go on as if the sensor stood level at 1.73 m where the ground does not show its mount, instead of ending with exit code 10",
             .bare = "yes", .field = [](O& o) -> F { return &o.mount.may_guess; }},
 
-    Setting{.key = "method.profile", .option = "--profile", .commands = kMethods | C::kEval, .help = "paper: the method as printed; terracut: what measured better",
+    Setting{.key = "method.profile", .option = "--profile", .commands = kMethods | C::kEval | C::kDetection, .help = "paper: the method as printed; terracut: what measured better",
             .excludes = "--method", .field = [](O& o) -> F { return choice(o.method.profile, kProfileWords); }},
     Setting{.key = "method.stages", .option = "--stages", .commands = kMethods, .help = "How far to refine: elevation map, + adjacent points, + random field (mrf)",
             .excludes = "--method", .field = [](O& o) -> F { return choice(o.method.last_stage, kStageWords); }},
-    Setting{.option = "--set", .commands = kMethods | C::kEval, .help = "Any parameter of the method (`terracut parameters` lists them); repeatable",
+    Setting{.option = "--set", .commands = kMethods | C::kEval | C::kDetection, .help = "Any parameter of the method (`terracut parameters` lists them); repeatable",
             .form = TextForm::kParameter, .field = [](O& o) -> F { return &o.method.settings; }},
     Setting{.option = "--method", .commands = kPlayed | C::kSegment | C::kPlan | C::kBench, .help = "Ours or a baseline by name, instead of --profile and --stages",
             .denied_to = C::kLive | C::kNode | C::kCalibrate | C::kRelabel, .denial = "it runs our own method, as --profile, --stages and --set choose it", .field = [](O& o) -> F { return method_choice(o.method.method); }},

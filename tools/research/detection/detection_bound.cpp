@@ -207,7 +207,7 @@ bool DetectionBound::stands_out(std::size_t row, const Front& front, double widt
                                         static_cast<double>(fewest_columns_));
   const auto window = static_cast<int>(
       std::min(std::ceil(double{map.opening.window_m} / (sector_rad_ * far_m)), 1e3));
-  if (covered > std::min(window, opening_.reach())) return false;
+  if (covered > std::min({window, opening_.behind(), opening_.ahead()})) return false;
   // Beside the box the row meets the ground, nearest where that rises to the side.
   Front beside = front;
   beside.slope += across_slope(front) * std::sin(std::min((covered + 1) * sector_rad_, 1.0));

@@ -33,6 +33,7 @@ from peers.drives import recorded, roles, simulated
 from peers.hazards import Found, disturbance_rows, hazard_rows, written
 from peers.programs import FROM_PACKETS, Peer, Terracut
 from peers.sources import PEERS, Unavailable, build
+from tables import mean, table
 from whole_file import write_whole_file
 
 SCENES = ("street", "highway", "rural", "hill")
@@ -43,20 +44,8 @@ def percentile(values, percent):
     return sorted(values)[max(1, math.ceil(percent / 100 * len(values))) - 1]
 
 
-def mean(values):
-    values = [value for value in values if value is not None]
-    return statistics.fmean(values) if values else None
-
-
 def percent(share):
     return "-" if share is None else f"{100 * share:.1f}"
-
-
-def table(title, names, rows):
-    yield "| " + " | ".join([title, *names]) + " |"
-    yield "|" + "---|" * (1 + len(names))
-    for title_of_row, cells in rows:
-        yield "| " + " | ".join([title_of_row, *cells]) + " |"
 
 
 def time_rows(groups, names, samples):

@@ -290,7 +290,7 @@ class PlainRows {
     const int reach =
         std::min({static_cast<int>(std::ceil(double{config_.opening.window_m} / width_m)), 8,
                   (grid_.sectors() - 1) / 2});
-    const int most_ahead = std::min(3, (grid_.sectors() - 1) / 2);
+    const int most_ahead = std::min(5, (grid_.sectors() - 1) / 2);
     double opening_m = -std::numeric_limits<double>::infinity();
     for (int first = sector - reach; first <= sector; ++first) {
       double lowest_m = std::numeric_limits<double>::infinity();

@@ -24,11 +24,10 @@ using SensorCalibration = std::variant<hdl64e::Hdl64eCalibration, ruby128::Ruby1
 /// model.
 [[nodiscard]] SensorCalibration nominal(sensor::SensorModel model);
 
-/// Returns the model that `calibration` belongs to; for an HDL-64E the S2 and S3, which stands for
-/// all.
+/// Returns the model that `calibration` belongs to; kHdl64e for an HDL-64E of any generation.
 [[nodiscard]] sensor::SensorModel model_of(const SensorCalibration& calibration) noexcept;
 
-/// These return fingerprint(), `origin` and ring_profile() of whichever calibration it is.
+/// Each of these calls the function (or reads the member) of the same name of the calibration held.
 [[nodiscard]] inline std::uint64_t fingerprint(const SensorCalibration& calibration) {
   return std::visit([](const auto& unit) { return fingerprint(unit); }, calibration);
 }

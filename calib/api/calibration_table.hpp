@@ -32,7 +32,7 @@ struct Calibration::Table {
   };
   return {as_public(found.mount), as_public(found.uncertainty), found.frames};
 }
-/// Returns `fault` as an error for users of the library, with the settings that help.
+/// Returns `fault` as an error for users of the library; the message names the settings that help.
 [[nodiscard]] inline Error mount_not_found(const Error& fault) {
   return {ErrorCode::kMountNotFound,
           "the mount is not found: " + fault.message +

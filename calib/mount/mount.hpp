@@ -50,7 +50,8 @@ using RigidTransform = std::array<double, 12>;
 
 [[nodiscard]] RigidTransform T_vehicle_lidar(const Mount& mount) noexcept;
 
-/// Of `angle_rad` and the same angle one revolution on or back, returns the nearest to `to_rad`.
+/// Returns `angle_rad`, or that angle plus or minus one revolution, whichever is nearest to
+/// `to_rad`.
 [[nodiscard]] constexpr double nearest_turn(double angle_rad, double to_rad) noexcept {
   const double by_rad = angle_rad - to_rad;
   if (by_rad > std::numbers::pi) return angle_rad - 2 * std::numbers::pi;

@@ -39,7 +39,7 @@ MountCheck::MountCheck(const Mount& mount, const MountCheckConfig& config)
     : mount_(mount), config_(config) {}
 
 void MountCheck::add_frame(std::span<const std::array<float, 3>> points) {
-  // The same points in the sensor frame, levelled as the mount says.
+  // Moves the origin up to the sensor, where estimate_mount() expects it.
   std::vector<std::array<float, 3>> levelled(points.begin(), points.end());
   const auto height_m = static_cast<float>(mount_.height_m);
   for (auto& point : levelled) point[2] -= height_m;

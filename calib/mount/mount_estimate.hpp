@@ -17,7 +17,7 @@ struct MountEstimate {
   double bend_per_m = 0;
 };
 
-/// The part of the strip before and behind the vehicle that a mount is estimated from.
+/// The part of the ground before and behind the vehicle from which a mount is estimated.
 struct Strip {
   double farthest_m;  ///< Points farther from the sensor are not used.
   /// The expected size of the ground's bend, in z = bend x^2, before anything of it is seen.
@@ -26,8 +26,8 @@ struct Strip {
 /// The strip for sensors that see the ground near them: it may bend as where a slope begins, with a
 /// radius of 170 m.
 inline constexpr Strip kNearStrip{.farthest_m = 15.0, .usual_bend_per_m = 0.003};
-/// The strip for sensors that see too little of the near one. Height and pitch are extrapolated
-/// from far ground, which a free bend would make as uncertain as no view at all.
+/// The strip for sensors that see too few points of kNearStrip. Height and pitch are extrapolated
+/// from far ground, so only a small bend is expected: a free one would leave both unknown.
 inline constexpr Strip kFarStrip{.farthest_m = 30.0, .usual_bend_per_m = 0.0003};
 
 /// Returns the mount that makes the ground below the sensor level and at height zero. `points` come

@@ -12,7 +12,7 @@ void RingProfileEstimate::add(std::span<const RingObservation> observations) noe
     if (!seen.is_ground || seen.row < 0) continue;
     const auto row = static_cast<std::size_t>(seen.row);
     if (row >= sums_.size()) continue;
-    // This condition also leaves out rings that never reach the ground by geometry, and NaN.
+    // Leaves out NaN, too, and rings that by geometry never reach the ground (infinite distance).
     const double factor = seen.ground_range_m / geometry_.rings[row].ground_distance_m;
     if (!(factor <= kMaxFactor && factor >= 1.0 / kMaxFactor)) continue;
     sums_[row].distance_m += seen.ground_range_m;
@@ -27,7 +27,8 @@ RingProfile RingProfileEstimate::profile() const {
     profile.rings[row].ground_distance_m =
         sums_[row].distance_m / static_cast<double>(sums_[row].returns);
   }
-  // A ring seen only on a kerb or a bank must not get past its neighbours.
+  // A ring whose returns all lie on a kerb or a bank may overtake the next higher ring; then both
+  // get back the distance of the geometry.
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t row = 0; row + 1 < sums_.size(); ++row) {

@@ -32,7 +32,8 @@ constexpr double kLeastOnGround = 0.5;
 constexpr float kBelowGround_m = 0.3F;  ///< A point lower than this is below the ground.
 /// Largest share of near points that may lie below the ground.
 constexpr double kMostBelow = 0.05;
-constexpr float kAboveSensor_m = 0.3F;  ///< A point this far above the sensor is above it.
+/// A point at least this much higher than the sensor counts as above it.
+constexpr float kAboveSensor_m = 0.3F;
 constexpr double kFewAbove = 0.02;  ///< A smaller share of returns above the sensor makes no floor.
 constexpr double kLevelAbove_m = 0.3;  ///< Half the thickness of a floor above the sensor.
 /// Largest share of the returns above the sensor that may lie at one height.
@@ -119,7 +120,8 @@ std::string doubt_of(const MountEstimate& seen, std::span<const std::array<float
   return {};
 }
 
-/// Returns what a rejected mount would mean, for a message.
+/// Returns text for a message: what the rejected plane may be, and which options would state its
+/// mount.
 std::string hint_of(const Mount& mount) {
   const std::string what = is_upside_down(mount)
                                ? "above it may be a ceiling, or the ground: is it upside down"

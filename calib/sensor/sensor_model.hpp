@@ -127,13 +127,13 @@ inline constexpr std::array kSensorTable{
 [[nodiscard]] constexpr bool has_factory_table(SensorModel model) noexcept {
   return !row_of(model).lasers.empty();
 }
-/// Returns the model of a sensor; for an HDL-64E the S2 and S3, which stands for all generations.
+/// Returns the model of a sensor. For an HDL-64E of any generation this is kHdl64e.
 [[nodiscard]] constexpr SensorModel model_of(Sensor sensor) noexcept {
   return std::ranges::find(kSensorTable, std::optional(sensor), &SensorRow::sensor)->model;
 }
 
-/// True if `model` is one that the user wants: the one asked for, any if none was asked for, and
-/// any generation of an HDL-64E if an HDL-64E was.
+/// True if `model` matches `asked`: nothing was asked for, both are the same, or both are
+/// generations of the HDL-64E.
 [[nodiscard]] constexpr bool is_wanted(std::optional<SensorModel> asked,
                                        SensorModel model) noexcept {
   const std::optional<Sensor> sensor = row_of(model).sensor;

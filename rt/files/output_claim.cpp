@@ -79,7 +79,7 @@ Expected<OutputClaim> OutputClaim::of_file(const fs::path& path) {
     if (!claim.lock_) return not_writable(path, errno);
     if (Status locked = lock(claim.lock_, LOCK_EX, path); !locked)
       return tl::unexpected(locked.error());
-    // The last holder may have removed the lock file meanwhile.
+    // Try again if the last holder removed the lock file after it was opened here.
   } while (!is_at(claim.lock_, lock_file));
   claim.lock_file_ = lock_file;
   return claim;

@@ -25,8 +25,7 @@ bool is_number(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Returns the file name of the place that a part named `name` will take; empty if `name` is not
-/// that of a part.
+/// Returns the final file name of the part named `name`; empty if `name` is not that of a part.
 std::string_view place_of(std::string_view name) {
   const std::size_t mark = name.rfind(kMark);
   if (mark == std::string_view::npos) return {};
@@ -70,7 +69,7 @@ bool is_abandoned(const fs::path& path) {
   return ::flock(part.get(), LOCK_EX | LOCK_NB) == 0;
 }
 
-/// Lists the parts in `folder` for which `is_wanted` accepts the place's file name.
+/// Lists the parts in `folder` whose final file name `is_wanted` accepts.
 std::vector<fs::path> parts_in(const fs::path& folder,
                                const std::function<bool(std::string_view)>& is_wanted) {
   std::error_code error;

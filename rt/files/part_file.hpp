@@ -10,9 +10,10 @@
 
 namespace terracut::files {
 
-/// A file or folder that is being written as "PLACE.part-PID-N", beside the place it will take. Its
-/// maker holds a lock (flock) on this part, which the kernel releases however the process ends: so
-/// a part being written is told from one that a killed process left, even between containers.
+/// A file or folder that is being written under the name "PLACE.part-PID-N", beside its final path
+/// PLACE. Its maker holds a lock (flock) on it, which the kernel releases however the process ends.
+/// So a part being written can be told from one that a killed process left, even between
+/// containers.
 struct Part {
   std::filesystem::path path;
   OwnedDescriptor lock;  ///< The open file or folder; empty if making it failed (see errno).
@@ -24,11 +25,11 @@ struct Part {
 /// Makes an empty part folder, which only this user may use.
 [[nodiscard]] Part make_part_folder(const std::filesystem::path& place);
 
-/// True if `place` has a part beside it, being written or abandoned.
+/// True if there is a part for the final path `place`, being written or abandoned.
 [[nodiscard]] bool has_part(const std::filesystem::path& place);
 
-/// Removes the abandoned parts in `folder` that belong to this user, if `is_wanted` accepts the
-/// file name of the part's place. Parts that cannot be removed stay.
+/// Removes the abandoned parts in `folder` that belong to this user and whose final file name
+/// `is_wanted` accepts. Parts that cannot be removed stay.
 void remove_abandoned_parts(const std::filesystem::path& folder,
                             const std::function<bool(std::string_view)>& is_wanted);
 

@@ -24,8 +24,8 @@ class LogLinearHistogram {
   /// Counts one duration. Real-time safe: a few instructions.
   void record(std::int64_t value_ns) noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns the smallest bucket limit that at least `percent` of all values do not exceed, but at
-  /// most max_ns(): up to 1/128 too large. `percent` is in [0, 100]. Returns 0 if nothing was
+  /// Returns the value that `percent` of all values, in [0, 100], do not exceed, rounded up to the
+  /// limit of its bucket (by at most 1/128), but at most max_ns(). Returns 0 if nothing was
   /// recorded.
   [[nodiscard]] std::int64_t percentile_ns(double percent) const noexcept;
 

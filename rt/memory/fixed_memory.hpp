@@ -47,10 +47,10 @@ class FixedMemory {
   FixedMemory(const FixedMemory&) = delete;
   FixedMemory& operator=(const FixedMemory&) = delete;
 
-  /// From now on takes arrays from one region of `bytes`, in the order they are asked for, without
-  /// gaps. `bytes` is the total_bytes() of a dry run. Every page of the region is present on
-  /// return. Asks for locking and large pages as `request` says and returns the system's answers; a
-  /// refusal is no error. Fails with kInvalidArgument if arrays were taken already or a region
+  /// From now on takes arrays from one region of `bytes`, the total_bytes() of a dry run, in the
+  /// order in which they are asked for, without gaps. Every page of the region is present on
+  /// return. Locks it and asks for large pages as `request` says, and returns the system's answers;
+  /// a refusal is no error. Fails with kInvalidArgument if arrays were taken already or a region
   /// exists; kCapacityExceeded if the system has less memory.
   [[nodiscard]] Expected<std::vector<threads::Grant>> reserve(std::size_t bytes,
                                                               const RegionRequest& request);
@@ -78,7 +78,7 @@ class FixedMemory {
  private:
   struct Release {
     void operator()(std::byte* block) const noexcept {
-      ::operator delete (block, std::align_val_t{kAlignment});
+      ::operator delete(block, std::align_val_t{kAlignment});
     }
   };
 

@@ -67,8 +67,8 @@ threads::Grant set_thread_stack(std::size_t bytes) {
   return grant;
 }
 
-/// Returns 0 if `bytes` more could be mapped once all future memory is locked, else errno. Tries it
-/// with a mapping without access, which counts against the limit but costs no memory.
+/// Returns 0 if `bytes` more could be mapped once all future memory is locked, else errno. Maps
+/// memory without access as a trial: it counts against the limit but costs nothing.
 int try_later(std::size_t bytes) {
   if (bytes == 0) return 0;
   void* trial = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

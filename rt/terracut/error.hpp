@@ -20,7 +20,7 @@ enum class ErrorCode {
   kCapacityExceeded,  ///< More memory is needed than was planned at start, or than the system has.
   kWriteFailed,       ///< The output could not be written whole; nothing was left in its place.
   kNoCalibration,     ///< Neither a calibration file nor a calibration in the packets was found.
-  kMountNotFound,     ///< The sensor's mount was neither stated nor seen well enough to label by.
+  kMountNotFound,     ///< The sensor's mount was neither stated nor seen well enough for labels.
   kNothingCameOut,    ///< The input was read to its end, but none of it passed the checks.
 };
 

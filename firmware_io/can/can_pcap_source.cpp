@@ -26,7 +26,8 @@ bool has_can(int link_type) {
          link_type == DLT_LINUX_SLL2;
 }
 
-/// Returns the bytes of the CAN frame after a cooked header; nothing for another protocol.
+/// Returns the CAN frame that follows a cooked header; nothing if the header names another
+/// protocol.
 std::optional<std::span<const std::uint8_t>> behind_header(std::span<const std::uint8_t> bytes,
                                                            std::size_t header_bytes,
                                                            std::size_t protocol_at) {
@@ -78,10 +79,9 @@ Expected<std::optional<CanFrame>> CanPcapSource::next() {
     if (!record) return tl::unexpected(record.error());
     if (!*record) return std::nullopt;
     ++counters_.records;
-    // The byte order of the CAN id: the kernel uses the byte order of the machine, but libpcap
-    // writes the id in big endian when it captures from a CAN interface. In a cooked capture the id
-    // has the order of the capturing machine; libpcap swaps it when a machine of the other order
-    // reads the file.
+    // Byte order of the CAN id: libpcap writes it big-endian when it captures from one CAN
+    // interface. In a cooked capture it has the order of the capturing machine, and libpcap swaps
+    // it when a machine of the other order reads the file.
     auto bytes = std::optional((*record)->bytes);
     CanIdOrder order = CanIdOrder::kNative;
     if (file_.link_type() == DLT_CAN_SOCKETCAN) {

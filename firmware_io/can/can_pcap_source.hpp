@@ -21,8 +21,8 @@ namespace terracut::can {
 /// capture does not say which bus a frame was on. Not thread-safe; blocks on the disk.
 class CanPcapSource {
  public:
-  /// Opens the file. Fails as PcapFile::open() does, and with kUnsupported for a capture of another
-  /// link layer.
+  /// Opens the file. Fails as PcapFile::open() does, and with kUnsupported for a capture of any
+  /// other link type.
   [[nodiscard]] static Expected<CanPcapSource> open(std::filesystem::path path);
 
   /// Reads from memory, which must outlive the source; `name` stands for the path in messages.

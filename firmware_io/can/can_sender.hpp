@@ -19,7 +19,7 @@ struct CanSendCounters {
   std::uint64_t queue_full = 0;
   std::uint64_t link_down = 0;  ///< Frames not sent because the interface was down or missing.
   std::uint64_t failed = 0;     ///< Frames not sent for another reason.
-  int last_error = 0;           ///< errno of the frame not sent last, whatever the reason.
+  int last_error = 0;           ///< errno of the last frame that was not sent.
 };
 
 /// Sends frames on a CAN interface and never waits: a frame that cannot go out at once is dropped
@@ -38,7 +38,7 @@ class CanSender {
   /// Sends `frames` and returns how many were sent; the others are counted by reason.
   std::size_t send(std::span<const CanFrame> frames) noexcept;
 
-  /// True if the interface was found when last looked for.
+  /// True if the interface existed at the last look.
   [[nodiscard]] bool has_interface() const noexcept { return static_cast<bool>(socket_); }
   [[nodiscard]] const CanSendCounters& counters() const noexcept { return counters_; }
 

@@ -30,8 +30,8 @@ inline constexpr std::size_t kMostCanFilters = 512;
 [[nodiscard]] tl::expected<files::OwnedDescriptor, CanSocketFailure> open_can_socket(
     int interface_index, std::span<const CanId> ids, bool error_frames) noexcept;
 
-/// Returns the failure in words, with how to mend it, as kUnsupported if the kernel has no CAN,
-/// kNotFound if the interface is gone or no CAN interface, else kUnreadable.
+/// Returns the failure as an error, with how to mend it: kUnsupported if the kernel has no CAN,
+/// kNotFound if the interface is gone or is no CAN interface, else kUnreadable.
 [[nodiscard]] Error explain(const CanSocketFailure& failure, const std::string& interface);
 
 }  // namespace terracut::can

@@ -13,14 +13,14 @@
 
 namespace terracut::can {
 
-/// The layout of a frame from the Linux kernel and in captures: 4 bytes of id and flags, the
-/// length, FD flags, 2 reserved bytes, then the data. Sizes as in <linux/can.h>.
+/// The layout of a CAN frame as the Linux kernel and captures store it: 4 bytes of id and flags,
+/// the length, FD flags, 2 reserved bytes, then the data. Sizes as in <linux/can.h>.
 inline constexpr std::size_t kClassicWireBytes = 16;
 inline constexpr std::size_t kFdWireBytes = 72;
 inline constexpr std::size_t kWireHeaderBytes = 8;
 
 /// Byte order of the id: the machine's own on a socket and in "cooked" captures (link type 113),
-/// big endian in captures of a CAN interface (link type 227).
+/// big-endian in captures of one CAN interface (link type 227).
 enum class CanIdOrder : std::uint8_t { kNative, kBigEndian };
 
 /// Why bytes were not accepted as a frame.

@@ -96,7 +96,7 @@ std::span<const CanFrame> SocketCanSource::receive(std::int64_t timeout_ns) noex
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
     if (const std::size_t count = read_batch(); count > 0) {
-      // The socket was empty when the link was found down, so this frame has come since then.
+      // The socket was empty when the link was found down, so the link has come up since.
       if (link_ != net::LinkState::kUnknown) link_ = net::LinkState::kUp;
       return frames_.first(count);
     }
@@ -108,7 +108,8 @@ std::span<const CanFrame> SocketCanSource::receive(std::int64_t timeout_ns) noex
   }
 }
 
-/// Reads the frames that are ready, up to a batch; puts the wanted ones at the front of frames_.
+/// Reads the frames that are ready, at most a batch; moves those to deliver to the front of
+/// frames_.
 std::size_t SocketCanSource::read_batch() noexcept {
   if (!socket_) return 0;
   int error_number = 0;
@@ -138,7 +139,7 @@ std::size_t SocketCanSource::read_batch() noexcept {
   return kept;
 }
 
-/// Takes the frame in a slot; false for a frame that is not delivered but counted.
+/// Converts the frame in `slot`; false if it is only counted, not delivered.
 bool SocketCanSource::take(std::size_t slot, CanFrame& frame) noexcept {
   ::msghdr& header = messages_[slot].msg_hdr;
   std::int64_t stamp_ns = 0;

@@ -36,11 +36,11 @@ struct SocketCanConfig {
   bool wait_for_interface = false;
 };
 
-/// Receives frames of a CAN interface, many for one system call, with the kernel's time stamps and
+/// Receives frames of a CAN interface, many with one system call, with the kernel's time stamps and
 /// its count of drops.
 ///
 /// All memory is taken in open(); receive() never allocates, throws or waits longer than told. If
-/// the interface goes down, or goes away and comes back under its name, receive() returns empty,
+/// the interface goes down, or disappears and comes back under its name, receive() returns nothing,
 /// looks for it twice a second, opens it again when it can, and counts. One thread, except for
 /// wake().
 class SocketCanSource {

@@ -9,11 +9,11 @@
 
 namespace terracut::capture {
 
-/// Accounts for every record of a capture, once the requested part of it is decoded. Each record is
-/// counted exactly once, as the datagrams of a live run are in net::DatagramAccount.
+/// Accounts for every record of a capture, once the requested part is decoded. Each record is
+/// counted exactly once, as net::DatagramAccount counts the datagrams of a live run.
 struct CaptureAccount {
   PcapCounters read;
-  std::uint64_t before_start = 0, behind_end = 0;  ///< records outside the part asked for
+  std::uint64_t before_start = 0, behind_end = 0;  ///< records outside the requested part
   std::uint64_t device_info = 0;                   ///< packets without returns
   std::uint64_t decoded = 0;
   frame::LossCounters losses;

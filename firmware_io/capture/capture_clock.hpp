@@ -8,12 +8,12 @@
 namespace terracut::capture {
 
 /// Computes the time since the start of a capture from the stamps of its packets in file order.
-/// Stamps need not ascend, because the recording machine's clock may be set while it records, and
-/// files are joined in any order; so no stamp is a reason to drop a packet.
+/// Stamps need not ascend: the recording machine's clock may be set while it records, and files are
+/// joined in any order. So no stamp is a reason to drop a packet.
 ///
 /// Packets slightly out of order keep their times. After a step back by more than kDisorder_ns,
-/// time continues from its value before the step. If stamps had jumped ahead less than kDisorder_ns
-/// before, as one odd stamp does, it continues from its value before that jump.
+/// time goes on from its value before the step. If the stamps had jumped ahead less than
+/// kDisorder_ns earlier (one odd stamp does this), time goes on from its value before that jump.
 class CaptureClock {
  public:
   /// Shorter than the steps in which NTP sets a clock (128 ms), and longer than packets are
@@ -23,7 +23,8 @@ class CaptureClock {
   /// Returns a packet's time since the first packet; negative if the packet is slightly earlier.
   /// `stamp_ns` is that of a PcapRecord. Times end at four years.
   std::int64_t add(std::int64_t stamp_ns) noexcept;
-  /// Returns the time of a stamp near that of the newest packet; 0 before the first.
+  /// Returns the time since the first packet for a stamp close to the newest packet's; 0 before the
+  /// first packet.
   [[nodiscard]] std::int64_t since_begin_ns(std::int64_t stamp_ns) const noexcept {
     return begun_ ? newest_.since_ns + (stamp_ns - newest_.stamp_ns) : 0;
   }

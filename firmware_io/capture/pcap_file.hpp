@@ -17,7 +17,7 @@ namespace terracut::capture {
 
 /// One record of a capture file.
 struct PcapRecord {
-  /// The record from its link layer on; valid until the next record.
+  /// The record, beginning with its link-layer header; valid until the next record.
   std::span<const std::uint8_t> bytes;
   std::int64_t stamp_ns = 0;  ///< Nanoseconds since 1970 (UTC), from 0 to the year 2255.
 };

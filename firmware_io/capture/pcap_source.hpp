@@ -27,7 +27,7 @@ struct PcapFilter {
   std::optional<std::uint64_t> source_mac{};
   std::optional<std::uint32_t> destination_address{};
   std::optional<std::uint32_t> vlan{};  ///< 0: only datagrams outside any VLAN.
-  /// A further condition, tested last.
+  /// A further condition, tested last; empty: none.
   std::function<bool(const packet::Datagram&)> is_of_stream{};
 };
 

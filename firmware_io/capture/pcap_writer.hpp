@@ -24,7 +24,7 @@ class PcapWriter {
  public:
   static constexpr std::size_t kMaxPayloadBytes = 65507;  ///< The largest UDP payload over IPv4.
   static constexpr std::size_t kFileHeaderBytes = 24;
-  /// Bytes before each payload.
+  /// Bytes before each payload: record, Ethernet, IPv4 and UDP headers.
   static constexpr std::size_t kRecordHeaderBytes = 16 + 14 + 20 + 8;
 
   /// Creates the temporary file and missing parent folders. Fails with kInvalidArgument if `path`

@@ -47,9 +47,8 @@ struct CloudView {
   return std::ranges::any_of(points, scan::is_place);
 }
 
-/// Returns the laser of a point of an organised cloud, whose drivers mostly write one row per
-/// laser, some one column. The shorter side counts the lasers: a sensor has fewer lasers than
-/// directions.
+/// Returns the laser of a point of an organised cloud. Most drivers write one row per laser, some
+/// one column; a sensor has fewer lasers than azimuths, so the shorter side counts the lasers.
 class OrganisedLasers {
  public:
   explicit OrganisedLasers(const CloudView& cloud) noexcept
@@ -74,7 +73,7 @@ struct Cloud {
   /// A note for messages about files with named fields: which field gives the laser numbers ("field
   /// ring"), or why there are none ("its fields are x y z").
   std::string laser_note;
-  bool has_viewpoint = false;  ///< True if the file states the sensor's place among the points.
+  bool has_viewpoint = false;  ///< True if the file states the sensor's position among the points.
 
   [[nodiscard]] CloudView view() const noexcept { return {points, laser, rows, laser_note}; }
 };

@@ -36,15 +36,15 @@ inline constexpr std::uintmax_t kMostCloudBytes = std::uintmax_t{1} << 28;
 /// Splits a line at blanks into at most `most` words, because a whole file may be one line.
 void split_words(std::string_view line, std::size_t most, std::vector<std::string_view>& words);
 [[nodiscard]] std::vector<std::string_view> words_of(std::string_view line, std::size_t most);
-/// Returns the number of words, "3"; "more than 3" if they are one more than `expected`, at which
-/// the line was cut.
+/// Returns the number of words as text: "3", or "more than 3" if the line has more than `expected`.
+/// split_words() must have been called with `expected` + 1.
 [[nodiscard]] std::string count_of(std::span<const std::string_view> words, std::size_t expected);
-/// These return the number that the whole word spells; nothing for any other word. NaN and infinity
+/// Each returns the number that the whole word spells; nothing for any other word. NaN and infinity
 /// may be spelled as Microsoft's compilers did (1.#QNAN, -1.#IND, 1.#INF).
 [[nodiscard]] std::optional<std::size_t> whole_number(std::string_view word) noexcept;
 [[nodiscard]] std::optional<double> number(std::string_view word) noexcept;
 
-/// Returns a number of `bytes` bytes (1, 2, 4 or 8; floats 4 or 8) at any address. `type` is 'I'
+/// Reads a number of `bytes` bytes (1, 2, 4 or 8; floats 4 or 8) at any alignment. `type` is 'I'
 /// for signed, 'U' for unsigned, 'F' for float, as in PCD files.
 [[nodiscard]] double binary_value(const char* at, char type, std::size_t bytes,
                                   std::endian order = std::endian::little) noexcept;

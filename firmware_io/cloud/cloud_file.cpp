@@ -48,7 +48,7 @@ struct LaserField {
       is_filled |= numbers[i] != 0;
     }
   }
-  std::optional<std::size_t> wrong;  ///< The first point whose number is no laser number.
+  std::optional<std::size_t> wrong;  ///< The first point with a value that is no laser number.
   bool is_filled = false;            ///< True if some numbers are not 0.
 };
 
@@ -89,7 +89,8 @@ void take_lasers(const FieldTable& table, Cloud& cloud) {
   }
 }
 
-/// Moves points from the file's coordinates to the sensor's. The file states the sensor's pose.
+/// Moves points from the file's frame to the sensor frame by the sensor's pose, which the file
+/// states.
 class ToSensor {
  public:
   explicit ToSensor(const std::array<double, 7>& viewpoint) : at_(viewpoint) {

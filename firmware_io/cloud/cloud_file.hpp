@@ -13,11 +13,11 @@ namespace terracut::cloud {
 
 /// True if the file's name ends in .bin, .pcd or .ply, in either case.
 [[nodiscard]] bool is_cloud_file(const std::filesystem::path& path);
-/// Tells which files of a folder are clouds.
+/// Which files of a folder are clouds, and the formats in words.
 inline constexpr scan::ScanKind kCloudFiles{
     is_cloud_file, "KITTI's .bin (float32 x y z remission), nuScenes' .pcd.bin, .pcd or .ply"};
 
-/// Where the sensor is among the points of a file.
+/// The sensor's position among the points of a file.
 enum class SensorPlace : std::uint8_t {
   kOrigin,
   kViewpoint,  ///< At a PCD file's VIEWPOINT; without one, at the origin.

@@ -17,7 +17,7 @@ namespace {
 
 using scan::ScanPoint;
 
-/// False for a point that stands for a beam without a return.
+/// False for the points that drivers write where a beam had no return: null or not finite.
 bool is_measured(const ScanPoint& p) noexcept {
   const bool is_null = p.x_m == 0 && p.y_m == 0 && p.z_m == 0;
   return !is_null && std::isfinite(p.x_m) && std::isfinite(p.y_m) && std::isfinite(p.z_m);
@@ -27,7 +27,7 @@ double distance_m(const ScanPoint& p) noexcept {
   return std::hypot(double{p.x_m}, double{p.y_m}, double{p.z_m});
 }
 
-/// Returns a quantile of `figure` over the points; `share` 0.5 gives the median.
+/// Returns the quantile `share` (0.5: the median) of `figure` over the points.
 template <class Figure>
 double quantile(std::span<const ScanPoint> points, double share, Figure&& figure) {
   std::vector<double> values;
@@ -38,21 +38,21 @@ double quantile(std::span<const ScanPoint> points, double share, Figure&& figure
   return *at;
 }
 
-/// Guesses why measured points lie too far away.
+/// Guesses, for a message, why measured points lie too far away.
 std::string_view likely_cause(std::span<const ScanPoint> points) {
-  // If bytes of another layout are read as numbers, the numbers may have any size.
+  // If the bytes are not floats of this layout, the numbers they give may have any size.
   constexpr double kNoCoordinates = 1e6;
   if (quantile(points, 0.9, distance_m) > kNoCoordinates * quantile(points, 0.1, distance_m)) {
     return "are these bytes of another layout, or big-endian?";
   }
-  // The points of a sensor lie around it.
+  // The points of a sensor lie around it; map coordinates lie far to one side.
   const double middle_x = quantile(points, 0.5, [](const ScanPoint& p) { return double{p.x_m}; });
   const double middle_y = quantile(points, 0.5, [](const ScanPoint& p) { return double{p.y_m}; });
   const double spread = quantile(points, 0.5, [&](const ScanPoint& p) {
     return std::hypot(double{p.x_m} - middle_x, double{p.y_m} - middle_y);
   });
   if (std::hypot(middle_x, middle_y) > 3 * spread) return "are these coordinates of a map?";
-  // A street's median is 10 m: 1000 in centimetres, 10000 in millimetres.
+  // In a street the median distance is 10 m: 1000 in centimetres, 10000 in millimetres.
   constexpr double kHalfWayInLogarithms = 3000;
   return quantile(points, 0.5, distance_m) > kHalfWayInLogarithms ? "are these millimetres?"
                                                                   : "are these centimetres?";

@@ -48,7 +48,7 @@ class CloudToImage {
   /// Returns the image of the last cloud placed. The functions below refer to this cloud, too.
   [[nodiscard]] const frame::RangeImage& image() const noexcept { return image_; }
   [[nodiscard]] const scan::ScanToImage::Summary& placed() const noexcept { return placed_; }
-  /// Returns what scan::ScanToImage::point_of_return() returns.
+  /// Returns the index in the cloud of each return of the image (scan::ScanToImage).
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
     return to_image_.point_of_return();
   }

@@ -77,8 +77,9 @@ ElevationComb::Comb ElevationComb::comb_of(const Histogram& histogram) {
   return comb;
 }
 
-/// Returns the teeth of `all` where `far` has none. Near points of a laser that does not start at
-/// the origin spread around its elevation: only a tooth as narrow as the far ones is a row.
+/// Returns the teeth of `all` at elevations where `far` has none. The near points of a laser whose
+/// beam starts beside the origin spread around its elevation, so a tooth counts only if it is as
+/// narrow as the far ones.
 std::vector<ElevationComb::Tooth> ElevationComb::rows_seen_nearby(const Comb& all,
                                                                   const std::vector<Tooth>& far) {
   std::vector<Tooth> nearby;

@@ -13,10 +13,10 @@
 namespace terracut::cloud {
 
 /// Finds the lasers of a sensor from its points alone: if all beams start near the origin, the
-/// elevations of the points form a comb with one tooth per laser. Refuses frames without such a
-/// comb: those compensated for motion or merged from several, and those of a sensor without rows.
-/// Lasers that see nothing beyond a metre, such as those that look at the floor around a robot, are
-/// found if their near points form teeth.
+/// elevations of the points form a comb with one tooth per laser. Fails where there is no such
+/// comb: in frames that are compensated for motion or merged from several sensors, and for sensors
+/// without rows. Lasers that see nothing beyond a metre, such as those that look at the floor
+/// around a robot, are found if their near points form teeth.
 class ElevationComb {
  public:
   void add(std::span<const scan::ScanPoint> points);

@@ -37,7 +37,7 @@ RingOfLaser LaserElevations::order() {
   std::ranges::sort(lasers, [&](std::size_t a, std::size_t b) {
     return elevation_rad[a] != elevation_rad[b] ? elevation_rad[a] > elevation_rad[b] : a < b;
   });
-  // If the numbers ascend or descend with the elevation, lasers without points get their ring, too.
+  // If laser numbers ascend or descend with elevation, lasers without points get a ring, too.
   const bool goes_down = std::ranges::is_sorted(lasers),
              goes_up = std::ranges::is_sorted(lasers, std::greater{});
   if (goes_down || goes_up) {
@@ -52,7 +52,8 @@ RingOfLaser LaserElevations::order() {
   return ring_of_laser;
 }
 
-// Returns the median over the farther half: a laser's start beside the origin matters least there.
+// Returns the median over the farther half of the samples, where it matters least that a beam
+// starts beside the origin.
 double LaserElevations::typical_elevation_rad(std::vector<Sample>& samples) {
   const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
   std::ranges::nth_element(samples, middle, {}, &Sample::distance_m);

@@ -24,9 +24,9 @@ class LaserElevations {
   /// Adds a cloud. `laser` has one number per point, below the count given to the constructor.
   void add(std::span<const scan::ScanPoint> points, std::span<const std::uint16_t> laser);
 
-  /// Returns the ring of each laser. If the numbers ascend or descend with elevation, a laser
-  /// without points gets the ring between its neighbours'. Otherwise it gets none, and the other
-  /// lasers share all rings from 0 on.
+  /// Returns the ring of each laser. If laser numbers ascend or descend with elevation, a laser
+  /// without points gets the ring between its neighbours. If they do not, it gets kNoRing, and the
+  /// other lasers are numbered without a gap from 0 on.
   [[nodiscard]] RingOfLaser order();
 
  private:

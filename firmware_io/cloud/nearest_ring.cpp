@@ -43,7 +43,8 @@ std::int16_t NearestRing::operator()(const scan::ScanPoint& point) const noexcep
   };
   auto ring = static_cast<std::size_t>(ring_at_[bin]);
   float off = off_m(ring);
-  // Steps to the nearest ring: lines fan out, so the distance falls until that ring is reached.
+  // Steps to the nearest ring. Ring lines fan out from the sensor, so the distance falls with every
+  // step until that ring is reached.
   for (const int step : {-1, 1}) {
     const std::size_t end = step < 0 ? 0 : lines_.size() - 1;
     while (ring != end) {

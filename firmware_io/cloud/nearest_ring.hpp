@@ -24,10 +24,11 @@ class NearestRing {
 
  private:
   struct Line {
-    float slope, offset_m, most_off;  ///< most_off: most height off the line, over distance.
+    /// most_off: largest accepted vertical distance from the line, per metre of distance.
+    float slope, offset_m, most_off;
   };
 
-  /// Number of bins over the sine of the elevation; each bin has a ring.
+  /// The number of bins over the sine of the elevation; each bin holds the ring to start from.
   static constexpr int kBins = 8192;
 
   std::vector<Line> lines_;

@@ -24,9 +24,9 @@ namespace terracut::cloud {
 namespace {
 
 /// Unpacks LZF. A control byte below 32 is the length - 1 of a run of literal bytes. Any other
-/// control byte describes a copy of earlier bytes: its upper three bits are the length - 2 (7 means
-/// that the next byte is added), its lower five bits and one more byte are the distance - 1.
-/// Returns nothing unless the result has exactly `bytes` bytes.
+/// control byte begins a copy of earlier bytes: its upper three bits are the length - 2 (7: add the
+/// next byte), its lower five bits and one more byte are the distance - 1. Returns nothing unless
+/// the result has exactly `bytes` bytes.
 std::optional<std::string> lzf_unpacked(std::string_view packed, std::size_t bytes) {
   std::string data;
   data.reserve(bytes);
@@ -284,7 +284,7 @@ class PcdReader {
   Status read_ascii(FieldTable& cloud) {
     std::size_t values = 0;
     for (const Field& field : fields_) values += field.count;
-    // Each value takes at least a digit and a separator, except the last, which needs no separator.
+    // Each value takes at least a digit and a separator; only the last needs no separator.
     if (lines_.rest.size() + 1 < points_ * values * 2) {
       return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
                                 lines_.rest.size(), points_, values));

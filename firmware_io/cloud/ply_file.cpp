@@ -15,7 +15,7 @@
 namespace terracut::cloud {
 namespace {
 
-/// The type and the size of a property; PLY files call it by one of two names.
+/// The type and size of a property; each type has two names in PLY files.
 struct TypeName {
   std::string_view name, other_name;
   char type;
@@ -202,7 +202,7 @@ class PlyReader {
   }
 
   Status read_text(FieldTable& table, bool has_lists) {
-    // Each value takes at least a digit and a separator, except the last, which needs no separator.
+    // Each value takes at least a digit and a separator; only the last needs no separator.
     if (lines_.rest.size() + 1 < points_ * properties_.size() * 2) {
       return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
                                 lines_.rest.size(), points_, properties_.size()));

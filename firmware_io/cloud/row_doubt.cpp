@@ -15,9 +15,10 @@ namespace {
 /// scans lie within 27 cm, because they are compensated for the motion of a moving car; KITTI's
 /// scans are always of one sensor.
 constexpr double kWidestRow_m = 0.3, kWidestOfKitti_m = 0.4;
-/// If half of the points lie this close to their line, the far points are not from a second sensor.
+/// If half of the points lie this close to their line, points far off the line are not from a
+/// second sensor.
 constexpr double kNoise_m = 0.01;
-/// No sensor's beams start higher than this above its origin; an HDL-64E's start up to 0.2 m above.
+/// No sensor's beams start higher than this above its origin (an HDL-64E's: up to 0.2 m).
 constexpr double kHighestStart_m = 0.5;
 
 double median_start_m(const scan::RingTable& table) {

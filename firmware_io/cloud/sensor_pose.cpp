@@ -18,7 +18,8 @@ namespace {
 constexpr std::size_t kPointsOfACloud = 8000;
 constexpr double kNearest_m = 2, kFarthest_m = 70;
 constexpr std::size_t kFewestLasersSeen = 8;
-/// Two rotations about the sensor's horizontal axes, and its place.
+/// The unknowns: two rotations about the sensor's horizontal axes, and the three coordinates of its
+/// position.
 constexpr std::size_t kUnknowns = 5;
 using Vector = std::array<double, kUnknowns>;
 using Matrix = std::array<Vector, kUnknowns>;
@@ -46,7 +47,7 @@ Vector solve(Matrix A, Vector b) {
   return b;
 }
 
-/// Returns the frame that stands at `at_m` with its z axis along `axis`, and its x axis ahead.
+/// Returns the frame with its origin at `at_m`, its z axis along `axis` and its x axis ahead.
 mount::RigidTransform frame_of(const std::array<double, 3>& axis,
                                const std::array<double, 3>& at_m) {
   mount::RigidTransform T =
@@ -57,7 +58,7 @@ mount::RigidTransform frame_of(const std::array<double, 3>& axis,
   return T;
 }
 
-/// Returns each sample's laser; nothing if a cloud does not name the lasers.
+/// Returns samples of all clouds with their lasers; nothing if a cloud does not name the lasers.
 std::vector<Sample> samples_of(std::size_t clouds, const ReadCloud& read) {
   std::vector<Sample> samples;
   scan::RingRecovery rings;
@@ -91,8 +92,8 @@ std::vector<Sample> samples_of(std::size_t clouds, const ReadCloud& read) {
   return looked ? samples : std::vector<Sample>{};
 }
 
-/// Fits the frame by Gauss and Newton: a sample lies f = z - slope * distance above the cone of its
-/// laser. Cauchy weights leave out what lies beside it.
+/// Fits the sensor's frame by Gauss-Newton. A sample's residual is its height above its laser's
+/// cone, z - slope * distance. Cauchy weights reduce the influence of points far off their cone.
 class PoseFit {
  public:
   explicit PoseFit(std::vector<Sample> samples) : samples_(std::move(samples)) {
@@ -131,7 +132,8 @@ class PoseFit {
       squares[laser] += weight * d * d;
       sums[laser] += weight * d * f;
     }
-    for (std::size_t laser = 0; laser < lasers_; ++laser) {  // each laser's slope moves along
+    // the laser's slope is an unknown, too: eliminate it
+    for (std::size_t laser = 0; laser < lasers_; ++laser) {
       if (squares[laser] <= 0) continue;
       for (std::size_t row = 0; row < kUnknowns; ++row) {
         for (std::size_t column = 0; column < kUnknowns; ++column) {
@@ -140,14 +142,15 @@ class PoseFit {
         right[row] += of_slope[laser][row] * sums[laser] / squares[laser];
       }
     }
-    constexpr double kDamping = 1e-3;  // of a sample's weight: keeps what is not seen where it is
+    // relative to a sample's weight; holds unknowns that the points do not show
+    constexpr double kDamping = 1e-3;
     for (std::size_t i = 0; i < kUnknowns; ++i) {
       normal[i][i] += kDamping * static_cast<double>(samples_.size());
     }
     return move(solve(normal, right));
   }
 
-  /// Finds the samples' places in the frame, the slope of each laser, and the residuals.
+  /// Computes the samples' positions in the frame, the slope of each laser, and the residuals.
   void look_from_frame() {
     const mount::RigidTransform to_sensor = mount::inverse(T_);
     seen_.clear();
@@ -214,7 +217,7 @@ class PoseFit {
   std::vector<Sample> samples_;
   std::size_t lasers_ = 0;
   mount::RigidTransform T_ = frame_of({0, 0, 1}, {0, 0, 0});
-  std::vector<std::array<double, 3>> seen_;  ///< The samples' places in the frame.
+  std::vector<std::array<double, 3>> seen_;  ///< The samples' positions in the frame.
   std::vector<double> slopes_;               ///< NaN for a laser with too few samples.
   double median_m_ = 0;
 };

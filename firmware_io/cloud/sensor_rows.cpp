@@ -25,8 +25,8 @@ using scan::RingTable;
 using scan::RingTableFit;
 
 /// If two tables explain the points equally well to within this, the table whose beams start at the
-/// origin is taken. Most sensors' beams do so. The lowest beams see only near ground, which cannot
-/// tell a higher start from a higher elevation.
+/// origin is taken, as most sensors' beams do. The lowest beams see only near ground, where a
+/// higher start looks the same as a higher elevation.
 constexpr double kAlike_m = 0.01;
 
 Expected<scan::FittedRings> simplest_fit(const RingTableFit& fit, std::size_t lasers) {
@@ -50,7 +50,7 @@ Status check_apart(const scan::FittedRings& rings) {
                           rings.coinciding, rings.with_line));
 }
 
-/// Calls `use` with clouds spread evenly over all of them.
+/// Calls `use` with some of the clouds, evenly spread over the sequence.
 Status for_some(std::size_t clouds, const ReadCloud& read,
                 const std::function<Status(const CloudView&)>& use) {
   return scan::read_some_scans(clouds, [&](std::size_t index) -> Status {
@@ -137,8 +137,8 @@ Expected<SensorRows> learn_by_comb(std::size_t clouds, const ReadCloud& read) {
   return rows;
 }
 
-/// Learns an HDL-64E's rows from its known lines. Its beams start in two places, one above the
-/// other, so that its points form no comb.
+/// Learns an HDL-64E's rows from the known directions of its beams. They start in two places, one
+/// above the other, so that the points form no comb.
 Expected<SensorRows> learn_by_hdl64e_lines(std::size_t clouds, const ReadCloud& read) {
   const RingTable nominal = scan::ring_table(hdl64e::nominal_hdl64e());
   SensorRows rows{RowSource::kElevations, {nominal, {}, {}, true}, {}, 0};
@@ -161,8 +161,8 @@ Expected<SensorRows> learn_by_hdl64e_lines(std::size_t clouds, const ReadCloud& 
   return rows;
 }
 
-/// Returns the share of points whose angle to the nearest line is less than a quarter of the lines'
-/// distance; half if the points form no lines.
+/// Returns the share of points whose elevation differs from the nearest ring's by less than a
+/// quarter of the step between rings; about half if the points form no rings.
 double share_near_lines(const RingTable& table, std::span<const scan::ScanPoint> points) {
   const NearestRing nearest(table);
   std::size_t near = 0, all = 0;
@@ -180,9 +180,9 @@ double share_near_lines(const RingTable& table, std::span<const scan::ScanPoint>
   return static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(all, 1));
 }
 
-/// Learns rows from positions alone. Rings whose points show no line, because they see only the
-/// floor, are still found in the comb. `first` is a cloud that can be read; `no_number` says why
-/// points have no laser number.
+/// Learns rows from positions alone. Rings whose points do not show a line, because they see only
+/// the floor, are still found in the comb. `first` is the index of a cloud that can be read;
+/// `no_number` says, for the message, why points have no laser number.
 Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds, const ReadCloud& read,
                                        const std::string& no_number) {
   RingRecovery rings;
@@ -210,7 +210,7 @@ Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds, co
 void find_by_place(const NearestRing& nearest, std::span<const scan::ScanPoint> points,
                    std::vector<std::int16_t>& ring_of_point) {
   ring_of_point.resize(points.size());
-  // std::cref() avoids a copy.
+  // std::cref() avoids a copy of the table.
   std::ranges::transform(points, ring_of_point.begin(), std::cref(nearest));
 }
 
@@ -232,8 +232,8 @@ std::string_view description_of(RowSource source) noexcept {
 
 Expected<NumberedLasers> fit_numbered_lasers(std::size_t lasers, std::size_t clouds,
                                              const ReadCloud& name_lasers) {
-  // Noise and motion cause much less than this; a map's frame or wrong laser numbers cause much
-  // more.
+  // The largest spread around a laser's cone. Noise and motion cause far less; a map's frame or
+  // wrong laser numbers cause far more.
   constexpr double kWidestCone_m = 1.0;
   LaserElevations elevations(lasers);
   const Status looked = for_some(clouds, name_lasers, [&](const CloudView& cloud) -> Status {
@@ -280,7 +280,7 @@ Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read_any) {
     return fail(ErrorCode::kMalformed, fmt::format("{} points, but {} numbers of lasers",
                                                    cloud->points.size(), cloud->laser.size()));
   };
-  // The first cloud that can be read decides how all of them tell their lasers.
+  // The first cloud that can be read decides where all clouds take their lasers from.
   std::size_t first = 0;
   Expected<CloudView> cloud = read(first);
   while (!cloud && first + 1 < clouds) cloud = read(++first);

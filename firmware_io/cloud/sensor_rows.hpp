@@ -27,7 +27,7 @@ enum class RowSource : std::uint8_t {
   kElevations,    ///< The points form rows by elevation.
 };
 
-/// Returns the source in words: "the field of the laser's number" and so on.
+/// Returns the source in words, such as "the field of the laser's number".
 [[nodiscard]] std::string_view description_of(RowSource source) noexcept;
 
 /// What was learnt about a sensor from its first clouds.
@@ -45,10 +45,10 @@ struct SensorRows {
 /// Returns a cloud of a sequence, valid until the next call.
 using ReadCloud = std::function<Expected<CloudView>(std::size_t index)>;
 
-/// The order and the elevations of the lasers of a sensor. fit_numbered_lasers() finds them from
-/// clouds whose points name their laser in any numbering: `name_lasers` returns the clouds with
-/// `laser` filled, each number below `lasers`. Fails with kMalformed if the points of a laser lie
-/// on no cone around the origin, as in a map's frame.
+/// The order and the elevations of a sensor's lasers. fit_numbered_lasers() finds both from clouds
+/// whose points have laser numbers, in any numbering: `name_lasers` returns the clouds with `laser`
+/// filled, each number below `lasers`. Fails with kMalformed if the points of a laser lie on no
+/// cone around the origin, as in a map's frame.
 struct NumberedLasers {
   RingOfLaser ring_of_laser;
   scan::FittedRings rings;
@@ -57,9 +57,10 @@ struct NumberedLasers {
                                                            const ReadCloud& name_lasers);
 
 /// Learns a sensor's rows from at most 40 of its clouds. Leaves out clouds without any valid
-/// position. Fails with kUnsupported or kMalformed if nothing tells the lasers apart, if most of
-/// them look the same way, or if check_reach() fails; the message says what was found. If no cloud
-/// can be read, fails with the error of one of them. Start-up: allocates, takes up to a second.
+/// position. Fails with kUnsupported or kMalformed if nothing tells the lasers apart, if most
+/// lasers have the same elevation, or if check_reach() fails; the message says what was found. If
+/// no cloud can be read, fails with the error of one of them. Start-up: allocates, takes up to a
+/// second.
 [[nodiscard]] Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read);
 
 /// Finds the ring of each point in further clouds of the same sensor.

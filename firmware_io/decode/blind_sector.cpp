@@ -11,10 +11,10 @@
 namespace terracut::decode {
 namespace {
 
-/// The tolerance for heads that rotate unevenly and for azimuths that were rounded when sent.
+/// Tolerance for uneven rotation of the head and for azimuths that were rounded when sent.
 constexpr std::int64_t kJitter_ticks = 5 * packet::kTicksPerCdeg;
-/// The rounding of azimuths makes the gaps of a sensor differ by at most this if its packets begin
-/// where its view begins.
+/// If a sensor's packets begin where its view begins, rounding of azimuths makes its gaps differ by
+/// at most this.
 constexpr std::int64_t kRounding_ticks = 3 * packet::kTicksPerCdeg;
 
 }  // namespace
@@ -65,7 +65,8 @@ BlindSector::Verdict BlindSector::beside_sector(const Gap& gap) noexcept {
           std::clamp<std::int64_t>(before + after - gap.rejected, 0, gap.packets)};
 }
 
-/// Narrows the sector to `common`, and widens the tolerances by what it lost at either end.
+/// Narrows the sector to `common`, and widens the tolerance at either end by what the sector lost
+/// there.
 void BlindSector::move_to(const packet::RotorInterval& common) noexcept {
   const packet::RotorInterval blind = sector_.next(common.from_ticks);
   const std::int64_t later_ticks = std::max<std::int64_t>(0, common.from_ticks - blind.from_ticks);
@@ -75,13 +76,13 @@ void BlindSector::move_to(const packet::RotorInterval& common) noexcept {
   sector_.once = common;
 }
 
-/// Notes by how much a gap ends off the sector: less than a packet if nothing is lost.
+/// Records how far a gap's end lies from the sector's: less than a packet if nothing is lost.
 void BlindSector::note_end(std::int64_t ticks, const Stride& stride,
                            std::int64_t& widest_ticks) noexcept {
   if (is_within_packet(ticks, stride)) widest_ticks = std::max(widest_ticks, ticks);
 }
 
-/// Returns how many packets fit between the sector and a gap's end.
+/// Returns how many packets fit between the sector's end and a gap's end, `ticks` apart.
 std::int64_t BlindSector::packets_in(std::int64_t ticks, const Stride& stride) const noexcept {
   if (is_within_packet(ticks, stride)) return 0;
   const bool keeps_its_rhythm = std::max(earliest_ticks_, latest_ticks_) > kRounding_ticks;
@@ -118,11 +119,11 @@ void BlindSector::learn() noexcept {
     common = packet::intersection(
         common, packet::shifted(gaps_[i].head, frames * sector_.revolution_ticks));
   }
-  // Known already, or the gaps differ.
+  // Nothing to learn: the sector is known already, or the gaps overlap too little.
   if (common.ticks() < sector_.once.ticks() + least_ticks()) return;
   sector_.once = common;
   earliest_ticks_ = latest_ticks_ = 0;
-  // The loop leaves out the newest gap, which the caller judges.
+  // The loop leaves out the newest gap, on which the caller decides.
   for (std::size_t i = 0; i + 1 < gaps_.size(); ++i) {
     if (!std::exchange(gaps_[i].is_pending, false)) continue;
     const Verdict verdict = beside_sector(gaps_[i]);
@@ -155,7 +156,7 @@ void BlindSector::pass(const packet::RotorInterval& swept) noexcept {
     return;
   }
   const packet::RotorInterval blind = sector_.next(swept.from_ticks);
-  // This packet begins closer to the sector than any packet was expected to.
+  // This packet begins closer to the sector than any packet before it.
   const std::int64_t before_ticks = blind.from_ticks - swept.from_ticks;
   if (before_ticks <= earliest_ticks_ + kRounding_ticks) {
     earliest_ticks_ = before_ticks - kRounding_ticks - 1;
@@ -181,9 +182,9 @@ BlindSector::Verdict BlindSector::cross(std::int64_t begin_ticks,
                                         const packet::RotorInterval& inside,
                                         const Stride& stride) noexcept {
   const Verdict verdict = judge(inside, 0, 0, stride);
-  // The packet was completed when the head came back: no other packet begins between its begin and
-  // the sector. So it begins less than a packet before the sector, close to where complete packets
-  // still begin; only the rounding of azimuths is tolerated.
+  // The packet was completed after the sector, so no other packet begins between its beginning and
+  // the sector. It therefore begins less than a packet before the sector, near where complete
+  // packets still begin; only the rounding of azimuths is tolerated.
   const packet::RotorInterval blind = sector_.next(inside.from_ticks);
   const std::int64_t before_ticks = blind.from_ticks - begin_ticks + packet::kTicksPerCdeg / 2;
   earliest_ticks_ = std::max(earliest_ticks_, before_ticks - kRounding_ticks);

@@ -20,16 +20,16 @@ namespace terracut::decode {
 }
 
 /// Finds the blind sector of a sensor with a limited field of view, which sends nothing while its
-/// head passes the sector. Azimuths missing in three successive frames are blind; all others
+/// head passes that sector. Azimuths missing in three successive frames are blind; all others
 /// missing are lost.
 ///
-/// A wide gap is pending until the head has passed there again: a packet from inside the gap means
-/// loss, a third gap in a row a blind sector. The ends of a known sector are exact to one packet: a
-/// sensor that goes on sending at its rhythm ends the gap anywhere within a packet, others always
-/// at the same azimuth.
+/// A wide gap is pending until the head passes there again: a packet from inside the gap means
+/// loss, a third gap in a row a blind sector. The ends of a known sector are exact to one packet:
+/// some sensors send on at a fixed rhythm, so that a gap ends anywhere within a packet; others
+/// always end it at the same azimuth.
 ///
-/// Angles are in ticks of head azimuth, unwrapped (rotor_sector.hpp). Fixed memory, O(1) per call,
-/// noexcept. One thread.
+/// Angles are azimuths of the head in ticks, counted on over revolutions (rotor_sector.hpp). Fixed
+/// memory, O(1) per call, noexcept. One thread.
 class BlindSector {
  public:
   static constexpr int kFramesToLearn = 3;
@@ -40,7 +40,7 @@ class BlindSector {
   struct Stride {
     std::int64_t mean_ticks = 1, widest_ticks = 1;
   };
-  /// The firings that are certainly lost.
+  /// Packets and azimuth that are certainly lost.
   struct Loss {
     std::int64_t packets = 0, ticks = 0;
   };
@@ -54,23 +54,23 @@ class BlindSector {
   /// Returns the least width of a blind sector; narrower gaps are losses.
   [[nodiscard]] std::int64_t least_ticks() const noexcept { return sector_.revolution_ticks / 72; }
 
-  /// Judges a gap in which the head was not seen. By their stamps, `packets` are missing in the
-  /// gap; `rejected` of these came but were rejected.
+  /// Judges a gap, azimuths that no packet covered. By the device stamps, `packets` are missing in
+  /// the gap; `rejected` of these arrived but were rejected.
   [[nodiscard]] Verdict judge(const packet::RotorInterval& gap, std::int64_t packets,
                               std::int64_t rejected,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
-  /// Notes that a packet sweeps over `swept`; to be called after judge() of the gap before that
-  /// packet.
+  /// Notes the azimuths `swept` that a packet covered. Call judge() for the gap before that packet
+  /// first.
   void pass(const packet::RotorInterval& swept) noexcept TERRACUT_NONBLOCKING;
   /// True if the blind sector lies where PacketAzimuths::behind_sector says, to within a packet.
   [[nodiscard]] bool is_inside(const packet::PacketAzimuths& azimuths) const noexcept
       TERRACUT_NONBLOCKING;
-  /// Replaces pass() for a packet, beginning at `begin_ticks`, that has the blind sector inside:
-  /// the head fired nothing in the interval `inside`.
+  /// Replaces pass() for a packet that begins at `begin_ticks` and has the blind sector inside: the
+  /// head fired nothing in the interval `inside`.
   [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const packet::RotorInterval& inside,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
-  /// Notes that a late packet fills part of a gap: its first or last remaining part, unless several
-  /// packets came late out of order.
+  /// Notes that a late packet fills part of the newest gap, which becomes narrower if the packet
+  /// lies at one of its ends.
   void fill(const packet::RotorInterval& found) noexcept TERRACUT_NONBLOCKING;
   /// Returns and clears the losses that pass() and judge() have found since the last call.
   [[nodiscard]] Loss take_due() noexcept TERRACUT_NONBLOCKING;
@@ -107,8 +107,8 @@ class BlindSector {
   void count(const Gap& gap) noexcept;
 
   packet::RotorSector sector_;
-  /// The earliest azimuth at which a gap without loss began before the sector, and the latest at
-  /// which one ended after it.
+  /// Of the gaps without loss, the earliest azimuth at which one began before the sector and the
+  /// latest at which one ended after it.
   std::int64_t earliest_ticks_ = 0, latest_ticks_ = 0;
   std::array<Gap, kFramesToLearn> gaps_;  ///< Gaps of successive frames, newest last.
   int gaps_known_ = 0;                    ///< Number of valid elements at the end of gaps_.

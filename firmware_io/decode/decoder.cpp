@@ -12,7 +12,7 @@ namespace terracut::decode {
 
 namespace {
 
-/// Calls `use` with the trait's type, the unit's table and the trait's settings.
+/// Calls `use` with the type of the model's trait, the unit's table and the trait's settings.
 template <class Use>
 auto with_trait(const calib::SensorCalibration& calibration, const Decoder::Config& config,
                 const Use& use) {
@@ -65,8 +65,9 @@ Decoder::SensorReturns Decoder::sensor_of(const calib::SensorCalibration& calibr
 FrameBuilder::Config Decoder::frame_config(const Model& model, const Config& config) {
   const frame::ImageShape shape{model.rows, model.columns};
   const auto spare = static_cast<std::size_t>(std::max(0, model.returns_per_cell - 1));
-  // Beams point up to 10 degrees before and behind the head, so tiles around the seam are kept in
-  // both frames. Tiles are also cut where a frame ends or the return mode changes.
+  // Beams point up to 10 degrees before and behind the head, so tiles around the seam (azimuth 0)
+  // are kept in both frames. Tiles are also cut short where a frame ends or the return mode
+  // changes.
   constexpr std::size_t kAroundSeam = 16, kCutTiles = 8;
   const auto firings = static_cast<std::size_t>(model.returns_per_cell * model.columns);
   const bool keeps_measured = config.keeps_measured && config.motion == nullptr;
@@ -295,8 +296,8 @@ void Decoder::judge() noexcept {
 }
 
 void Decoder::place() noexcept {
-  // The next packets begin here or up to a step earlier: azimuths are rounded, and heads turn
-  // unevenly.
+  // The next packet begins here or up to one firing step earlier: azimuths are rounded, and heads
+  // rotate unevenly.
   const std::int64_t next_ticks = blind_.next_packet(frontier_ticks_);
   frames_.note_packet({.stamp_ns = job_.stamp_ns,
                        .rotor_ticks = job_.swept.from_ticks,

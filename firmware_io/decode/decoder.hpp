@@ -32,14 +32,14 @@
 
 namespace terracut::decode {
 
-/// Turns data packets of one spinning sensor into frames of returns. Returns are placed in their
-/// cells a few packets at a time; all of a frame's returns are placed before it is handed out.
-/// Everything that differs between models is in a trait (packet_returns.hpp).
+/// Turns data packets of one spinning sensor into frames of returns. A few packets at a time are
+/// placed in the cells of the range image; all of a frame's returns are placed before it is handed
+/// out. Everything that differs between models is in a trait (packet_returns.hpp).
 ///
 /// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
 /// decoded packet is placed or counted (overflow_full_returns, late_returns); a packet is decoded
 /// whole or rejected whole, for a named reason. Memory is fixed and a call takes bounded time,
-/// whatever arrives: only progress in azimuth hands over frames.
+/// whatever arrives. Frames end only by the head's azimuth.
 ///
 ///   decoder.push(datagram);
 ///   while (frame::Frame* frame = decoder.next()) { ... }
@@ -50,20 +50,20 @@ class Decoder {
  public:
   struct Config {
     int columns = 0;  ///< Firings per frame at the sensor's spin rate; 0: those at 10 Hz.
-    /// Memory for this many returns per cell on average; returns beyond it are counted and lost. 0:
+    /// Memory for this many returns per cell on average; further returns are counted and lost. 0:
     /// enough for single return at 10 Hz, with a margin.
     int returns_per_cell = 0;
-    /// Which return owns a cell in dual return. All returns are placed and labelled.
+    /// In dual return, which of the two returns owns the cell. Both are placed and labelled.
     frame::CellOwner dual_owner = frame::CellOwner::kStrongest;
     int images = 3;  ///< FrameBuilder::Config::images
     /// True: frames keep their returns as measured, in less than a third of the memory;
-    /// make_reader() turns these into points where needed. Ignored if `motion` is set.
+    /// make_reader() computes their points where needed. Ignored if `motion` is set.
     bool keeps_measured = false;
-    /// A packet that is up to this many packets late still finds its frame. To this end a frame is
-    /// handed over only when a later packet's hindmost beam begins past the seam and this many more
-    /// packets have come. The latency grows by the time of that many packets, plus one; with 0,
-    /// frames are handed over with their last packet. Of packets that are later still, only returns
-    /// of frames already handed over are lost, and counted.
+    /// A packet that arrives up to this many packets late still reaches its frame: a frame is
+    /// handed over only when the hindmost beam of a later packet begins past the seam and this many
+    /// more packets have come. The latency grows by the time of that many packets, plus one; with
+    /// 0, a frame is handed over with its last packet. Of packets that are later still, only the
+    /// returns of frames already handed over are lost, and counted.
     int reorder_packets = 2;
     /// If set, every frame is deskewed before it is handed over (FrameInfo::deskew). The decoder's
     /// thread becomes the reader of the motion, which must outlive the decoder. Null: returns are
@@ -85,9 +85,9 @@ class Decoder {
   /// it to begin another stream, or until the old stream continues. Then the packet is decoded, or
   /// rejected and counted.
   void push(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
-  /// Ends the stream, at its end or before the source jumps (a replay loop). Open frames are handed
-  /// out by next(), marked incomplete unless all of them was seen. Resets the stream's state, but
-  /// not the counters.
+  /// Ends the stream, at its end or before the source jumps (a replay that loops). next() then
+  /// hands out the open frames, marked incomplete if any azimuth is missing. Resets the stream's
+  /// state, but not the counters.
   void end_stream() noexcept TERRACUT_NONBLOCKING;
 
   /// Returns the next frame completed by push() or end_stream(); null if there is none and all
@@ -122,7 +122,7 @@ class Decoder {
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return frames_.shape(); }
   /// Returns the most returns a frame may have, as RangeImage::return_capacity() does.
   [[nodiscard]] std::size_t return_capacity() const noexcept { return frames_.return_capacity(); }
-  /// Returns for each row how far its beam is ahead of the head when it fires, in revolutions.
+  /// Returns for each row the azimuth of its beam minus the head's when it fires, in revolutions.
   [[nodiscard]] std::span<const float> beam_turns() const noexcept { return beam_turns_; }
   /// Returns the measured device time between packets; 0 until about 15 packets have been decoded.
   [[nodiscard]] std::int64_t packet_period_ns() const noexcept { return tracker_.period_ns(); }
@@ -186,7 +186,7 @@ class Decoder {
   }
 
   /// Returns the mean step from firing to firing over some hundred packets. One packet's step is
-  /// rounded to the wire's hundredths, too coarse to count the firings of a wide gap.
+  /// rounded to hundredths of a degree, too coarse to count the firings of a wide gap.
   [[nodiscard]] std::int64_t mean_step(std::int32_t step_ticks) noexcept {
     constexpr std::int64_t kMost_packets = 512;
     steps_ticks_ += step_ticks;
@@ -200,8 +200,8 @@ class Decoder {
     return steps_ == 0 ? 0 : steps_ticks_ / steps_;
   }
 
-  /// Returns the number of complete columns of the oldest frame, minus one because beams are
-  /// rounded.
+  /// Returns the number of complete columns of the oldest frame, minus one because beam azimuths
+  /// are rounded to columns.
   [[nodiscard]] int complete_columns() const noexcept {
     const std::int64_t complete_ticks =
         placed_ticks_ - frames_.oldest() * packet::kRevolution_ticks;
@@ -211,7 +211,7 @@ class Decoder {
   }
 
   /// Returns how many of `packets` missing packets, over many frames, the sensor would have sent:
-  /// it sends none while it is blind.
+  /// it sends none while its head passes the blind sector.
   [[nodiscard]] std::int64_t seen_share(std::int64_t packets) const noexcept {
     return packets - packets * (blind_.sector().once.ticks() / packet::kTicksPerCdeg) /
                          beams::kRevolution_cdeg;
@@ -223,9 +223,9 @@ class Decoder {
     count_rejected(reason);
     rejected_ = reason;
   }
-  /// Converts the host stamp of a packet with a blind sector inside: the device stamps the first
-  /// firing, the host the arrival, and the sector lies between the two. A capture's stamps may be
-  /// anything, so the result may wrap.
+  /// Returns the host's time of the first firing of a packet with a blind sector inside. The device
+  /// stamps the first firing, the host the arrival, and the sector lies between the two. A
+  /// capture's stamps may be anything, so the result may wrap.
   [[nodiscard]] std::int64_t host_began_ns(std::int64_t stamp_ns) const noexcept {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp_ns) -
                                      static_cast<std::uint64_t>(azimuths_.sector_ns()));
@@ -236,13 +236,14 @@ class Decoder {
     std::int64_t stamp_ns = 0;
     Placement placed;
     packet::BeamSpread spread;
-    packet::RotorInterval swept;  ///< The head's way in the packet, without late columns.
+    /// Azimuths that the head swept in the packet, without late columns.
+    packet::RotorInterval swept;
     int late_columns = 0;
     std::int64_t first_frame = 0, last_frame = 0;  ///< Frames that the packet's beams may touch.
     BlindSector::Stride stride;
     std::int64_t step_ticks = 0;
   };
-  /// What remains to be done when the finished frames are handed out.
+  /// The step that follows once all finished frames are handed out.
   enum class Step : std::uint8_t {
     kNothing,
     kTakeKept,  ///< Decode the kept packets as a new stream.
@@ -252,7 +253,7 @@ class Decoder {
   };
   /// Does one step; false if none is left.
   bool go_on() noexcept;
-  /// Makes the packets in doubt, if any, a new stream; `then` is the step after that.
+  /// Begins a new stream with the packets in doubt, if any; `then` is the step after that.
   void begin_anew(Step then) noexcept;
   void take_kept() noexcept;
   /// Decodes the packet that the tracker has placed, in two or three steps.
@@ -274,8 +275,9 @@ class Decoder {
   /// Judges a blind sector inside the packet.
   void cross_sector(const packet::RotorInterval& swept, const BlindSector::Stride& stride,
                     const packet::BeamSpread& spread, std::int64_t step_ticks) noexcept;
-  /// Returns how many packets are missing by their stamps. The stamps around a packet with a sector
-  /// inside include the time of the sector: so the loss after such a packet is counted by azimuth.
+  /// Returns how many packets are missing by their stamps. Around a packet with a blind sector
+  /// inside, stamps include the time of the sector, so the loss after such a packet is counted by
+  /// azimuth.
   [[nodiscard]] std::int64_t missing_before(const Placement& placed,
                                             const packet::RotorInterval& swept) const noexcept {
     if (!has_crossed_) return placed.missing;
@@ -283,10 +285,10 @@ class Decoder {
     return std::min(placed.missing,
                     (gap.ticks() + azimuths_.pace_ticks / 2) / azimuths_.pace_ticks);
   }
-  /// Returns how many columns of a packet are too late. A packet with a sector inside arrives when
-  /// the head is back in view: its columns from before the sector may belong to a frame that was
-  /// handed over, or has to be because of the columns after the sector, as only two frames are
-  /// open.
+  /// Returns how many columns of a packet are too late. A packet with a blind sector inside arrives
+  /// when the head is back in view. Its columns from before the sector may belong to a frame that
+  /// was handed over, or that must be handed over to make room for the columns after the sector, as
+  /// only two frames are open.
   [[nodiscard]] int columns_too_late(const Placement& placed, const packet::BeamSpread& spread,
                                      std::int64_t last_frame) const noexcept {
     const std::int64_t hindmost_ticks =
@@ -296,7 +298,7 @@ class Decoder {
         is_restart ? last_frame - 1 : std::max(frames_.oldest(), last_frame - 1);
     return frame_of(hindmost_ticks) < open ? azimuths_.behind_sector : 0;
   }
-  /// Counts gaps that turned out to be lost.
+  /// Counts the pending gaps that have turned out to be lost.
   void count_due() noexcept {
     const BlindSector::Loss due = blind_.take_due();
     const std::int64_t step_ticks = std::max<std::int64_t>(1, mean_step_ticks());
@@ -316,7 +318,7 @@ class Decoder {
   PacketsInDoubt in_doubt_;
   packet::PacketAzimuths azimuths_;
   Step step_ = Step::kNothing;
-  Step after_packet_ = Step::kNothing;  ///< What follows when the job is done.
+  Step after_packet_ = Step::kNothing;  ///< The step that follows when the packet is decoded.
   Job job_;
   struct {
     bool has_begun = false;

@@ -25,7 +25,7 @@ Deskewer::Config checked(const Deskewer::Config& config, std::span<const std::in
   return config;
 }
 
-/// Returns by how many whole columns a beam lags behind its head. Rounding costs at most half a
+/// Returns by how many whole columns a beam lags behind the head. Rounding costs at most half a
 /// column's time.
 std::int64_t shift_of(std::int32_t beam_ticks, const Deskewer::Config& config) {
   return std::llround(-static_cast<double>(beam_ticks) * config.shape.columns /
@@ -43,7 +43,7 @@ Deskewer::Deskewer(const Config& config, std::span<const std::int32_t> beam_tick
   const auto head_columns = static_cast<std::size_t>(columns_ + last_shift_ - first_shift_);
   const std::size_t nodes = head_columns / kNodeColumns + 3;
 
-  // The memory holds two open frames, and what beams reach into the next frame.
+  // The memory holds two open frames, and the azimuths by which beams reach into the next frame.
   instants_ns_ = memory.take<std::int64_t>("deskew", std::bit_ceil(3 * nodes));
   node_ns_ = memory.take<std::int64_t>("deskew", nodes);
   node_poses_ = memory.take<vehicle::PlanarPose>("deskew", nodes);
@@ -84,7 +84,7 @@ void Deskewer::note(std::int64_t rotor_ticks, std::int64_t instant_ns) noexcept 
     return;
   }
   if (note.position <= newest_.position || note.instant_ns < newest_.instant_ns) return;
-  // Nodes that will have left the ring by the newest note need not be filled.
+  // Skips nodes that the newest note would overwrite in the ring buffer.
   const auto last_node = static_cast<std::int64_t>(std::floor(newest_.position));
   next_node_ = std::max(next_node_, last_node + 1 - static_cast<std::int64_t>(instants_ns_.size()));
   fill(last_node);

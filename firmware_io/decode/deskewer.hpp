@@ -21,12 +21,13 @@ namespace terracut::decode {
 /// column of its beam) and keeps its height: the motion is in the ground plane of the vehicle
 /// frame.
 ///
-/// Runs in one pass when the frame is handed over. By then the motion until the frame's end is
-/// known, the reference may be the frame's end, and a packet costs only a note of the head's
-/// position. The pass is one multiplication, row by row. Row and column of a cell give the azimuth
-/// of the head when its beam fired (beams may point up to 10 degrees, 3 ms, off the head); the
-/// azimuth gives the instant, the instant the pose. Instants and poses are computed every 8 columns
-/// of the head's azimuth and interpolated linearly: off by a part in 10^6 of the motion.
+/// Runs in one pass when the frame is handed over. By then the motion up to the frame's end is
+/// known, so the chosen instant may be that end, and each packet only adds a note of the head's
+/// azimuth. The pass does one multiplication a return, row by row. Row and column of a cell give
+/// the azimuth of the head when the beam fired (beams may point up to 10 degrees, 3 ms, off the
+/// head); the azimuth gives the time, and the time the pose. Times and poses are computed at nodes,
+/// every 8 columns of the head's azimuth, and interpolated linearly: off by a part in 10^6 of the
+/// motion.
 ///
 /// Real-time safe but for the constructor. One thread, the reader of the EgoMotion.
 class Deskewer {
@@ -48,8 +49,8 @@ class Deskewer {
   /// Begins a stream and drops earlier notes. If there was a stream before, also drops earlier
   /// samples of motion, since a clock may have been set in between.
   void restart() noexcept TERRACUT_NONBLOCKING;
-  /// Notes that a clock was set when the head was at `rotor_ticks`: later instants cannot be
-  /// compared with earlier ones, nor with samples of motion added before. Frames begun by then have
+  /// Notes that a clock was set when the head was at `rotor_ticks`. Later times cannot be compared
+  /// with earlier ones, nor with samples of motion added before, so frames that began earlier get
   /// no ego motion.
   void begin_anew(std::int64_t rotor_ticks) noexcept TERRACUT_NONBLOCKING;
   /// Notes that the head was at `rotor_ticks` (unwrapped) at `instant_ns`. A note is ignored if
@@ -73,7 +74,7 @@ class Deskewer {
   [[nodiscard]] double nodes(std::int64_t rotor_ticks) const noexcept;
   /// Interpolates the instants of nodes between the last two notes, up to `last_node`.
   void fill(std::int64_t last_node) noexcept;
-  /// Returns when the head was at a node, limited to the range seen.
+  /// Returns when the head was at a node, clamped to the azimuths noted.
   [[nodiscard]] std::int64_t instant_of(std::int64_t node) const noexcept;
   [[nodiscard]] std::int64_t instant_at(std::int64_t rotor_ticks) const noexcept;
   [[nodiscard]] std::int64_t reference_ns(std::int64_t frame) const noexcept;
@@ -81,22 +82,22 @@ class Deskewer {
 
   Config config_;
   std::int64_t columns_;
-  std::int64_t first_shift_ = 0, last_shift_ = 0;  ///< Range of column shifts, beam to head.
+  /// Range, over rows, of how many columns a beam lags behind the head.
+  std::int64_t first_shift_ = 0, last_shift_ = 0;
 
   std::span<std::int64_t> instants_ns_;  ///< Indexed by node; a ring buffer.
   std::int64_t first_node_ = 0, next_node_ = 0;
-  /// Nodes before this one have instants of another clock.
+  /// Times of nodes before this one are of another clock.
   std::int64_t anew_node_ = kFromTheStart;
   bool noted_ = false;
-  /// The last two notes. The nodes between them are filled only when needed: these may be several
-  /// frames of nodes, more than the ring buffer holds, and the frame in which they begin is not
-  /// handed over yet.
+  /// The last two notes. The nodes between them are filled only when needed: there may be more than
+  /// the ring buffer holds, and the frame in which they begin is not handed over yet.
   Note before_, newest_;
 
   // The frame being deskewed.
   std::span<std::int64_t> node_ns_;
   std::span<vehicle::PlanarPose> node_poses_;
-  /// Indexed by column of the head, from first_shift_.
+  /// Indexed by column of the head's azimuth, beginning with first_shift_.
   std::span<float> cosine_, sine_, x_m_, y_m_;
   std::span<frame::PlanarMotions> by_row_;  ///< For each row, its part of the four arrays above.
 };

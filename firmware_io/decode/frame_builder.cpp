@@ -109,7 +109,7 @@ frame::HeadSweep FrameBuilder::head_of(const OpenFrame& frame) const noexcept {
 }
 
 bool FrameBuilder::seen_whole(const OpenFrame& frame) const noexcept {
-  // Wire azimuths are rounded, so a firing may lie off by one rounding step: a gap of three
+  // Azimuths in packets are rounded, so a firing may be off by one rounding step: a gap of three
   // quarters of a firing step does not yet mean a missing firing.
   const std::int64_t slack_ticks = step_ticks_ * 3 / 4;
   const std::int64_t first_ticks = oldest_ * revolution_ticks_ - spread_.foremost_ticks;

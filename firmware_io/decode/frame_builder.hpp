@@ -39,7 +39,8 @@ class FrameBuilder {
  public:
   struct Config {
     frame::ImageShape shape;
-    std::size_t overflow_capacity = 0;  ///< The most returns of a frame whose cell is taken.
+    /// Most returns of a frame that may lie in cells already taken.
+    std::size_t overflow_capacity = 0;
     int images = 3;                     ///< >= 3: two open, one handed out.
     std::int64_t revolution_ticks = 0;  ///< Ticks of azimuth in 360 degrees.
     /// If not 0, frames are kept as measured, with memory for this many tiles; 0: kept as points.
@@ -52,8 +53,8 @@ class FrameBuilder {
   FrameBuilder(const FrameBuilder&) = delete;
   FrameBuilder& operator=(const FrameBuilder&) = delete;
 
-  /// Starts a stream: its first firing is at head azimuth `rotor_ticks`, the hindmost beam of this
-  /// firing in `oldest_frame`. No open frame may have returns (see flush()).
+  /// Starts a stream whose first firing is at head azimuth `rotor_ticks`; the hindmost beam of this
+  /// firing lies in `oldest_frame`. No open frame may have returns (see flush()).
   void start(std::int64_t oldest_frame, std::int64_t rotor_ticks) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] bool started() const noexcept { return started_; }
@@ -76,13 +77,13 @@ class FrameBuilder {
   /// True if all images keep their returns as measured (RangeImage::measured()).
   [[nodiscard]] bool keeps_measured() const noexcept { return images_[0].measured() != nullptr; }
 
-  /// Sets where the sensor is blind, so that nothing counts as missing there: in intervals given
-  /// from now on, and at the stream's beginning and end.
+  /// Sets the blind sector, so that nothing counts as missing there: in intervals passed from now
+  /// on, and at the stream's beginning and end.
   void set_blind(const packet::RotorSector& blind) noexcept { blind_ = blind; }
 
-  /// lose() notes that firings were lost in an interval, regain() that they arrived after all
-  /// (reordered). `step_ticks` is the step from firing to firing. `is_counted` says whether the
-  /// builder counts the loss as a hole; else the caller does.
+  /// lose() notes that the firings of an interval were lost, regain() that they arrived after all
+  /// (reordered). `step_ticks` is the step from firing to firing. If `is_counted`, the builder
+  /// counts the loss as a hole; otherwise the caller does.
   void lose(packet::RotorInterval gap, const packet::BeamSpread& spread, std::int64_t step_ticks,
             bool is_counted = true) noexcept TERRACUT_NONBLOCKING;
   void regain(packet::RotorInterval found,
@@ -92,7 +93,8 @@ class FrameBuilder {
     std::int64_t stamp_ns = 0;     ///< Stamp of the packet's datagram.
     std::int64_t rotor_ticks = 0;  ///< The head's azimuth at the packet's first firing.
     std::int64_t first_frame = 0, last_frame = 0;  ///< The frames that the packet's beams touch.
-    std::int64_t frontier_ticks = 0;  ///< Azimuth up to which the head has been seen, or is blind.
+    /// Azimuth up to which the head has been seen or the sensor is blind.
+    std::int64_t frontier_ticks = 0;
   };
   /// Notes a decoded packet. `step_ticks` and `spread` are those of the packet.
   void note_packet(const PacketNote& packet, std::int64_t step_ticks,
@@ -105,13 +107,13 @@ class FrameBuilder {
   void flush() noexcept TERRACUT_NONBLOCKING;
 
   /// Returns the oldest ended frame that has returns; null if there is none. The frame is valid
-  /// until the next call. `in_exchange` is an image of images() that nobody else uses, taken in
-  /// place of the image handed out last; if null, the builder takes the image that it handed out
-  /// longest ago.
+  /// until the next call. `in_exchange` is one of images() that nobody else uses and replaces the
+  /// image handed out last; if null, the builder reuses the image that it handed out longest ago.
   [[nodiscard]] frame::Frame* next(frame::RangeImage* in_exchange = nullptr) noexcept
       TERRACUT_NONBLOCKING;
 
-  /// Returns the losses since the last frame was handed over; the decoder adds those that it finds.
+  /// Returns the losses since the last frame was handed over, so that the decoder can add the ones
+  /// it finds.
   [[nodiscard]] frame::LossCounters& losses() noexcept { return losses_; }
   /// Returns all losses since construction.
   [[nodiscard]] frame::LossCounters total_losses() const noexcept TERRACUT_NONBLOCKING;
@@ -136,7 +138,7 @@ class FrameBuilder {
     bool touched = false;
   };
 
-  /// Exchanges the image just handed over for the image that was handed over the longest time ago.
+  /// Takes `handed_over` out of use and returns the image that was handed over longest ago.
   [[nodiscard]] frame::RangeImage& exchange(frame::RangeImage& handed_over) noexcept
       TERRACUT_NONBLOCKING;
   void open(std::size_t slot, std::int64_t frame, frame::RangeImage& image) noexcept;
@@ -151,9 +153,9 @@ class FrameBuilder {
   void count_holes(std::int64_t hole_ticks) noexcept;
   [[nodiscard]] frame::HeadSweep head_of(const OpenFrame& frame) const noexcept;
   [[nodiscard]] bool seen_whole(const OpenFrame& frame) const noexcept;
-  /// Fills frame_; false if the frame has no returns.
+  /// Fills frame_ from the oldest open frame; false if that has no returns.
   [[nodiscard]] bool close_oldest() noexcept TERRACUT_NONBLOCKING;
-  /// Shifts the open frames by one; the new one goes into `image`.
+  /// Makes the newer open frame the oldest, and opens the next one in `image`.
   void open_next(frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING;
 
   frame::ImageShape shape_;
@@ -171,7 +173,7 @@ class FrameBuilder {
   std::array<OpenFrame, 2> open_;  ///< Frames oldest_ and oldest_ + 1.
   std::int64_t start_ticks_ = 0, frontier_ticks_ = 0, step_ticks_ = 1;
   packet::BeamSpread spread_;
-  Missing last_gap_;  ///< The last gap: a frame that opens later may begin inside it.
+  Missing last_gap_;  ///< The last gap; a frame opened later may begin inside it.
   packet::RotorSector blind_;
 
   std::uint32_t frames_ = 0;

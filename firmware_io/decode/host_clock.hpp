@@ -7,20 +7,20 @@
 
 namespace terracut::decode {
 
-/// Estimates when packets left a sensor, on the host's clock, from their arrival and the device's
+/// Estimates, on the host's clock, when packets left a sensor, from their arrival and the device's
 /// even stamps. A packet may arrive late, when the network or the machine is busy, but never early.
 /// So the least delay seen is assumed for every packet. This delay is forgotten slowly, though
 /// faster than clocks drift apart or NTP slews them. One thread.
 ///
 /// Starts again if one of the clocks was set: at a packet more than 20 ms late, or when packets
-/// come, within a short time, more than 2 ms earlier than any before. Earlier results are then not
-/// comparable, or were wrong by more than that: packets delayed by more than 20 ms look like a
-/// clock that was set.
+/// within a short time come more than 2 ms earlier than any before. Earlier results are then not
+/// comparable with later ones, or were wrong by more than that: a delay of more than 20 ms looks
+/// like a clock that was set.
 class HostClock {
  public:
   struct Sent {
     std::int64_t instant_ns = 0;
-    bool anew = false;  ///< True if not comparable with the instants returned before.
+    bool anew = false;  ///< True if this time is not comparable with those returned before.
   };
 
   /// `wrap_us` says where the device clock wraps: it counts [0, wrap_us).
@@ -29,8 +29,8 @@ class HostClock {
   /// Notes that the next packet is the first of a stream.
   void reset() noexcept { known_ = false; }
 
-  /// Returns when a packet left the sensor. To be called for each packet in the stream's order,
-  /// except packets that were overtaken.
+  /// Returns when a packet left the sensor. Call this for each packet in the stream's order, but
+  /// not for packets that arrive out of order.
   [[nodiscard]] Sent sent(std::int64_t device_us, std::int64_t arrived_ns) noexcept {
     std::int64_t step_us = device_us - device_us_;
     if (step_us < 0) step_us += wrap_us_;
@@ -63,7 +63,8 @@ class HostClock {
   std::int64_t wrap_us_;
   bool known_ = false;
   std::int64_t device_us_ = 0, sent_ns_ = 0;
-  std::int64_t earlier_ns_ = 0;  ///< By how much recent packets came earlier than expected.
+  /// By how much recent packets came earlier than the assumed delay says.
+  std::int64_t earlier_ns_ = 0;
 };
 
 }  // namespace terracut::decode

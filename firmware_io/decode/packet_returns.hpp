@@ -82,8 +82,8 @@ class PacketReturns {
   [[nodiscard]] Sensor& trait() noexcept { return sensor_; }
   [[nodiscard]] const Sensor& trait() const noexcept { return sensor_; }
 
-  /// Reads a packet that the trait's check() has accepted. Its returns are placed by flush(), or
-  /// when enough are collected; the packet's frames must stay open until then.
+  /// Reads a packet that the trait's check() has accepted. flush() places its returns, or a later
+  /// add() once enough are collected; the packet's frames must stay open until then.
   void add(std::span<const std::uint8_t> payload, const packet::PacketAzimuths& azimuths,
            const PacketPlace& place, FrameBuilder& frames) noexcept {
     const auto columns = static_cast<std::size_t>(azimuths.columns);
@@ -174,7 +174,7 @@ class PacketReturns {
             .frame = most < columns_ ? 0U : 1U};
   }
 
-  /// Keeps the tile as measured, in each of its frames that has returns of the tile.
+  /// Keeps the tile as measured in each frame that has returns of it.
   void keep(const Tile& tile, FrameBuilder& frames) noexcept {
     for (std::size_t n = 0; n < 2; ++n) {
       if (tile.is_in_one_frame && tile.frame != n) continue;
@@ -220,7 +220,7 @@ class PacketReturns {
     return frame == 0 ? column : column - columns_;
   }
 
-  /// Places the tile's returns laser by laser; false, and nothing is placed, if an overflow list
+  /// Places the tile's returns laser by laser. Returns false and places nothing if an overflow list
   /// might become full.
   [[nodiscard]] bool place_by_laser(const Tile& tile) noexcept {
     Numbers numbers = count(tile);
@@ -246,7 +246,7 @@ class PacketReturns {
     return true;
   }
 
-  /// Places a laser's returns in adjacent columns; false if one of their cells is taken.
+  /// Places a laser's returns in adjacent columns; false if one of the cells is taken.
   [[nodiscard]] bool place_run(const Tile& tile, std::size_t laser,
                                frame::TileRow<std::uint32_t>& numbers) noexcept {
     frame::RangeImage& image = *tile.images[tile.frame];
@@ -268,7 +268,7 @@ class PacketReturns {
     const int row = sensor_.rows()[laser];
     const std::size_t newest = frame_of(beams_[laser].most);
     tile.images[newest]->fetch_to_write(row, column_in(newest, beams_[laser].most));
-    // Which firings have a return is nearly random, so the loop has no branch.
+    // A branch would be mispredicted: which firings have a return is nearly random.
     std::array<std::uint8_t, frame::kTileFirings> hits;
     std::size_t hit_count = 0;
     for (std::size_t f = 0; f < frame::kTileFirings; ++f) {

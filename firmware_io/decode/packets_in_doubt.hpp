@@ -16,8 +16,8 @@
 namespace terracut::decode {
 
 /// Keeps packets that contradict the stream (Arrival::kDoubtful), with their bytes, until it is
-/// known whether they are strays or, together with a packet that is kNewStream, begin another
-/// stream. Real-time safe except for the constructor. One thread.
+/// known whether they are strays or begin another stream (Arrival::kNewStream). Real-time safe
+/// except for the constructor. One thread.
 class PacketsInDoubt {
  public:
   struct Packet {
@@ -36,8 +36,8 @@ class PacketsInDoubt {
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
-  /// Keeps a packet. At most StreamTracker::kNewStream_packets are kept, the last of them the
-  /// kNewStream.
+  /// Keeps a packet. Holds at most StreamTracker::kNewStream_packets; the last of them is the one
+  /// that is kNewStream.
   void keep(const packet::Datagram& datagram, const packet::PacketAzimuths& azimuths,
             const Placement& placed) noexcept {
     const auto bytes = bytes_.subspan(size_ * packet_bytes_, packet_bytes_);
@@ -52,15 +52,15 @@ class PacketsInDoubt {
     size_ = next_ = 0;
   }
 
-  /// Takes the packets as a stream: returns the oldest that was not taken yet. Returns null and
-  /// forgets all packets when none is left.
+  /// Reads the packets as a new stream: returns the oldest not returned yet. When none is left,
+  /// forgets all packets and returns null.
   [[nodiscard]] const Packet* take() noexcept {
     if (next_ < size_) return &packets_[next_++];
     size_ = next_ = 0;
     return nullptr;
   }
-  /// True if `packet` lies more than a frame before the newest. Such a packet is left out: with
-  /// more revolutions, more frames would be handed out at once.
+  /// True if `packet` lies more than a frame before the newest. Such a packet is left out, because
+  /// decoding it would complete more frames at once than can be handed over.
   [[nodiscard]] bool is_too_old(const Packet& packet) const noexcept {
     return packet.rotor_cdeg < packets_[size_ - 1].rotor_cdeg - beams::kRevolution_cdeg;
   }

@@ -8,24 +8,25 @@
 namespace terracut::decode {
 namespace {
 
-/// A packet older than the newest by up to this is out of order; for an older packet the clock has
-/// jumped.
+/// A packet older than the newest by up to this is out of order; if it is older still, the clock
+/// has jumped.
 constexpr std::int64_t kReorder_us = 20'000;
 /// A longer step of the device clock is a gap only if the host's clock agrees.
 constexpr std::int64_t kOutage_us = 1'000'000;
 /// Longer outages (more than a day) are not counted as lost packets.
 constexpr std::int64_t kLongestOutage_us = 86'400'000'000;
-/// The caller is told of missing packets in a gap wider than this even if the period is not known.
+/// In a gap wider than this, missing packets are reported even if the period is not known.
 constexpr std::int64_t kWide_ticks = packet::kRevolution_ticks / 90;
 /// The azimuth is counted on from revolution to revolution up to this limit, which a head reaches
 /// after years; then the count begins again.
 constexpr std::int64_t kFarthest_cdeg = 100'000'000'000'000;
-/// The head may be this far from where time and speed predict it, plus an eighth of its rotation
-/// since.
+/// The head may be this far from the azimuth predicted from time and speed, plus an eighth of its
+/// rotation since.
 constexpr std::int64_t kRotorSlack_cdeg = 2'000;
 /// A missing packet may still arrive out of order during this many packets.
 constexpr int kMissingGrace_packets = 16;
-/// If this many successive steps do not fit the period (a mode switch) it is measured again.
+/// If this many successive steps do not fit the period (after a change of return mode), it is
+/// measured again.
 constexpr int kOffPeriodBeforeRemeasure = 64;
 /// The period is the mean over some thousand packets.
 constexpr std::int64_t kPeriodMean_packets = 8'192;
@@ -42,7 +43,7 @@ std::int64_t host_step_us(std::int64_t from_ns, std::int64_t to_ns) noexcept {
          1000;
 }
 
-/// True if a gap lasted as long by the host's clock as by the device's, or if the host's clock
+/// True if the gap was as long by the host's clock as by the device's, or if the host's clock
 /// cannot tell.
 bool takes_its_time(std::int64_t step_us, std::int64_t host_us) noexcept {
   return step_us <= kReorder_us || host_us <= 0 || 4 * host_us >= step_us;
@@ -152,7 +153,7 @@ Placement StreamTracker::follow(const packet::PacketAzimuths& azimuths, std::int
   const bool keeps_rotating =
       step_cdeg >= 0 && step_cdeg * packet::kTicksPerCdeg <= 3 * newest_.pace_ticks;
   if (azimuths.clock_restarts) {
-    steps_ = 0;  // the earlier times between packets were read wrongly
+    steps_ = 0;  // the earlier steps were measured at a wrong period
     missing_ = 0;
     if (!keeps_rotating) return restart(azimuths, host_stamp_ns, losses);
     take_as_newest(azimuths, host_stamp_ns, newest_.rotor_cdeg + step_cdeg, losses);

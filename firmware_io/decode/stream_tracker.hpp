@@ -34,7 +34,7 @@ struct Placement {
   /// How many packets are missing by the stamps between this packet and the newest before it, and
   /// how many came in between but were rejected.
   std::int64_t missing = 0, explained = 0;
-  /// True if kDoubtful and the packet does not agree with those kept before.
+  /// True if kDoubtful and the packet does not agree with the doubtful packets kept before.
   bool is_first_in_doubt = false;
 };
 
@@ -57,14 +57,14 @@ class StreamTracker {
   /// `clock_wrap_us` says where the device clock wraps: it counts [0, clock_wrap_us).
   StreamTracker(std::int64_t clock_wrap_us, memory::FixedMemory& memory);
 
-  /// Places a packet and counts clock jumps in `losses`. The caller counts a rejection and says, by
-  /// miss(), how many of the missing packets were expected. `host_stamp_ns` is the datagram's
+  /// Places a packet and counts clock jumps in `losses`. The caller counts a rejection, and calls
+  /// miss() with how many of the missing packets were expected. `host_stamp_ns` is the datagram's
   /// stamp, used only to tell an outage from a jump.
   [[nodiscard]] Placement place(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// To be called after kNewStream: begin() takes the first of the kept packets, go_on() the others
-  /// in order and finally the kNewStream packet. Both place packets as place() does, without doubt.
+  /// To be called after kNewStream: begin() takes the first of the kept packets, go_on() each later
+  /// one, the kNewStream packet last. Both place packets as place() does, but never as doubtful.
   [[nodiscard]] Placement begin(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] Placement go_on(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,

@@ -32,7 +32,7 @@ class TileColumns {
     }
   }
 
-  /// Fills `beams`, one for each laser. Columns count from the frame from which `heads` counts.
+  /// Fills `beams`, one for each laser. Columns are counted in the frame in which `heads` are.
   /// Real-time safe.
   void find(const Sensor& sensor, const frame::TileHeads& heads,
             std::span<frame::BeamColumns> beams) noexcept TERRACUT_NONBLOCKING {

@@ -13,7 +13,8 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kTanOfSixteenth = 0.41421356F;  // tan(pi / 8), a sixteenth of a revolution
 
-/// Sums atan's series for |t| <= kTanOfSixteenth, where the first term left out is 1.2e-7.
+/// Returns atan(t) by its series for |t| <= kTanOfSixteenth, where the first term left out is
+/// 1.2e-7.
 [[gnu::always_inline]] inline float short_atan(float t) noexcept {
   const float u = t * t;
   float sum = 1.0F / 13;
@@ -33,7 +34,7 @@ TERRACUT_VECTOR_CLONES void find_all(const CloudPoint* __restrict points, std::s
   for (std::size_t i = 0; i < count; ++i) {
     const float x = points[i].x_m, y = points[i].y_m;
     const float along = std::fabs(x), aside = std::fabs(y);
-    const bool is_beyond = along < aside, is_behind = x<0, is_left = y> 0;
+    const bool is_beyond = along < aside, is_behind = x < 0, is_left = y > 0;
     const float smaller = is_beyond ? along : aside, larger = is_beyond ? aside : along;
     const bool is_steep = smaller > kTanOfSixteenth * larger;
     const float rise = smaller - (is_steep ? larger : 0.0F);

@@ -7,8 +7,8 @@
 
 namespace terracut::frame {
 
-/// The instant to which a frame's returns are moved: when the head passes straight ahead for the
-/// first time (start), straight behind (middle), or straight ahead again (end).
+/// The instant at which deskewing places a frame's returns: when the head passes straight ahead for
+/// the first time (start), straight behind (middle), or straight ahead again (end).
 enum class FrameInstant : std::uint8_t { kStart, kMiddle, kEnd };
 
 enum class DeskewState : std::uint8_t {

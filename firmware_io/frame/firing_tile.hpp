@@ -42,24 +42,24 @@ struct PointsOut {
   return {points.x_m.data(), points.y_m.data(), points.z_m.data(), points.ground_range_m.data()};
 }
 
-/// Columns of one laser's beams, counted from the first column of some frame; columns of the n-th
-/// frame after that begin at n times the columns of a frame.
+/// The image columns of one laser's beams in a tile, counted from the first column of some frame;
+/// the n-th frame after that one begins at n times the columns of a frame.
 struct BeamColumns {
   alignas(64) TileRow<std::int32_t> column;
   std::int32_t least = 0, most = 0;
   bool is_one_run = false;  ///< True if each firing is one column after the firing before.
 };
 
-/// Where the head was at each firing of a tile.
+/// The head's azimuth at each firing of a tile.
 struct TileHeads {
-  TileRow<std::int32_t> head_cdeg;    ///< Azimuth, unwrapped, counted from the start of some frame.
+  TileRow<std::int32_t> head_cdeg;    ///< Counts on over revolutions, from the start of some frame.
   TileRow<std::int32_t> step_ticks;   ///< Rotation from this firing to the next, 1e-5 degrees.
   TileRow<float> sin_head, cos_head;  ///< Sine and cosine of head_cdeg.
   std::uint32_t is_dual = 0;          ///< A set bit for each firing that is one of two returns.
 };
 
-/// Computes points from the distances that one sensor model measured; holds its calibration, mount
-/// and firing times. Has memory for one tile at a time; one thread.
+/// Computes points from the distances of one sensor; holds its calibration, mount and firing times.
+/// Has memory for one tile at a time; one thread.
 class TileReader {
  public:
   virtual ~TileReader() = default;

@@ -22,9 +22,9 @@ struct BlindAzimuths {
   }
 };
 
-/// The head's position at the first firing of a frame's first and last packet, in revolutions from
-/// straight ahead: about 0 and 1, except that beams point off the head. Both are equal if there are
-/// no packets.
+/// The head's azimuth at the first firing of a frame's first and last packet, in revolutions from
+/// straight ahead: about 0 and 1, but not exactly, because beams point beside the head. Both are
+/// equal if there are no packets.
 struct HeadSweep {
   float first_turns = 0, last_turns = 0;
 };
@@ -53,14 +53,14 @@ struct Frame {
   RangeImage* image = nullptr;
 };
 
-/// The frame that is being filled.
+/// The oldest frame of a decoder, while packets still fill it.
 struct ArrivingFrame {
   const RangeImage* image = nullptr;
-  /// Columns [0, complete_columns) are complete; only a packet that comes later than the decoder
-  /// waits for may still change them.
+  /// Columns [0, complete_columns) are complete; only a packet later than the decoder waits for may
+  /// still change them.
   int complete_columns = 0;
-  /// Share of the revolution that is still to come after the last packet; a blind sector does not
-  /// count.
+  /// Share of the revolution that the head has still to pass after the last packet, without a blind
+  /// sector.
   float share_to_come = 0;
 };
 

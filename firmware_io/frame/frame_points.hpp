@@ -17,8 +17,8 @@
 
 namespace terracut::frame {
 
-/// Computes points of frames that keep their returns as measured, where they are needed, into
-/// planes of a whole image; one frame after the other.
+/// Computes the points of frames that keep their returns as measured: only where they are needed,
+/// into planes of a whole image, one frame after the other.
 ///
 /// Takes its memory in the constructor. One thread; real-time safe.
 class FramePoints {
@@ -28,19 +28,18 @@ class FramePoints {
 
   /// Begins a frame, or begins it again, with no points computed.
   void begin(const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
-  /// Computes the points of returns that have arrived in columns before `end`; to be called from
-  /// left to right after begin(). A cell without a return has a NaN height. Calls
-  /// `take_extra(column, z_m, ground_range_m)` once for each such return that does not own its
-  /// cell.
+  /// Computes the points of returns that have arrived in columns before `end`. Call it from left to
+  /// right after begin(). A cell without a return gets a NaN height. Calls `take_extra(column, z_m,
+  /// ground_range_m)` once for each of these returns that does not own its cell.
   template <class TakeExtra>
   void make_until(int end, const RangeImage& image, TakeExtra take_extra) noexcept;
   /// True if all points of the frame are computed.
   [[nodiscard]] bool has_all_of(const RangeImage& image) const noexcept {
     return has_begun(image) && next_ == image.measured()->tiles();
   }
-  /// Computes points where `is_wanted(row, ColumnRange)`, unless all of the frame's are computed.
-  /// Other cells, and cells without a return, hold arbitrary values. Ends the frame that begin()
-  /// began.
+  /// Computes the points of all cells for which `is_wanted(row, ColumnRange)`, unless all of the
+  /// frame's are computed. Other cells, and cells without a return, hold arbitrary values. Ends the
+  /// frame that begin() began.
   template <class IsWanted>
   void make_where(const RangeImage& image, IsWanted is_wanted) noexcept;
   [[nodiscard]] PointPlanes planes() const noexcept {
@@ -73,7 +72,7 @@ class FramePoints {
 template <class TakeExtra>
 void FramePoints::make_until(int end, const RangeImage& image, TakeExtra take_extra) noexcept {
   const MeasuredReturns& returns = *image.measured();
-  // Tiles come from left to right, except late ones: some of their points may be made before `end`
+  // Tiles come from left to right, except late ones: some of their points are computed before `end`
   // reaches them, which does no harm.
   for (; next_ < returns.tiles() && returns.tile(next_).least < end; ++next_) {
     reader_->open(returns.tile(next_).heads, returns.raw(next_));
@@ -119,7 +118,7 @@ void FramePoints::make_row(const MeasuredReturns& returns, std::size_t tile, std
   for_each_firing(row.owned, [&](std::size_t f) noexcept {
     const int column = columns[f];
     const std::size_t cell = first + static_cast<std::size_t>(column);
-    // An earlier return owned this cell and its point was made: it is now an extra.
+    // An earlier return owned this cell, and its point is in the planes: it becomes an extra.
     if (z_m_[cell] == z_m_[cell]) take_extra(column, z_m_[cell], ground_range_m_[cell]);
     x_m_[cell] = points_.x_m[f];
     y_m_[cell] = points_.y_m[f];

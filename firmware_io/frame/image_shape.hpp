@@ -21,7 +21,7 @@ struct ImageShape {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(stride()) +
            static_cast<std::size_t>(column);
   }
-  /// Returns the azimuth that a column covers, degrees.
+  /// Returns the width of a column in degrees of azimuth.
   [[nodiscard]] constexpr double pitch_deg() const noexcept { return 360.0 / columns; }
 };
 

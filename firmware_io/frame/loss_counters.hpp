@@ -12,10 +12,10 @@ namespace terracut::frame {
 
 /// Why a packet was not decoded.
 enum class Reject : std::uint8_t {
-  kWrongSize,          ///< Payload length is not that of the sensor's data packet.
-  kWrongMagic,         ///< Block identifiers are not those of this sensor.
-  kDeviceInfo,         ///< The sensor's packet about itself, not a data packet.
-  kWrongModel,         ///< A data packet of a model that is recognised but not decoded.
+  kWrongSize,   ///< Payload length is not that of the sensor's data packet.
+  kWrongMagic,  ///< Block identifiers are not those of this sensor.
+  kDeviceInfo,  ///< The sensor's packet about itself (device information), not a data packet.
+  kWrongModel,  ///< A data packet of a model that is recognised but not decoded.
   kAzimuthOutOfRange,  ///< A block azimuth >= 360 degrees.
   kAzimuthMismatch,    ///< Blocks that fire together carry different azimuths.
   kAzimuthJump,        ///< Azimuths inside a packet do not advance like a rotating head.
@@ -39,8 +39,8 @@ struct LossCounters {
   std::array<std::uint64_t, kRejectReasons> rejected{};  ///< Packets rejected, by reason.
   /// Returns for which the frame's overflow list had no room.
   std::uint64_t overflow_full_returns = 0;
-  /// Returns from before a blind sector inside their packet that came too late for their frame;
-  /// their firings also count as holes.
+  /// Returns of a packet with a blind sector inside, from before the sector, that came too late for
+  /// their frame; their firings also count as holes.
   std::uint64_t late_returns = 0;
   std::uint64_t skipped_frames = 0;  ///< Frames not segmented for lack of time.
   std::uint64_t clock_jumps = 0;  ///< Jumps of device stamps without a loss (replay loop, reset).

@@ -25,7 +25,7 @@ using Flags = std::uint8_t[kTileFirings];
   for (unsigned eighth = 0; eighth < 3; ++eighth) {
     std::uint64_t bytes;
     std::memcpy(&bytes, flags + 8 * eighth, sizeof(bytes));
-    // Byte i goes to bit 56 + i.
+    // The multiplication moves bit 0 of byte i to bit 56 + i.
     const std::uint64_t gathered = bytes * 0x0102'0408'1020'4080U >> 56U;
     bits |= static_cast<std::uint32_t>(gathered) << (8 * eighth);
   }
@@ -39,7 +39,7 @@ using Flags = std::uint8_t[kTileFirings];
   return bits_of_firings(is_hit);
 }
 
-/// Returns the mask of firings for which `holds(own value, value of the firing before)`.
+/// Returns the mask of firings for which `holds(value, value of the previous firing)`.
 template <class Value, class Holds>
 [[gnu::always_inline]] inline std::uint32_t where_after(const Value* values, Holds holds) noexcept {
   Flags flags{};
@@ -68,8 +68,8 @@ void add_bits(std::span<std::uint64_t> bits, std::size_t column, std::uint64_t a
   if (shift != 0) bits[word + 1] |= added >> (kWordBits - shift);
 }
 
-/// Takes the cells of a laser whose firings are in adjacent columns from `least` on; false if one
-/// of them is taken.
+/// Marks the cells of a laser whose firings are in adjacent columns from `least` on as taken; false
+/// if one of them was taken already.
 [[gnu::always_inline]] inline bool take_run(std::span<std::uint64_t> cells, std::int32_t least,
                                             std::uint32_t hits,
                                             MeasuredReturns::LaserRow& row) noexcept {
@@ -85,7 +85,7 @@ TERRACUT_VECTOR_CLONES void find_hits(const std::uint16_t* raw, std::size_t lase
   for (std::size_t i = 0; i < lasers; ++i) hits[i] = hits_of(raw + i * kTileFirings);
 }
 
-/// Counts returns by firing, for a tile in which all lasers' returns are of one frame.
+/// Counts the returns of each firing, for a tile of which all returns are in one frame.
 TERRACUT_VECTOR_CLONES void count_all(const std::uint16_t* __restrict raw, std::size_t lasers,
                                       std::uint16_t* __restrict counts) noexcept {
   for (std::size_t i = 0; i < lasers; ++i) {
@@ -295,7 +295,7 @@ bool MeasuredReturns::has_shared(int row, ColumnRange columns) const noexcept {
 
 MeasuredReturns::Place MeasuredReturns::owner_before(const Place& newest, int row, int column,
                                                      TileReader& reader) const noexcept {
-  // Usually the return that owns the cell comes from the same firing or from the firing before.
+  // Usually the return that owns the cell comes from the same firing or from the previous one.
   const std::uint32_t owned = this->row(newest.tile, newest.laser).owned;
   for (std::size_t f = newest.firing; f-- > 0;) {
     const bool is_owner = (owned >> f & 1U) != 0;

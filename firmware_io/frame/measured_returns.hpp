@@ -16,12 +16,12 @@
 namespace terracut::frame {
 
 /// Keeps the returns of a frame as its sensor measured them, in tiles of firings: distances,
-/// intensities, head positions, and for each return whether it owns its cell of the range image.
-/// Takes a third of the memory of points and is written in one stream; FramePoints computes points
+/// intensities, head azimuths, and for each return whether it owns its cell of the range image.
+/// Takes a third of the memory of points, and is written in one stream; FramePoints computes points
 /// from it where they are needed.
 ///
-/// Returns are numbered in order of arrival: firing, laser. Fixed memory; only the constructor
-/// allocates. One writer until the frame is handed over, then readers only.
+/// Returns are numbered in order of arrival: by firing, then by laser. Fixed memory; only the
+/// constructor allocates. One writer until the frame is handed over, then readers only.
 class MeasuredReturns {
  public:
   /// The returns of one laser in a tile; masks have one bit per firing.
@@ -33,16 +33,16 @@ class MeasuredReturns {
     bool is_run = false;
   };
   struct Tile {
-    TileHeads heads;                      ///< Head positions, counted from the start of this frame.
+    TileHeads heads;                      ///< Azimuths, counted from the start of this frame.
     TileRow<std::uint32_t> first_return;  ///< The number of each firing's first return.
     std::int32_t least = 0, most = -1;    ///< The least and the greatest column over all lasers.
   };
   /// A tile to be added.
   struct NewTile {
-    TileHeads heads;           ///< Head positions, counted from the start of this frame.
+    TileHeads heads;           ///< Azimuths, counted from the start of this frame.
     const std::uint16_t* raw;  ///< Wire distances, laser by laser, kTileFirings each; 0: no return.
     const std::uint8_t* intensity;
-    /// Columns of the beams, indexed by laser; this frame begins at `first_column`.
+    /// Columns of the beams, indexed by laser; this frame's columns begin at `first_column`.
     std::span<const BeamColumns> beams;
     std::int32_t first_column;
   };
@@ -57,9 +57,9 @@ class MeasuredReturns {
   void clear() noexcept TERRACUT_NONBLOCKING;
 
   /// Adds the part of a tile that belongs to this frame. If several returns fall into a cell,
-  /// `owner` says which of them owns the cell (the earlier if equal). `reader` is the sensor's; its
-  /// open tile is closed. Returns the number of returns for which there was no room. Real-time
-  /// safe; a return that finds its cell taken costs more than others, up to a look at all tiles.
+  /// `owner` says which of them owns it (the earlier if equal). `reader` is the sensor's; any tile
+  /// open in it is closed. Returns the number of returns for which there was no room. Real-time
+  /// safe; a return whose cell is taken costs more than others, at worst a search of all tiles.
   [[nodiscard]] std::uint32_t add(const NewTile& tile, CellOwner owner,
                                   TileReader& reader) noexcept TERRACUT_NONBLOCKING;
 
@@ -108,17 +108,18 @@ class MeasuredReturns {
   void number_returns(const NewTile& tile, Tile& added, std::span<const LaserRow> rows) noexcept;
   void take_cells(const NewTile& tile, std::size_t laser, std::uint32_t hits, int row,
                   CellOwner owner, TileReader& reader) noexcept;
-  /// Settles pairs: among the returns `left` of a laser, those whose cell belongs to the firing
-  /// just before, the other return of the same beam. Decides the owner of such a cell if no points
-  /// are needed for it, and returns the firings decided.
+  /// Of the returns `left` of a laser, handles those whose cell belongs to the previous firing, the
+  /// other return of the same beam. Decides the owner of such a cell if this needs no points, and
+  /// returns the mask of firings decided.
   [[nodiscard]] std::uint32_t take_pairs(std::size_t laser, int row, std::uint32_t left,
                                          CellOwner owner) noexcept;
-  /// Places a return whose cell may be taken.
+  /// Places a return in a cell that may be taken already.
   void take_cell(const Place& at, int row, int column, CellOwner owner,
                  TileReader& reader) noexcept;
   /// Prefetches the next tile's memory: three frames do not fit the caches next to a core.
   void fetch_next() const noexcept;
-  /// Returns which return owns a cell, among those up to `newest`; the cell has an owner.
+  /// Returns the return that owns a cell, considering those up to `newest`; the cell must have an
+  /// owner.
   [[nodiscard]] Place owner_before(const Place& newest, int row, int column,
                                    TileReader& reader) const noexcept;
   [[nodiscard]] bool goes_before(const Place& newer, const Place& older, CellOwner owner,

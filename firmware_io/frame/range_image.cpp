@@ -46,7 +46,7 @@ void RangeImage::move(std::span<const PlanarMotions> by_row) noexcept {
   const auto columns = static_cast<std::size_t>(shape_.columns);
   const auto stride = static_cast<std::size_t>(stride_);
   for (std::size_t row = 0; row < by_row.size(); ++row) {
-    // Cells without a return are moved as well: leaving them out costs more.
+    // Cells without a return are moved as well: skipping them would cost more.
     float* const __restrict x_m = x_m_.subspan(row * stride, columns).data();
     float* const __restrict y_m = y_m_.subspan(row * stride, columns).data();
     float* const __restrict ground_range_m = ground_range_m_.subspan(row * stride, columns).data();

@@ -70,8 +70,8 @@ class RangeImage {
 
   /// Puts a return into its cell. If the cell is taken, `owner` says which of the two returns keeps
   /// it (the earlier if equal); the other goes to the overflow list. Returns are numbered in the
-  /// order of these calls. False when the overflow list is full: the return is not kept and the
-  /// caller must count it. row in [0, rows), column in [0, columns); coordinates are not NaN.
+  /// order of these calls. Returns false if the overflow list is full: the return is not kept, and
+  /// the caller must count it. row in [0, rows), column in [0, columns); coordinates are not NaN.
   /// Real-time safe.
   bool place(int row, int column, const Return& point,
              CellOwner owner = CellOwner::kFirstArrived) noexcept {
@@ -80,8 +80,8 @@ class RangeImage {
     return true;
   }
 
-  // The next functions place returns in another order than they arrived: first take numbers for the
-  // returns, then place these in any order.
+  // The next functions place returns out of order: take_numbers() first gives the returns their
+  // numbers, then they are placed in any order.
 
   /// True if the overflow list has room for `count` more returns.
   [[nodiscard]] bool has_room_for(std::size_t count) const noexcept {
@@ -114,8 +114,9 @@ class RangeImage {
     std::uint8_t* intensity;
     std::uint32_t* return_index;
   };
-  /// Returns the cells to write `count` adjacent returns to, whose numbers were taken. The row must
-  /// be is_empty_from() the first column. Write a NaN height for no return.
+  /// Returns the cells for `count` adjacent returns whose numbers were taken; the caller fills
+  /// them. The row must be is_empty_from() the first column. A cell without a return gets a NaN
+  /// height.
   [[nodiscard]] Cells take_cells(int row, int column, int count) noexcept {
     empty_from_[static_cast<std::size_t>(row)] = column + count;
     const std::size_t cell = shape_.cell(row, column);

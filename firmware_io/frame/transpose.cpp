@@ -11,7 +11,7 @@ using EightWords = std::uint16_t __attribute__((vector_size(16)));
 using SixteenBytes = std::uint8_t __attribute__((vector_size(16)));
 using TwoRows = std::uint64_t __attribute__((vector_size(16)));
 
-// These functions interleave the first halves of two vectors, and the second halves.
+// first_in_turn() interleaves the first halves of two vectors, second_in_turn() the second halves.
 EightWords first_in_turn(EightWords a, EightWords b) noexcept {
   return __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
 }
@@ -26,9 +26,9 @@ SixteenBytes second_in_turn(SixteenBytes a, SixteenBytes b) noexcept {
                                  31);
 }
 
-/// Transposes eight rows of eight values, which `all` holds one after the other. Each round
-/// interleaves the first half of the vectors with the second, which rotates the bits of the values'
-/// indices by one.
+/// Transposes eight rows of eight values, stored one after the other in `all`. Each round
+/// interleaves the first half of the vectors with the second half, which rotates the bits of the
+/// values' indices by one.
 template <class Vector, std::size_t kVectors>
 [[gnu::always_inline]] inline void turn(Vector (&all)[kVectors]) noexcept {
   for (int round = 0; round < 3; ++round) {

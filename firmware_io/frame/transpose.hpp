@@ -9,8 +9,8 @@
 
 namespace terracut::frame {
 
-/// Transposes a matrix, in blocks of eight: `to` gets `columns` rows of `rows` values. Both counts
-/// are multiples of 8.
+/// Transposes a matrix in blocks of eight by eight: `to` gets `columns` rows of `rows` values. Both
+/// counts are multiples of 8.
 void transpose(const std::uint16_t* from, std::size_t rows, std::size_t columns,
                std::uint16_t* to) noexcept TERRACUT_NONBLOCKING;
 void transpose(const std::uint8_t* from, std::size_t rows, std::size_t columns,

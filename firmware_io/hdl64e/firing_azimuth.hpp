@@ -30,16 +30,16 @@
 /// and noexcept; any thread.
 namespace terracut::hdl64e {
 
-/// Returns how far the head rotates from column to column, in ticks, from the packet's first and
-/// last azimuth as sent, [0, 36000). Exact: both divisors divide kTicksPerCdeg.
+/// Returns how far the head rotates from one column to the next, in ticks, from the packet's first
+/// and last azimuth as sent, [0, 36000). Exact: both divisors divide kTicksPerCdeg.
 [[nodiscard]] constexpr std::int32_t column_step_ticks(int first_cdeg, int last_cdeg,
                                                        bool dual_return = false) noexcept {
   const int columns = dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle;
   return beams::step_cdeg(first_cdeg, last_cdeg) * (packet::kTicksPerCdeg / (columns - 1));
 }
 
-/// A share says after which part of the column period laser 0..31 of a block fires, in 1 / 2^20 of
-/// that period.
+/// A firing share is the part of the column period after which laser 0..31 of a block fires, in
+/// units of 1 / 2^20.
 inline constexpr int kFiringShareBits = 20;
 [[nodiscard]] constexpr std::array<std::int64_t, kLasersPerBlock> firing_shares(
     const FiringTimes& times) noexcept {
@@ -50,9 +50,9 @@ inline constexpr int kFiringShareBits = 20;
   }
   return shares;
 }
-/// Shares for single return, always those of the 48 us cycle. Which cycle a unit runs is known only
-/// after some packets, while the first packet needs an answer; the shares of the 57.6 us cycle
-/// differ by at most 0.013 of a step (0.002 degrees at 10 Hz).
+/// The shares for single return are those of the 48 us cycle for all units. The cycle of a unit
+/// shows only after some packets, but its first packet already needs shares; those of the 57.6 us
+/// cycle differ by at most 0.013 of a step (0.002 degrees at 10 Hz).
 inline constexpr auto kFiringSharesSingle = firing_shares(kFiringTimesSingle48);
 inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
 
@@ -65,7 +65,8 @@ inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
   return static_cast<std::int32_t>((step_ticks * share) >> kFiringShareBits);
 }
 
-/// Returns a laser's rotational correction in ticks, for all azimuths in whole numbers.
+/// Returns a laser's rotational correction rounded to ticks, as all azimuths in whole numbers use
+/// it.
 [[nodiscard]] inline std::int32_t rot_correction_ticks(const Hdl64eLaser& laser) noexcept {
   return static_cast<std::int32_t>(std::lround(laser.rot_correction_rad / packet::kRadPerTick));
 }
@@ -87,8 +88,7 @@ class BeamOffsets {
     return firing_advance_ticks(step_ticks, laser, dual_return) -
            rot_ticks_[static_cast<std::size_t>(laser)];
   }
-  /// hindmost_ticks() and foremost_ticks() return limits of the offsets of all beams, both
-  /// included.
+  /// hindmost_ticks() and foremost_ticks() return the least and the greatest offset of all beams.
   [[nodiscard]] std::int32_t hindmost_ticks() const noexcept { return -most_rot_ticks_; }
   [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
     return step_ticks - least_rot_ticks_;

@@ -36,7 +36,7 @@ std::optional<frame::Reject> Hdl64eSensor::check(const packet::Datagram& datagra
 void Hdl64eSensor::read_column(std::span<const std::uint8_t> payload, std::size_t column,
                                const Returns& found) const noexcept {
   const auto* packet = packet_in(payload);
-  if (packet == nullptr) return;  // check() has ruled this out
+  if (packet == nullptr) return;  // cannot happen: check() has accepted the packet
   if (is_s1_packet_) return read_s1_column(packet->blocks[column], found);
   for (std::size_t half = 0; half < 2; ++half) {
     const auto& returns = packet->blocks[2 * column + half].returns;

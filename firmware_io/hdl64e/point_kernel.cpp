@@ -34,8 +34,8 @@ PointKernel::PointKernel(const Hdl64eCalibration& calibration, GeometryModel mod
         .sin_vert = static_cast<float>(sin_vert),
         .cos_vert = static_cast<float>(cos_vert),
         .far_m = static_cast<float>(far_m),
-        // The correction is near + slope * (distance - near point); its constant terms are
-        // combined.
+        // The correction is near + slope * (distance - near point); its constant terms are combined
+        // here.
         .near_x_m = static_cast<float>(near_x_m - slope_x * kNearPointX_m),
         .near_y_m = static_cast<float>(near_y_m - slope_y * kNearPointY_m),
         .slope_x = static_cast<float>(slope_x),

@@ -44,7 +44,8 @@ class PointKernel {
   };
 
   /// Everything that this function reads and writes is a parameter, so that it can be __restrict:
-  /// otherwise the loop is not vectorised in clones.
+  /// otherwise the compiler does not vectorise the loop in the function's clones
+  /// (TERRACUT_VECTOR_CLONES).
   void compute(const Laser& __restrict laser, const float* __restrict sin_rotor,
                const float* __restrict cos_rotor, const float* __restrict sin_advance,
                const float* __restrict cos_advance, const float* __restrict measured_m,

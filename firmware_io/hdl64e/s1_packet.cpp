@@ -31,7 +31,7 @@ std::optional<frame::Reject> check_hdl64e_s1_packet(const wire::Packet& packet,
 
   azimuths.step_ticks = advance_cdeg * packet::kTicksPerCdeg / (kColumnsPerPacketS1 - 1);
   azimuths.pace_ticks = azimuths.step_ticks * kColumnsPerPacketS1;
-  // The next packet's first mark may be one mark beyond the mean step.
+  // The azimuth of the next packet may be one encoder mark beyond the mean step.
   constexpr std::int32_t kHalfMark_ticks = kS1Mark_cdeg * packet::kTicksPerCdeg / 2;
   azimuths.sweep_ticks = azimuths.pace_ticks + kHalfMark_ticks;
   azimuths.widest_ticks = azimuths.sweep_ticks;

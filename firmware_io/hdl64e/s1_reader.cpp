@@ -15,7 +15,7 @@ constexpr std::int64_t rounded(std::int64_t value, std::int64_t unit) noexcept {
   return (value >= 0 ? value + unit / 2 : value - unit / 2) / unit;
 }
 
-/// Returns the device stamp of the packet with this number.
+/// Returns the made-up device stamp of packet number `packet`.
 constexpr std::int64_t stamp_us(std::int64_t packet) noexcept {
   constexpr std::int64_t kHour_us = kDeviceHour_us;
   const std::int64_t in_hour_us = packet * kS1Packet_ns / 1000 % kHour_us;
@@ -35,7 +35,7 @@ std::int64_t S1Reader::mean_pace(std::int32_t pace_ticks) noexcept {
 
 std::int64_t S1Reader::missing_revolutions(std::int64_t rotated_ticks, std::int64_t pace_ticks,
                                            std::int64_t host_ns) const noexcept {
-  // Wraps, because the stamps of a capture may be anything.
+  // The difference wraps instead of overflowing, because the stamps of a capture may be anything.
   const auto since_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(host_ns) -
                                                   static_cast<std::uint64_t>(host_ns_));
   if (since_ns <= 0 || since_ns > kLongestOutage_ns) return 0;

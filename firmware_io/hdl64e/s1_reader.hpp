@@ -11,11 +11,11 @@
 
 namespace terracut::hdl64e {
 
-/// Reads the packets of one HDL-64E S1 and makes up the device stamps that it does not send, so
-/// that its packets are ordered and counted like those of other sensors. The number of a packet
-/// grows by the head's rotation since the last packet, divided by the rotation in one packet. This
-/// is exact up to whole revolutions, which are taken from the host's stamps. The stamp is the
-/// number times the packet period.
+/// Reads the packets of one HDL-64E S1, which sends no device stamps, and gives them stamps, so
+/// that they are ordered and counted like those of other sensors. A packet's number is the number
+/// of the last packet, plus the head's rotation since then divided by the rotation in one packet.
+/// This is exact up to whole revolutions, which are taken from the host's stamps. The device stamp
+/// is the number times the packet period.
 ///
 /// Packets lost while the head stands still are not noticed.
 ///
@@ -23,13 +23,13 @@ namespace terracut::hdl64e {
 class S1Reader {
  public:
   /// Checks a packet that came at `host_ns` by check_hdl64e_s1_packet(), and sets its device stamp.
-  /// If the packet's azimuths tell nothing, it gets the stamp that the next packet should have.
+  /// A packet with useless azimuths gets the stamp that the next packet should have.
   [[nodiscard]] std::optional<frame::Reject> read(const wire::Packet& packet, std::int64_t host_ns,
                                                   packet::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;
 
  private:
-  /// Returns the number of a packet of a rotating head.
+  /// Returns the number of a packet (see above) while the head rotates.
   [[nodiscard]] std::int64_t number_of(const packet::PacketAzimuths& azimuths,
                                        std::int64_t host_ns) noexcept;
   void take(std::int64_t packet, std::int32_t azimuth_cdeg, std::int64_t host_ns) noexcept {
@@ -46,7 +46,7 @@ class S1Reader {
   std::int64_t packet_ = 0;
   std::int32_t azimuth_cdeg_ = 0;
   std::int64_t host_ns_ = 0;
-  /// Sums over some hundred packets, because marks are coarse.
+  /// Sums of the rotation in a packet over some hundred packets, because encoder marks are coarse.
   std::int64_t paces_ticks_ = 0, paces_ = 0;
 };
 

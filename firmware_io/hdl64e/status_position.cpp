@@ -16,9 +16,9 @@ namespace {
 constexpr std::int64_t kShortestPeriod_us = 100;
 constexpr std::int64_t kLongestPeriod_us = 1000;
 
-// The longest gap across which a packet's cycle is certain. Letters tell a number only modulo 16,
-// and the period may be wrong by 1 in 288 when it is known from one pair of stamps in whole
-// microseconds.
+// The longest gap after which a packet's cycle is certain. Letters tell a packet's number only
+// modulo 16, and the period may be wrong by 1 in 288 while it is known from only one pair of stamps
+// in whole microseconds.
 constexpr std::int64_t kLongestGap_packets = 896;
 constexpr std::int64_t kDriftPerPackets = 128;
 constexpr std::int64_t kLongestReorder_packets = 64;

@@ -16,7 +16,8 @@ namespace terracut::hdl64e {
 class StatusPosition {
  public:
   struct Located {
-    /// Number of the packet: modulo 16 its place in the cycle, divided by 16 the cycle.
+    /// Number of the packet: modulo 16 it is the packet's place in its cycle, divided by 16 the
+    /// cycle's number.
     std::int64_t packet = 0;
     /// True if the count began again: earlier numbers are no longer valid.
     bool restarted = false;

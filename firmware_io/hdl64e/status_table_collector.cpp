@@ -98,8 +98,8 @@ void StatusTableCollector::add(std::int64_t cycle, int place, std::uint8_t value
   const bool moved = begins && anchor_ != kNoAnchor && row != anchor_;
   const bool lost = row == anchor_ && !begins;
   if (moved || lost) {
-    // The cycles were miscounted because a gap was longer than the stamps told, so the bytes
-    // collected before the gap are in wrong places.
+    // A gap was longer than the stamps say, so the cycles were miscounted: the bytes collected
+    // before the gap are in wrong places.
     clear();
     return;
   }

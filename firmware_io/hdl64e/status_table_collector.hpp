@@ -22,8 +22,8 @@ class StatusTableCollector {
  public:
   using Table = std::array<std::uint8_t, kStreamTableBytes>;
 
-  /// Takes one byte: `cycle` is the number of its cycle, counted from any start, `place` its place
-  /// 0..6 in the cycle.
+  /// Takes one byte. `cycle` is the number of its cycle, counted from any start; `place` in 0..6 is
+  /// its place in the cycle.
   void add(std::int64_t cycle, int place, std::uint8_t value) noexcept;
 
   /// Drops the bytes collected, but keeps the table accepted last.
@@ -39,8 +39,8 @@ class StatusTableCollector {
   /// Does nothing while holes remain. Takes a few microseconds, and only if bytes have changed.
   void try_accept(bool has_crc) noexcept;
 
-  /// These return whether a table was accepted, the table, and how many different ones were
-  /// accepted.
+  /// Each returns one fact: whether a table was accepted, the table, and how many different ones
+  /// were accepted.
   [[nodiscard]] bool accepted() const noexcept { return generation_ != 0; }
   [[nodiscard]] const Table& table() const noexcept { return accepted_; }
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }

@@ -7,8 +7,8 @@
 namespace terracut::net {
 
 /// Converts a 32-bit count that the kernel keeps and wraps (SO_RXQ_OVFL, SO_MEMINFO, pcap_stats)
-/// into the increase since the last reading. If the count is read in two ways, one may lag: a
-/// reading below the newest adds nothing, instead of four thousand million.
+/// into its increase since the last reading. If the count is read in two ways, one may lag behind
+/// the other: an older reading adds nothing, instead of 2^32.
 class DropCounter {
  public:
   /// Returns the increase since the newest reading; 0 for an older one. Exact as long as fewer than

@@ -22,7 +22,7 @@ static_assert(DatagramSource<LivePcapSource>);
 
 constexpr std::int64_t kLookEvery_ns = 500'000'000;
 constexpr int kBufferBytes = 8 << 20;  ///< Size of the kernel's ring.
-/// Room for link layer, VLAN tags, the longest IP header and UDP's.
+/// Room for the link-layer header, VLAN tags, the longest IP header and the UDP header.
 constexpr std::size_t kMostHeaderBytes = 128;
 
 Error refused(const std::string& interface, int result, ::pcap* handle) {
@@ -153,7 +153,8 @@ std::span<const packet::Datagram> LivePcapSource::receive(std::int64_t timeout_n
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
     if (const std::size_t count = read_batch(); count > 0) {
-      link_ = LinkState::kUp;  // the socket was empty when the link was found down
+      // the socket was empty when the link was found down, so it has come up since
+      link_ = LinkState::kUp;
       return datagrams_.first(count);
     }
     const std::int64_t now_ns = measure::monotonic_ns();

@@ -32,12 +32,12 @@ struct LivePcapConfig {
   std::size_t slot_bytes = 1536;        ///< The longest payload accepted, > 0.
 };
 
-/// Receives UDP datagrams on an interface with libpcap, for cases in which a socket does not get
-/// them: the sensor sends to another machine's address, a firewall is in the way, or another
-/// program holds the port. A DatagramSource (receive_counters.hpp); needs CAP_NET_RAW.
+/// Receives UDP datagrams on an interface with libpcap, where a socket does not get them: the
+/// sensor sends to another machine's address, a firewall blocks them, or another program holds the
+/// port. A DatagramSource (receive_counters.hpp); needs CAP_NET_RAW.
 ///
-/// open() takes all memory. If the interface goes away, receive() returns empty and tries twice a
-/// second to open the interface again; only this allocates.
+/// open() takes all memory. If the interface disappears, receive() returns nothing and tries twice
+/// a second to open it again; only this allocates.
 class LivePcapSource {
  public:
   /// Opens the interface. Fails with kNotFound if there is none of this name, kUnreadable if not

@@ -120,7 +120,7 @@ void PacketRing::copy_to(PacketWindow& window) const noexcept {
   const std::uint64_t end = published_.load(std::memory_order_acquire);
   const std::uint64_t announced = announced_.load(std::memory_order_relaxed);
   const std::uint64_t announced_words = announced_words_.load(std::memory_order_relaxed);
-  // The ring holds the datagrams and words that no announcement has reached yet.
+  // The ring still holds a datagram if no announcement has reached its header or its words.
   const std::uint64_t begin = announced > headers_.size() ? announced - headers_.size() : 0;
   const auto held = [&](std::uint64_t first_word) {
     return first_word + words_.size() >= announced_words;
@@ -130,7 +130,7 @@ void PacketRing::copy_to(PacketWindow& window) const noexcept {
   window.payload_bytes_ = 0;
   window.overwritten_ = 0;
   std::size_t free_word = 0;
-  // Drops what was copied: a gap inside the window would look like lost packets.
+  // Drops the datagrams copied so far: a gap inside the window would look like lost packets.
   const auto start_again = [&] {
     window.overwritten_ += window.datagrams_ + 1;
     window.datagrams_ = 0;

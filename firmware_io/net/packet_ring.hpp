@@ -89,7 +89,7 @@ class PacketRing {
   /// one reader thread. Allocates nothing.
   void copy_to(PacketWindow& window) const noexcept;
 
-  /// Returns how many datagrams were added since construction, overwritten ones included. Any
+  /// Returns how many datagrams were added since construction, including overwritten ones. Any
   /// thread.
   [[nodiscard]] std::uint64_t added() const noexcept {
     return published_.load(std::memory_order_acquire);
@@ -111,9 +111,10 @@ class PacketRing {
   std::uint64_t next_word_ = 0;  ///< Where the payload of the next datagram begins.
   std::size_t next_header_at_ = 0, next_word_at_ = 0;  ///< next_ and next_word_ modulo the ring.
 
-  std::atomic<std::uint64_t> announced_{0};        ///< Number of datagrams begun.
-  std::atomic<std::uint64_t> announced_words_{0};  ///< Number of words given to datagrams begun.
-  std::atomic<std::uint64_t> published_{0};        ///< Number of datagrams complete.
+  std::atomic<std::uint64_t> announced_{0};  ///< Number of datagrams that the writer has begun.
+  /// Number of words of all datagrams that the writer has begun.
+  std::atomic<std::uint64_t> announced_words_{0};
+  std::atomic<std::uint64_t> published_{0};  ///< Number of datagrams that are complete.
 };
 
 }  // namespace terracut::net

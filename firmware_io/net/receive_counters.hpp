@@ -51,7 +51,7 @@ struct ReceiveCounters {
 enum class LinkState : std::uint8_t { kUnknown, kUp, kDown, kGone };
 
 /// The most datagrams that a source fetches at once by default: an HDL-64E sends 70 in 20 ms. If
-/// fewer were fetched, counting those left out, no others were waiting.
+/// fewer came, counting those left out, none was left waiting.
 inline constexpr std::size_t kBatchDatagrams = 64;
 
 /// The interface of UdpSource and LivePcapSource, for code that takes either:

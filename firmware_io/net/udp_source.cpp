@@ -131,8 +131,8 @@ tl::expected<UdpSource::Socket, UdpSource::Failure> UdpSource::open_socket(
     socket.bound_to_interface =
         ::setsockopt(descriptor, SOL_SOCKET, SO_BINDTODEVICE, config.interface.c_str(),
                      static_cast<socklen_t>(config.interface.size() + 1)) == 0;
-    // A process that may not bind to an interface reads each datagram's interface from in_pktinfo.
-    // Binding to the interface's address instead would shut out broadcasts.
+    // A process without the right to bind to an interface checks each datagram's interface
+    // (in_pktinfo). Binding to the interface's address instead would shut out broadcasts.
     if (!socket.bound_to_interface && errno != EPERM) return failed(Step::kInterface);
   }
   const sockaddr_in address = socket_address(config.bind);
@@ -203,7 +203,7 @@ std::span<const packet::Datagram> UdpSource::receive(std::int64_t timeout_ns) no
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
     if (const std::size_t count = read_batch(); count > 0) {
-      // The socket was empty when the link was found down, so this datagram has come since then.
+      // The socket was empty when the link was found down, so the link has come up since.
       if (link_ != LinkState::kUnknown) link_ = LinkState::kUp;
       return datagrams_.first(count);
     }
@@ -215,7 +215,7 @@ std::span<const packet::Datagram> UdpSource::receive(std::int64_t timeout_ns) no
   }
 }
 
-/// Reads the datagrams that are ready, up to a batch; puts the wanted ones at the front of
+/// Reads the datagrams that are ready, at most a batch; moves those to deliver to the front of
 /// datagrams_.
 std::size_t UdpSource::read_batch() noexcept {
   if (!socket_.descriptor) return 0;
@@ -244,7 +244,7 @@ std::size_t UdpSource::read_batch() noexcept {
   return kept;
 }
 
-/// Takes the datagram in a slot; false for a datagram that is not delivered but counted.
+/// Converts the datagram in `slot`; false if it is only counted, not delivered.
 bool UdpSource::take(std::size_t slot, packet::Datagram& datagram) noexcept {
   ::msghdr& header = messages_[slot].msg_hdr;
   const Ipv4Endpoint sender = endpoint_of(senders_[slot]);
@@ -313,13 +313,14 @@ void UdpSource::refresh_drops() noexcept {
   }
 }
 
-/// Checks multicast group and interface, but only when nothing came, and not often.
+/// Looks after the multicast group and the interface: only when nothing came, and not often.
 void UdpSource::look_after(std::int64_t now_ns) noexcept {
   if (now_ns < next_look_ns_) return;
   next_look_ns_ = now_ns + kLookEvery_ns;
   refresh_drops();
   if (!config_.interface.empty()) look_after_interface();
-  // A membership goes away with its interface; joining again where it still holds does nothing.
+  // The kernel forgets the membership when the interface disappears; joining again while it holds
+  // does nothing.
   if (config_.multicast_group && socket_.descriptor) {
     threads::trusted_call([this]() noexcept {  // may take its time: no datagram is waiting
       join(socket_.descriptor.get(), config_, socket_.interface_index);

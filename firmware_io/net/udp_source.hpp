@@ -32,7 +32,7 @@ namespace terracut::net {
 struct UdpSourceConfig {
   /// The address and port that the sensor sends to. Leave the address 0 unless only one of this
   /// machine's addresses is to be used: a socket bound to an address gets no broadcasts, and an
-  /// HDL-64E broadcasts until configured otherwise. Port 0 lets the system choose (see
+  /// HDL-64E broadcasts until configured otherwise. With port 0 the system chooses a port (see
   /// UdpSource::local()).
   Ipv4Endpoint bind{};
   /// The multicast group to join: on `interface` if that is set, else on the interface that the
@@ -49,12 +49,12 @@ struct UdpSourceConfig {
   std::size_t slot_bytes = 1536;  ///< The longest payload accepted, > 0; one Ethernet frame.
 };
 
-/// Receives UDP datagrams over IPv4, many for one system call, with the kernel's time stamps and
+/// Receives UDP datagrams over IPv4, many with one system call, with the kernel's time stamps and
 /// its count of drops. A DatagramSource (receive_counters.hpp).
 ///
 /// open() takes all memory; receive() never allocates, throws or waits longer than told. If an
-/// interface goes down, or goes away and comes back under its name, receive() returns empty, looks
-/// for the interface twice a second, opens the socket again when possible, and counts.
+/// interface goes down, or disappears and comes back under its name, receive() returns nothing,
+/// looks for the interface twice a second, opens the socket again when possible, and counts.
 class UdpSource {
  public:
   /// Opens the socket. Fails with kInvalidArgument for a setting out of its range; kNotFound if

@@ -14,21 +14,21 @@
 /// noexcept; any thread.
 namespace terracut::packet {
 
-/// Returns the head azimuth at a firing, for the geometries of calib: radians, clockwise from
-/// straight ahead, [0, 2 pi + a step). `column_cdeg` may be unwrapped (any revolution).
+/// Returns the head's azimuth at a firing in the form that the geometries of calib take: radians,
+/// clockwise from straight ahead, [0, 2 pi + a step). `column_cdeg` may count on over revolutions.
 [[nodiscard]] constexpr double firing_azimuth_rad(std::int64_t column_cdeg,
                                                   std::int32_t advance_ticks) noexcept {
   return (beams::wrap_cdeg(column_cdeg) * kTicksPerCdeg + advance_ticks) * kRadPerTick;
 }
 
-/// The azimuth of a beam: its frame, and the angle within the frame.
+/// The azimuth of a beam: the frame it falls into, and the azimuth in that frame.
 struct BeamAzimuth {
   std::int64_t frame = 0;
   std::int32_t in_revolution_ticks = 0;  ///< [0, kRevolution_ticks)
 };
 
-/// Returns the azimuth of the beam `offset_ticks` away from a column's azimuth. `column_cdeg` is
-/// unwrapped: it grows by 36000 each revolution of the head. |offset| < one revolution.
+/// Returns the azimuth of the beam `offset_ticks` away from its column's azimuth; less than a
+/// revolution. `column_cdeg` counts on over revolutions: it grows by 36000 in each.
 [[nodiscard]] constexpr BeamAzimuth beam_azimuth(std::int64_t column_cdeg,
                                                  std::int32_t offset_ticks) noexcept {
   const std::int32_t rotor_cdeg = beams::wrap_cdeg(column_cdeg);
@@ -44,8 +44,8 @@ struct BeamAzimuth {
   return beam;
 }
 
-/// Returns a beam's column in the range image: floor(in_revolution / pitch), [0, columns). columns
-/// in [1, 36000].
+/// Returns a beam's column in the range image: floor(in_revolution_ticks / width of a column), [0,
+/// columns). `columns` is in [1, 36000].
 [[nodiscard]] constexpr int column_of(std::int32_t in_revolution_ticks, int columns) noexcept {
   return static_cast<int>(std::int64_t{in_revolution_ticks} * columns / kRevolution_ticks);
 }

@@ -73,7 +73,7 @@ TERRACUT_VECTOR_CLONES void find_columns(const std::int32_t* __restrict rotor_co
 
 namespace {
 
-/// The tables are parameters so that they can be __restrict.
+/// The function takes the tables as parameters so that they can be __restrict.
 TERRACUT_VECTOR_CLONES void fill(const std::uint16_t* __restrict raw,
                                  const std::uint8_t* __restrict intensity,
                                  std::uint32_t* __restrict numbers,

@@ -31,7 +31,8 @@ struct FiringReturns {
   std::span<std::uint8_t, kLasers> intensity;
 };
 
-/// The returns of some firings: stored as they arrive, and after turn() sorted by laser.
+/// The returns of kTileFirings firings, first stored as they arrive, then sorted by laser by
+/// turn().
 template <std::size_t kLasers>
 struct FiringTile {
   alignas(64) std::array<std::array<std::uint16_t, kLasers>, kTileFirings> arrived_raw;
@@ -49,8 +50,8 @@ struct FiringTile {
   }
 };
 
-/// Converts wire distances of one laser to metres. No return becomes NaN, so that everything
-/// computed from it is NaN, too.
+/// Converts wire distances of one laser to metres. No return becomes NaN, and so does everything
+/// computed from it.
 inline void measure(const std::uint16_t* __restrict raw, float metres_per_count,
                     float* __restrict measured_m) noexcept {
   constexpr std::int32_t kNan = 0x7FC0'0000;
@@ -61,8 +62,8 @@ inline void measure(const std::uint16_t* __restrict raw, float metres_per_count,
   }
 }
 
-/// An angle in columns of the range image: whole columns, and a remainder in parts of a column, [0,
-/// kRevolution_ticks). A column has kRevolution_ticks parts.
+/// An angle measured in columns of the range image: whole columns, and the rest in parts of a
+/// column, [0, kRevolution_ticks). A column has kRevolution_ticks parts.
 struct ColumnAngle {
   std::int32_t whole = 0, rest = 0;
 };
@@ -73,8 +74,8 @@ struct ColumnAngle {
           static_cast<std::int32_t>(rest)};
 }
 
-/// Returns sine and cosine of an angle in [0, 1e5] ticks: below a degree two terms of each series
-/// are exact to a float.
+/// Returns sine and cosine of an angle in [0, 1e5] ticks. This is at most a degree, for which two
+/// terms of each series are exact in float.
 [[nodiscard]] constexpr SinCos small_advance(std::int32_t ticks) noexcept {
   const float a = static_cast<float>(ticks) * static_cast<float>(kRadPerTick);
   const float aa = a * a;
@@ -89,12 +90,11 @@ struct GroupHeads {
   alignas(64) std::array<TileRow<float>, kGroups> sin_advance, cos_advance;
 };
 
-/// Fills one row with each value of `values`; `rows` holds the rows one after the other.
+/// Fills row i with values[i]; `rows` holds the rows one after the other.
 void fill_rows(std::span<const float> values, float* rows) noexcept TERRACUT_NONBLOCKING;
 void fill_rows(std::span<const std::int32_t> values,
                std::int32_t* rows) noexcept TERRACUT_NONBLOCKING;
-/// Fills the masked firings of one row with each value of `values`; `rows` holds the rows one after
-/// the other.
+/// Writes values[i] into the masked firings of row i; `rows` holds the rows one after the other.
 void spread_rows(std::span<const float> values, const frame::TileRow<std::int32_t>& mask,
                  float* rows) noexcept TERRACUT_NONBLOCKING;
 void spread_rows(std::span<const std::int32_t> values, const frame::TileRow<std::int32_t>& mask,
@@ -111,8 +111,8 @@ template <std::size_t kGroups>
           heads.cos_advance[group].data()};
 }
 
-/// Finds what beam_azimuth() and column_of() (beam_azimuth.hpp) find, but in integers that fit
-/// vectors: adds the whole columns of head, advance and beam offset, then the parts of a column.
+/// Finds what beam_azimuth() and column_of() (beam_azimuth.hpp) find, but in integers small enough
+/// for vectors: adds up the whole columns of head, advance and beam offset, then the rests.
 /// `advance_column` and `advance_rest` are those of the laser's group.
 void find_columns(const std::int32_t* __restrict rotor_column,
                   const std::int32_t* __restrict rotor_rest,
@@ -120,8 +120,8 @@ void find_columns(const std::int32_t* __restrict rotor_column,
                   const std::int32_t* __restrict advance_rest, ColumnAngle offset,
                   BeamColumns& __restrict found) noexcept TERRACUT_NONBLOCKING;
 
-/// Writes intensities and return numbers into a run of empty cells; the points are written
-/// elsewhere. `numbers` has the next return number of each firing.
+/// Writes intensities and return numbers into a run of empty cells, but not the points. `numbers`
+/// holds the next return number of each firing.
 void fill_cells(const TileRow<std::uint16_t>& raw, const TileRow<std::uint8_t>& intensity,
                 const frame::RangeImage::Cells& cells,
                 TileRow<std::uint32_t>& numbers) noexcept TERRACUT_NONBLOCKING;

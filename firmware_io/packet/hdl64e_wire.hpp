@@ -69,7 +69,7 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 /// Returns the packet that `payload` holds, read in place; null unless it is exactly 1206 bytes
 /// long. Block ids and azimuths are not checked. Valid as long as the payload is.
 [[nodiscard]] inline const wire::Packet* packet_in(std::span<const std::uint8_t> payload) noexcept {
-  // The packet consists of bytes, so any address will do.
+  // The cast is safe: the packet consists of bytes, which need no alignment.
   return payload.size() == sizeof(wire::Packet)
              ? reinterpret_cast<const wire::Packet*>(payload.data())
              : nullptr;
@@ -83,7 +83,8 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
          packet.blocks[2].id.value() == kUpperBlockId;
 }
 
-/// True if there are upper and lower blocks and no others, and at least twice as many upper ones.
+/// True for an HDL-64E S1: all blocks are upper or lower ones, both occur, and upper ones at least
+/// twice as often.
 [[nodiscard]] constexpr bool is_hdl64e_s1(const wire::Packet& packet) noexcept {
   int upper = 0, lower = 0;
   for (const wire::Block& block : packet.blocks) {
@@ -116,8 +117,8 @@ std::span<const std::uint8_t, kHdl64ePacketBytes> payload_of(wire::Packet&&) = d
 
 // --- The device clock ---
 
-/// Returns the device time from `earlier_us` to `later_us`, the shorter way round the hour: [-30
-/// min, 30 min).
+/// Returns the device time from `earlier_us` to `later_us`. The clock wraps each hour; of the two
+/// possible steps the shorter one is returned, in [-30 min, 30 min).
 [[nodiscard]] constexpr std::int64_t device_step_us(std::uint32_t earlier_us,
                                                     std::uint32_t later_us) noexcept {
   return packet::clock_step_us(earlier_us, later_us, kDeviceHour_us);

@@ -7,8 +7,7 @@
 
 namespace terracut::packet {
 
-/// An interval [from, to) of head azimuth, unwrapped (it grows by one revolution a frame), in the
-/// ticks of the sensor's decoder.
+/// An interval [from, to) of the head's azimuth, which counts on over revolutions, in ticks.
 struct RotorInterval {
   std::int64_t from_ticks = 0, to_ticks = 0;
 
@@ -47,8 +46,8 @@ struct RotorSector {
   [[nodiscard]] constexpr std::int64_t frames_before(std::int64_t ticks) const noexcept {
     return ticks / revolution_ticks - (ticks % revolution_ticks < 0 ? 1 : 0);
   }
-  /// Returns the total width of the sector's occurrences from `once` to `rotor_ticks`; negative
-  /// before `once`.
+  /// Returns the total width of the sector's occurrences from `once` on up to `rotor_ticks`;
+  /// negative before `once`.
   [[nodiscard]] constexpr std::int64_t inside_until(std::int64_t rotor_ticks) const noexcept {
     const std::int64_t frames = frames_before(rotor_ticks - once.from_ticks);
     const std::int64_t in_frame = rotor_ticks - once.from_ticks - frames * revolution_ticks;

@@ -94,7 +94,7 @@ static_assert(ruby_temperature_field(-18.75) == 0x92C0);
 /// long. Magic, block ids and azimuths are not checked. Valid as long as the payload is.
 [[nodiscard]] inline const ruby128_wire::Packet* packet_in(
     std::span<const std::uint8_t> payload) noexcept {
-  // The packet consists of bytes, so any address will do.
+  // The cast is safe: the packet consists of bytes, which need no alignment.
   return payload.size() == sizeof(ruby128_wire::Packet)
              ? reinterpret_cast<const ruby128_wire::Packet*>(payload.data())
              : nullptr;

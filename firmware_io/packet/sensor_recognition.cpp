@@ -43,8 +43,8 @@ SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
     return block.id.value() == hdl64e::kUpperBlockId;
   });
   if (are_upper) return product(packet.status_value);
-  // In dual return mode the two returns of a block are adjacent, so each block id occurs twice in a
-  // row.
+  // In dual return the two returns of a firing are in adjacent blocks, so each block id occurs
+  // twice in a row.
   const bool is_single = packet.blocks[1].id.value() == hdl64e::kLowerBlockId &&
                          packet.blocks[2].id.value() == hdl64e::kVls128ThirdId;
   const bool is_dual = packet.blocks[2].id.value() == hdl64e::kLowerBlockId &&
@@ -53,7 +53,7 @@ SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
   return SensorModel::kUnknown;
 }
 
-/// True for a Ruby Plus. By its manual byte 31 is 5 for the Ruby family, byte 32 is the model.
+/// True for a Ruby Plus: by its manual byte 31 is 5 for the Ruby family, and byte 32 is the model.
 bool is_ruby_plus(Bytes payload) noexcept {
   return payload[31] == 5 && payload[32] == 1;
 }
@@ -62,7 +62,7 @@ SensorModel robosense_model(Bytes payload) noexcept {
   if (starts_with(payload, kDifopStart)) return SensorModel::kRoboSenseDeviceInfo;
   if (starts_with(payload, kOlderMsopStart)) return SensorModel::kOtherRoboSense;
   if (!starts_with(payload, ruby128::kRubyMagic)) return SensorModel::kUnknown;
-  // Only a block's first byte is its id; the second is the number of the return.
+  // Only the first byte of a block's head is the id; the second is the number of the return.
   const auto block_at = [&](std::size_t at) { return payload[at] == ruby128::kRubyBlockId; };
   if (!block_at(kFirstRubyBlockAt)) return SensorModel::kOtherRoboSense;
   const bool by_128 = block_at(kFirstRubyBlockAt + kRuby128BlockBytes) &&
@@ -89,8 +89,8 @@ std::string_view velodyne_return_mode(std::uint8_t mode) noexcept {
   }
 }
 
-/// Ruby Plus manual: byte 31 is 5 for the Ruby family, byte 32 the model. Another decoder reads
-/// bytes 30 and 31, so all three are shown.
+/// By the Ruby Plus manual, byte 31 is 5 for the Ruby family and byte 32 the model. Another decoder
+/// reads bytes 30 and 31, so all three are shown.
 std::string_view ruby_model(Bytes payload) noexcept {
   if (payload[31] != 5) return "";
   switch (payload[32]) {
@@ -123,7 +123,7 @@ SensorModel recognise_sensor(Bytes payload) noexcept {
 
 SensorModel recognise_sensor_as(std::optional<SensorModel> named, Bytes payload) noexcept {
   const SensorModel model = recognise_sensor(payload);
-  // The VLS-128 is excluded: its blocks' ids identify it anyway.
+  // The VLS-128 needs no name: its block ids identify it.
   const bool may_be_named = model == SensorModel::kOtherVelodyne && named &&
                             has_factory_table(*named) && *named != SensorModel::kVls128;
   return may_be_named ? *named : model;

@@ -19,15 +19,15 @@ namespace terracut::sensor {
 [[nodiscard]] SensorModel recognise_sensor(std::span<const std::uint8_t> payload) noexcept
     TERRACUT_NONBLOCKING;
 
-/// Returns which sensor sent a payload, as recognise_sensor() does, if a user says that the sensor
-/// is a `named` one. Simulators, old firmware and the VLP-32A send Velodyne's data packets with
-/// product numbers not known here. Such packets count as the named model's if their blocks fit it.
+/// Returns which sensor sent a payload, as recognise_sensor() does, when the user has named the
+/// model. Simulators, old firmware and the VLP-32A send Velodyne's data packets with product
+/// numbers not known here; these count as the named model's if their blocks fit it.
 [[nodiscard]] SensorModel recognise_sensor_as(std::optional<SensorModel> named,
                                               std::span<const std::uint8_t> payload) noexcept
     TERRACUT_NONBLOCKING;
 
-/// Returns what else the payload says about the model, for people: product number and return mode
-/// of a Velodyne, type bytes of a RoboSense and their meaning by documents. Empty if it says
+/// Returns, for people, what else the payload says about the model: product number and return mode
+/// of a Velodyne, type bytes of a RoboSense with their documented meaning. Empty if it says
 /// nothing.
 [[nodiscard]] std::string describe_sensor_hints(std::span<const std::uint8_t> payload);
 

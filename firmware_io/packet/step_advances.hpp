@@ -18,8 +18,9 @@ namespace terracut::packet {
 /// Selects firings of a tile: all bits are set for a selected firing, none for the others.
 using FiringMask = frame::TileRow<std::int32_t>;
 
-/// Caches values that depend on the head's step between firings, for each firing of a tile.
-/// Azimuths are rounded when sent, so only a few steps occur: one `Entry` is made for each of them.
+/// Caches values that depend on the rotation from one firing to the next, for each firing of a
+/// tile. Azimuths are rounded when sent, so only a few different steps occur: each gets one
+/// `Entry`.
 template <class Entry>
 class StepAdvances {
  public:
@@ -31,8 +32,8 @@ class StepAdvances {
 
   /// Updates the tile's values. Calls `make(Entry&, step_ticks, is_dual)` for each step not cached,
   /// `fill(const Entry&)` with the first firing's step for all firings, then `spread(const Entry&,
-  /// const FiringMask&)` for each other step. Calls nothing if all firings have the same steps as
-  /// in the last tile.
+  /// const FiringMask&)` for each other step. Calls nothing if every firing has the same step as in
+  /// the last tile.
   template <class Make, class Fill, class Spread>
   void spread(const frame::TileHeads& heads, Make make, Fill fill, Spread spread) noexcept {
     Keys keys;
@@ -55,7 +56,7 @@ class StepAdvances {
   static constexpr std::int32_t kNone = -1;
   static constexpr std::size_t kKnown = 8;
 
-  /// The firings that share one key, and a bit for each firing with another key.
+  /// The firings that share one key (`same`), and a bit for each firing that has another.
   struct Others {
     FiringMask same;
     std::uint32_t bits = 0;

@@ -7,7 +7,8 @@
 namespace terracut::packet {
 namespace {
 
-/// Sums big-endian 16-bit words, an odd last byte padded with 0. 64 kB cannot overflow 64 bits.
+/// Sums big-endian 16-bit words; an odd last byte counts as if a 0 followed. The sum of 64 kB fits
+/// 64 bits.
 std::uint64_t sum_words(std::span<const std::uint8_t> bytes) noexcept {
   std::uint64_t sum = 0;
   std::size_t i = 0;

@@ -36,7 +36,7 @@ constexpr bool is_vlan_tag(std::uint16_t ether_type) noexcept {
   return ether_type == 0x8100 || ether_type == 0x88A8 || ether_type == 0x9100;
 }
 
-/// The IP packet in a link-layer frame, with the frame's VLAN and sender.
+/// The IP packet in a link-layer frame, with the frame's VLAN and the sender's link-layer address.
 struct LinkPayload {
   Bytes ip;
   std::uint32_t vlan = 0;        ///< See Datagram.
@@ -73,8 +73,8 @@ tl::expected<LinkPayload, FrameReject> after_ether_type(Bytes frame,
   return payload;
 }
 
-/// Skips the address family, which links of type NULL hold in the capturing machine's byte order
-/// and links of type LOOP in network byte order.
+/// Skips the address family in front of the IP packet. Links of type NULL hold it in the capturing
+/// machine's byte order, links of type LOOP in network byte order.
 tl::expected<LinkPayload, FrameReject> after_family(Bytes frame) noexcept {
   if (frame.size() < 4) return Rejected(FrameReject::kShortCapture);
   const std::uint32_t big = big_u32(frame, 0);

@@ -13,7 +13,7 @@
 
 namespace terracut::packet {
 
-/// Why a captured frame gave no datagram.
+/// Why a captured frame holds no usable datagram.
 enum class FrameReject : std::uint8_t {
   kShortCapture,         ///< Fewer bytes were captured than the frame's headers promise.
   kNotIpv4,              ///< The frame holds ARP, LLDP, 802.3 or another protocol.
@@ -29,8 +29,8 @@ inline constexpr std::size_t kFrameRejects = static_cast<std::size_t>(FrameRejec
 
 /// Returns a stable lower_snake_case name, as in the JSON report.
 [[nodiscard]] std::string_view to_string(FrameReject reason) noexcept;
-/// Describes several frames with this reason for people: "are IPv6, ...", with advice if there is
-/// any.
+/// Describes several frames with this reason as the end of a sentence for people: "are IPv6, ...",
+/// with advice if there is any.
 [[nodiscard]] std::string_view description_of(FrameReject reason) noexcept;
 
 /// True for libpcap's DLT_ numbers of the link layers understood: NULL (0), Ethernet (1), RAW (12,
@@ -39,9 +39,9 @@ inline constexpr std::size_t kFrameRejects = static_cast<std::size_t>(FrameRejec
 
 /// Finds the UDP payload of one captured link-layer frame. Skips VLAN tags (0x8100, 0x88A8, 0x9100;
 /// stacked), IP options and Ethernet padding. Reads no byte outside `captured`. Checksums are not
-/// verified: captures made on the sending machine often hold unfinished ones. An IP total length of
-/// 0 (segmentation offload) is accepted if the UDP length fits. The payload points into `captured`.
-/// Allocates nothing; callable from the packet path.
+/// verified, because captures made on the sending machine often hold unfinished ones. An IP total
+/// length of 0 (segmentation offload) is accepted if the UDP length fits. The payload points into
+/// `captured`. Allocates nothing; may be called on the packet path.
 [[nodiscard]] tl::expected<Datagram, FrameReject> parse_udp_frame(
     int link_type, std::span<const std::uint8_t> captured,
     std::int64_t stamp_ns) noexcept TERRACUT_NONBLOCKING;

@@ -95,7 +95,7 @@ static_assert(std::is_trivially_copyable_v<Difop> && std::is_standard_layout_v<D
 /// on them.
 [[nodiscard]] bool is_difop(std::span<const std::uint8_t> payload) noexcept TERRACUT_NONBLOCKING;
 
-/// Returns a copy of the packet as fields; nothing unless is_difop().
+/// Returns a copy of the payload as a packet; nothing unless is_difop().
 [[nodiscard]] std::optional<ruby128_wire::Difop> read_difop(
     std::span<const std::uint8_t> payload) noexcept;
 

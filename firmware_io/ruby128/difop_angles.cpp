@@ -20,7 +20,7 @@ using Angles = std::array<Angle, kRuby128Lasers>;
 
 constexpr std::string_view kWhatToDo = "give the unit's angle.csv with --calibration FILE";
 
-/// Returns the first channel, from 0, for which `is` is true.
+/// Returns the first channel, from 0, that satisfies `is`.
 template <class Predicate>
 std::optional<std::size_t> first_channel(const Angles& angles, const Predicate& is) noexcept {
   const auto* const found = std::find_if(angles.begin(), angles.end(), is);
@@ -42,7 +42,7 @@ bool all_zero(const Angles& angles) noexcept {
 /// Converts an angle with a valid sign to radians.
 double radians(const Angle& angle) noexcept {
   const int magnitude_cdeg = angle.magnitude_cdeg.value();
-  // A whole number has no negative zero, so -0.00 becomes 0.
+  // Negating a whole number gives no -0.0: an angle sent as -0.00 becomes 0.
   const int cdeg = angle.sign == kDifopMinus ? -magnitude_cdeg : magnitude_cdeg;
   return beams::deg_to_rad(cdeg / 100.0);
 }

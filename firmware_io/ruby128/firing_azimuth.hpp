@@ -85,13 +85,13 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
          (packet::kTicksPerCdeg / firings_apart);
 }
 
-/// Remembers the firing whose second return is in the next packet. Both returns of one pulse must
+/// Remembers a firing whose second return is in the next packet. Both returns of one pulse must
 /// point the same way, so the second return gets the step of the first.
 class HeldFiring {
  public:
   /// Returns the step for the first block of a packet whose own step is `step_ticks`. `stamp_us` is
   /// the packet's device stamp; `has_sector` says that a blind sector lies in the packet
-  /// (PacketAzimuths), which delays the next stamp. To be called once for every packet, in order of
+  /// (PacketAzimuths), which delays the next stamp. Call this once for every packet, in order of
   /// arrival.
   [[nodiscard]] constexpr std::int32_t join(
       const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg, std::int32_t step_ticks,
@@ -123,7 +123,8 @@ class HeldFiring {
 
 // --- Beams ---
 
-/// A share says after which part of the firing period a channel fires, in 1 / 2^20 of that period.
+/// A firing share is the part of the firing period after which a channel fires, in units of 1 /
+/// 2^20.
 inline constexpr int kRubyShareBits = 20;
 
 /// Returns how far the head has rotated, in ticks, from its block's azimuth when `channel` fires.
@@ -134,7 +135,7 @@ inline constexpr int kRubyShareBits = 20;
   return static_cast<std::int32_t>((step_ticks * share) >> kRubyShareBits);
 }
 
-/// Returns a channel's azimuth offset in ticks, for all azimuths in whole numbers.
+/// Returns a channel's azimuth offset rounded to ticks, as all azimuths in whole numbers use it.
 [[nodiscard]] inline std::int32_t azimuth_offset_ticks(const Ruby128Channel& channel) noexcept {
   return static_cast<std::int32_t>(std::lround(channel.azimuth_offset_rad / packet::kRadPerTick));
 }
@@ -154,8 +155,7 @@ class Ruby128BeamOffsets {
   [[nodiscard]] std::int32_t offset_ticks(std::int32_t step_ticks, int channel) const noexcept {
     return ruby_advance_ticks(step_ticks, channel) + ticks_[static_cast<std::size_t>(channel)];
   }
-  /// hindmost_ticks() and foremost_ticks() return limits of the offsets of all beams, both
-  /// included.
+  /// hindmost_ticks() and foremost_ticks() return the least and the greatest offset of all beams.
   [[nodiscard]] std::int32_t hindmost_ticks() const noexcept { return least_ticks_; }
   [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
     return step_ticks + most_ticks_;

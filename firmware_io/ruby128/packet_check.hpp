@@ -39,11 +39,11 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Largest backwards step from 
     std::span<const std::uint8_t> payload,
     packet::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
 
-/// Completes `azimuths` of a packet that was rejected for kAzimuthJump, if the azimuth jumps ahead
-/// only once: the sensor's blind sector may lie there. Returns true then; the caller must know
-/// whether the sector is there. `step_ticks` is the step from firing to firing in the packet
-/// before, since this one may have none; 0 means unknown and gives false. Real-time safe; any
-/// thread.
+/// Completes the `azimuths` of a packet that was rejected for kAzimuthJump, if the azimuth jumps
+/// ahead only once: the sensor's blind sector may lie there. Then returns true, and the caller must
+/// find out whether the sector is there. `step_ticks` is the step from firing to firing in the
+/// packet before, since this one may have none; 0 means unknown and gives false. Real-time safe;
+/// any thread.
 [[nodiscard]] bool read_across_sector(packet::PacketAzimuths& azimuths,
                                       std::int32_t step_ticks) noexcept TERRACUT_NONBLOCKING;
 

@@ -37,8 +37,8 @@ std::optional<frame::Reject> Ruby128Sensor::check(const packet::Datagram& datagr
 
   const RubyTimestamp detected = timestamp_.add(packet->stamp);
   const RubyTimestamp encoding = given_timestamp_.value_or(detected);
-  // In about one start in a thousand the first packet is read in the wrong unit of UTC; the
-  // encoding then changes.
+  // In about one start in a thousand the first packet's stamp is read in the wrong unit of UTC, and
+  // a later packet corrects the encoding.
   azimuths.clock_restarts = encoding != last_encoding_.value_or(encoding);
   last_encoding_ = encoding;
   const std::int64_t stamp_ns = read_ruby_timestamp(packet->stamp, encoding);
@@ -54,7 +54,7 @@ void Ruby128Sensor::begin_packet(const packet::PacketAzimuths& azimuths) noexcep
 void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload, std::size_t column,
                                 const Returns& found) noexcept {
   const auto* packet = packet_in(payload);
-  if (packet == nullptr) return;  // check() has ruled this out
+  if (packet == nullptr) return;  // cannot happen: check() has accepted the packet
   packet::split_returns(&packet->blocks[column].returns[0].distance.bytes[0],
                         packet::ByteOrder::kBig, found.raw, &found.intensity[0]);
 }

@@ -38,11 +38,11 @@ class Ruby128Sensor {
   static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
   static constexpr std::size_t kGroups = kRubyGroups;
   using Returns = packet::FiringReturns<static_cast<std::size_t>(kRows)>;
-  /// This is larger than all device stamps, which count from 1970 and so never wrap.
+  /// Device stamps count from 1970 and never wrap: this is larger than all of them.
   static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
   static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a frame at 10 Hz.
-  /// Three are enough for dual return: some cells get more than two returns, because two firings
-  /// may share a column.
+  /// Three are enough for dual return: some cells get more than two returns, where two firings
+  /// share a column.
   static constexpr int kDefaultReturnsPerCell = 3;
 
   Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);
@@ -92,7 +92,7 @@ class Ruby128Sensor {
   packet::StraightPointKernel kernel_;
   HeldFiring held_;
   std::int32_t step_ticks_ = 0;  ///< Step of the last packet that had one; 0: none yet.
-  /// Step for the packet's first block, perhaps that of a held firing.
+  /// Step for the packet's first block; the held firing's if the block is its second return.
   std::int32_t first_step_ticks_ = 0;
   std::array<std::int32_t, kRuby128Lasers> rows_;
 };

@@ -21,8 +21,9 @@ constexpr std::size_t kFloatsOfFive = 5;
 constexpr const char* kFiveFloats =
     "; are these 5 floats a point (x y z intensity ring)? Then name it .pcd.bin";
 
-/// True if the floats are nuScenes' points of five numbers: x, y, z, intensity and laser number. In
-/// a KITTI file every fifth float is a coordinate or a remission, never only laser numbers.
+/// True if the floats are points of nuScenes, with five numbers each: x, y, z, intensity and laser
+/// number. In a KITTI file every fifth float is a coordinate or a remission, so they are never all
+/// laser numbers.
 bool has_five_floats(std::span<const ScanPoint> points) {
   const std::size_t floats = points.size() * 4;
   if (floats % kFloatsOfFive != 0) return false;

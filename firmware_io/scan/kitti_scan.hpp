@@ -20,8 +20,9 @@ inline constexpr std::size_t kMaxScanPoints = std::size_t{1} << 20;
 /// One point of a KITTI `.bin` file.
 using ScanPoint = CloudPoint;
 
-/// True unless the point is NaN, infinite, farther than any return can be (10 km), or the null
-/// point (0, 0, 0), which many programs write where a beam had no return.
+/// True if the point has a valid position. Not valid are NaN, infinity, positions farther than any
+/// return can be (10 km), and the null point (0, 0, 0), which many programs write where a beam had
+/// no return.
 [[nodiscard]] inline bool is_place(const ScanPoint& point) noexcept {
   constexpr float kFarthest_m = 1e4F;
   if (point.x_m == 0 && point.y_m == 0 && point.z_m == 0) return false;
@@ -47,7 +48,7 @@ using ScanPoint = CloudPoint;
 }
 
 /// Finds the factor that converts a file's intensities to remissions 0..1. Programs write 0..1, the
-/// sensor's 0..255, or 16 bits; the file's brightest point tells which.
+/// sensor's 0..255, or 16 bits; the brightest point tells which.
 class RemissionScale {
  public:
   void add(float intensity) noexcept {
@@ -64,12 +65,12 @@ class RemissionScale {
 };
 
 /// Reads the points of a KITTI `.bin`, with remissions 0..1; the file may be empty. Fails with
-/// kNotFound, kUnreadable or kMalformed (cut off, too large, of five floats a point); the message
-/// names the file.
+/// kNotFound, kUnreadable or kMalformed (cut off, too large, or with five floats a point); the
+/// message names the file.
 [[nodiscard]] Status read_kitti_points(const std::filesystem::path& bin_file,
                                        std::vector<ScanPoint>& points);
 
-/// One recorded frame. Its buffers are reused from scan to scan.
+/// One recorded frame; its buffers keep their memory from scan to scan.
 struct KittiScan {
   std::vector<ScanPoint> points;  ///< Points in the file's order: ring after ring from the top.
   /// SemanticKITTI labels of the points; empty without a label file.

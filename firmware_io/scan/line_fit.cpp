@@ -36,8 +36,8 @@ Moments moments(std::span<const LinePoint> points, std::span<const double> weigh
   return m;
 }
 
-/// Returns Deming's slope for an error variance ratio `d` (y over x), in the form without
-/// cancellation.
+/// Returns Deming's slope for the ratio `d` of the error variances (y over x), by the formula that
+/// avoids cancellation.
 double deming_slope(const Moments& m, double d) {
   const double difference = d * m.xx - m.yy;
   const double root = std::sqrt(difference * difference + 4 * d * m.xy * m.xy);

@@ -26,8 +26,8 @@ Status read_some_scans(std::size_t scans, const std::function<Status(std::size_t
   Error last{ErrorCode::kMalformed, ""};
   std::size_t used = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    // A scan that cannot be read is reported when its frame is due. A scan that lacks rings is
-    // aligned later, with the table from the complete scans.
+    // A scan that cannot be read is reported later, when its frame is processed. A scan that lacks
+    // rings is aligned later with the table fitted to complete scans.
     if (const Status status = read(i * scans / count); status) {
       ++used;
     } else if (last.code != ErrorCode::kUnsupported) {
@@ -41,8 +41,8 @@ Status read_some_scans(std::size_t scans, const std::function<Status(std::size_t
 Expected<FittedRings> fit_rings_of_scans(std::size_t scans, const AddScan& add) {
   auto fitted = fit_once(scans, add, nullptr, nullptr);
   if (fitted || fitted.error().code != ErrorCode::kUnsupported) return fitted;
-  // No scan has all rings. The table of any unit is close enough to tell the lasers apart; a table
-  // fitted with its help is close enough to correct the rings that were told wrongly.
+  // No scan has all rings. A nominal unit's table is close enough to tell most lasers apart, and a
+  // table fitted with its help is close enough to correct rings told apart wrongly.
   const RingTable nominal = ring_table(hdl64e::nominal_hdl64e());
   fitted = fit_once(scans, add, &nominal, &nominal);
   if (!fitted) return fitted;

@@ -19,13 +19,13 @@ inline constexpr std::size_t kScansToFit = 40;
 [[nodiscard]] Status read_some_scans(std::size_t scans,
                                      const std::function<Status(std::size_t index)>& read);
 
-/// Adds a scan to `fit`, finding its rings with the help of `table`. If `table` is null, fails with
-/// kUnsupported for a scan that has not all rings.
+/// Adds a scan to `fit`, finding its rings with the help of `table`. Without a table (null), fails
+/// with kUnsupported for a scan that does not have all rings.
 using AddScan = std::function<Status(std::size_t index, const RingTable* table, RingTableFit& fit)>;
 
 /// Fits a unit's ring table to the scans that have all 64 rings. If none has, as in cropped views,
-/// a nominal unit's table first tells the rings apart: a row may then be its neighbour's, but its
-/// elevation is that of its points.
+/// a nominal unit's table first tells the rings apart: a row may then be numbered as its neighbour,
+/// but its elevation is that of its points.
 [[nodiscard]] Expected<FittedRings> fit_rings_of_scans(std::size_t scans, const AddScan& add);
 
 }  // namespace terracut::scan

@@ -22,11 +22,12 @@ constexpr double kJitter_rad = std::numbers::pi / 18;  // see split_into_rings()
 /// nothing straight ahead. Jitter within recorded rings makes it fall by 10 degrees at most.
 constexpr double kCroppedFall_rad = std::numbers::pi / 9;
 constexpr int kMaxSegments = 4 * kScanRings;
-// If fewer points come before the first crossing, they belong to the next ring.
+// If fewer points come before the first crossing of straight ahead, they belong to the ring after
+// it.
 constexpr std::size_t kMinFirstRingPoints = 8;
 
-/// Counts the rings of a file: how often the azimuth falls by more than `fall_rad`. If `fall_rad`
-/// is half a revolution, this counts how often the azimuth passes straight ahead.
+/// Numbers the rings of a file by counting how often the azimuth falls by more than `fall_rad`.
+/// With half a revolution, this counts how often the azimuth passes straight ahead.
 class FallCounter {
  public:
   explicit FallCounter(double fall_rad) : fall_rad_(fall_rad) {}
@@ -54,7 +55,7 @@ class FallCounter {
   int ring_ = 0;
 };
 
-/// The directions in which a segment has points.
+/// The azimuths at which a segment has points, in coarse steps.
 class Directions {
  public:
   void add(const ScanPoint& point) {
@@ -62,8 +63,8 @@ class Directions {
     const auto bin = static_cast<std::size_t>(azimuth_rad(point.x_m, point.y_m) * kPerRad);
     seen_.set(std::min(bin, kBins - 1));
   }
-  /// True if the directions of two segments overlap little, as those of two parts of one ring that
-  /// jitter has torn: a laser sees each direction once in a revolution.
+  /// True if the azimuths of two segments overlap little, as in two parts of one ring torn by
+  /// jitter: a laser sees each azimuth once in a revolution.
   [[nodiscard]] bool may_be_of_one_laser(const Directions& other) const {
     return 4 * (seen_ & other.seen_).count() < std::min(seen_.count(), other.seen_.count());
   }
@@ -73,13 +74,14 @@ class Directions {
   std::bitset<kBins> seen_;
 };
 
-/// The cost of assigning a segment to a ring: the angle between the ring's line and the median of
-/// the segment's points. Motion compensation moves near points by degrees, but equally many up and
+/// The cost of assigning a segment of points to a ring: the angle between the ring's line and the
+/// median of the points. Motion compensation moves near points by degrees, but equally many up and
 /// down, so the median stays.
 class AlignmentCost {
  public:
   static constexpr double kCap_rad = 0.02;
-  static constexpr double kTorn_rad = 0.001;  // one ring torn in two is possible, but rare
+  // cost of two segments that are one ring torn in two, which is rare
+  static constexpr double kTorn_rad = 0.001;
   /// Giving two lasers the same ring costs more than moving all others by a ring.
   static constexpr double kSameDirections_rad = kScanRings * kCap_rad;
   /// The most points that one laser gives in a revolution: two returns for each of 4167 firings at
@@ -131,7 +133,7 @@ class AlignmentCost {
   [[nodiscard]] double points(std::size_t segment) const {
     return static_cast<double>(points_[segment]);
   }
-  /// Returns the cost of giving a segment the ring of the segment before it.
+  /// Returns the extra cost of giving a segment the same ring as the previous segment.
   [[nodiscard]] double sharing(std::size_t segment) const {
     const bool torn = directions_[segment].may_be_of_one_laser(directions_[segment - 1]);
     return (torn ? kTorn_rad : kSameDirections_rad) * points(segment);
@@ -147,8 +149,8 @@ class AlignmentCost {
   std::vector<std::vector<ScanPoint>> samples_;
 };
 
-/// Returns the non-decreasing assignment of segments to rings with the least sum of angles over all
-/// points.
+/// Returns the assignment of segments to rings, in ascending order, with the least sum of angles
+/// over all points.
 std::vector<int> cheapest_order(const AlignmentCost& cost) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   using Row = std::array<double, kScanRings>;

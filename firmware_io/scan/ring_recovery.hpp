@@ -33,11 +33,11 @@ struct RingRecovery {
 /// any scan in ring order (a shuffled or otherwise sorted file).
 [[nodiscard]] Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recovery);
 
-/// Renumbers the rings of a split whose count is not 64 (a laser without returns, a torn ring, a
-/// cropped view) by the known elevations: takes the assignment in order with the least angular
-/// error. Rings that look in the same directions are not of one laser; rings that fit no laser get
-/// kNoRing. Afterwards rings is 64. Fails with kMalformed if less than half of the points fit a
-/// laser, as in a file in another order.
+/// Renumbers the rings of a scan whose count is not 64 (a laser without returns, a torn ring, a
+/// cropped view) by the known elevations: of all assignments that keep the order, takes the one
+/// with the least angular error. Rings with points at the same azimuths are not of one laser; rings
+/// that fit no laser get kNoRing. Afterwards `rings` is 64. Fails with kMalformed if less than half
+/// of the points fit a laser, as in a file in another order.
 [[nodiscard]] Status align_rings(std::span<const ScanPoint> points, const RingTable& table,
                                  RingRecovery& recovery);
 

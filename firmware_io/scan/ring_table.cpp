@@ -8,7 +8,8 @@
 namespace terracut::scan {
 namespace {
 
-/// The laser numbers of a block from its top ring down, as in the calibration files of most units.
+/// The laser numbers of a block from its highest ring down, as in the calibration files of most
+/// units.
 constexpr std::array<std::int8_t, 32> kBlockFromTheTop{29, 28, 25, 24, 3,  2,  31, 30, 27, 26, 21,
                                                        20, 17, 16, 13, 12, 23, 22, 19, 18, 15, 14,
                                                        9,  8,  5,  4,  1,  0,  11, 10, 7,  6};

@@ -15,9 +15,9 @@
 namespace terracut::scan {
 namespace {
 
-// How far the motion-compensated points scatter about the true line, in metres: in horizontal
-// distance (half a revolution at some 10 m/s) and in height (a laser's noise). Only the ratio of
-// the two matters, and only for rings steeper than a few degrees. The values were not tuned.
+// How far motion-compensated points scatter about the true line: in horizontal distance (the motion
+// in half a revolution at some 10 m/s), and in height (a laser's noise). Only the ratio of the two
+// matters, and only for rings steeper than a few degrees. The values were not tuned.
 constexpr double kDistanceError_m = 0.2;
 constexpr double kHeightError_m = 0.01;
 
@@ -43,7 +43,7 @@ HeightResidual summarise(std::vector<double>& sizes) {
 /// degrees.
 constexpr double kSteepest_rad = beams::deg_to_rad(80.0);
 
-/// Interpolates rings without a fit between those that have one, or extrapolates them.
+/// Interpolates rings without a fit between fitted ones, and extrapolates those beyond.
 void fill_gaps(std::vector<std::optional<RingLine>>& lines) {
   const int rings = static_cast<int>(lines.size());
   for (int ring = 0; ring < rings; ++ring) {
@@ -64,7 +64,7 @@ void fill_gaps(std::vector<std::optional<RingLine>>& lines) {
     const RingLine a = *lines[static_cast<std::size_t>(above)];
     const RingLine b = *lines[static_cast<std::size_t>(below)];
     const double share = static_cast<double>(ring - above) / (below - above);
-    // Noise may have exchanged the last two rings.
+    // If noise has exchanged the last two rings, the smallest step is used.
     const double fall_rad = (a.elevation_rad - b.elevation_rad) * (below > above ? 1 : -1);
     const double apart_rad = std::max(fall_rad, kMinStep_rad) * (below > above ? -1 : 1);
     double elevation_rad = a.elevation_rad + share * apart_rad;

@@ -59,14 +59,15 @@ class RingTableFit {
   void add(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point);
 
   /// Returns the table of everything added so far. Rings that saw only near ground, as in a cropped
-  /// view, cannot tell elevation from vertical offset: with `offsets` these are taken as given, and
-  /// only elevations are found (medians). Fails with kMalformed if fewer than half the rings have
-  /// enough points.
+  /// view, cannot tell elevation from vertical offset: with `offsets`, the vertical offsets are
+  /// taken from there and only elevations are fitted (medians). Fails with kMalformed if fewer than
+  /// half of the rings have enough points.
   [[nodiscard]] Expected<FittedRings> fit(const RingTable* offsets = nullptr) const;
 
-  /// Returns the table when rings may have seen little or nothing, as those above the horizon of an
-  /// open field, or all of a narrow view: a ring's elevation takes ten points. Fails with
-  /// kMalformed when these rings are fewer than four or do not hold half of the points.
+  /// Returns the table when some rings have seen little or nothing, as those above the horizon of
+  /// an open field, or most rings of a narrow view. A ring with ten points is fitted. Fails with
+  /// kMalformed if fewer than four rings have these, or if the rings hold less than half of the
+  /// points.
   [[nodiscard]] Expected<FittedRings> fit_seen(const RingTable& offsets) const;
 
  private:

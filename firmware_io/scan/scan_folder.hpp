@@ -31,7 +31,7 @@ struct ScanFolder {
   std::optional<std::filesystem::path> calib;  ///< calib.txt
 };
 
-/// Tells by name which files of a folder are scans.
+/// How scans are told from other files of a folder, by name.
 struct ScanKind {
   bool (*is_scan)(const std::filesystem::path&);
   std::string_view formats;  ///< Named in messages: "KITTI's .bin (float32 x y z remission)".
@@ -45,7 +45,7 @@ inline constexpr ScanKind kKittiScans{is_kitti_bin, "KITTI's .bin (float32 x y z
 /// beside them, or a single scan. Scans may lack labels. Hidden files are ignored: macOS puts a
 /// `._000000.bin` beside a 000000.bin. Fails with kNotFound (no such folder, no scan in it),
 /// kUnreadable, kUnsupported (a file whose name is not a scan's), kMalformed (two scans of one
-/// name, whose outputs would be one file).
+/// name, whose outputs would overwrite each other).
 [[nodiscard]] Expected<ScanFolder> list_scan_folder(const std::filesystem::path& folder,
                                                     const ScanKind& kind = kKittiScans);
 

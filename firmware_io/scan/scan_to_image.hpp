@@ -15,15 +15,15 @@
 
 namespace terracut::scan {
 
-/// Puts clouds into range images without packets (`terracut segment`), and brings the labels of the
-/// returns back into the cloud's order.
+/// Puts clouds into range images without packets (`terracut segment`), and returns the labels in
+/// the cloud's order.
 ///
 /// Rows and columns follow the decoder's rule: row = rows - 1 - ring (row 0 is the lowest) and
-/// column = azimuth / pitch, clockwise from straight ahead. For a sensor upside down row = ring,
-/// and clockwise is seen from above the vehicle. The mount moves the coordinates into the vehicle
-/// frame. If several points fall into a cell, the nearest owns it, so the order of points does not
-/// matter. Returns are numbered in the cloud's order. Points without a ring, and points for which
-/// the overflow list has no room, are counted but not placed.
+/// column = azimuth / width of a column, clockwise from straight ahead. For a sensor upside down
+/// row = ring, and clockwise is seen from above the vehicle. The mount moves the coordinates into
+/// the vehicle frame. If several points fall into a cell, the nearest owns it, so the order of
+/// points does not matter. Returns are numbered in the cloud's order. Points without a ring, and
+/// points for which the overflow list has no room, are counted but not placed.
 ///
 /// Allocates only for a cloud with more points than every cloud before and than reserve() was
 /// given.
@@ -55,8 +55,9 @@ class ScanToImage {
     return point_of_return_;
   }
 
-  /// Gives each point of the last cloud, in its order, the label of its return; points without a
-  /// return get the labels stated at Summary. `of_returns` has one label for every placed point.
+  /// Gives each point of the last cloud, in the cloud's order, the label of its return; points
+  /// without a return get the labels stated at Summary. `of_returns` has one label for every placed
+  /// point.
   void labels_of_points(std::span<const frame::Label> of_returns,
                         std::vector<frame::Label>& of_points) const;
 

@@ -15,13 +15,15 @@
 namespace terracut::sensor {
 namespace {
 
-/// The number of payload sizes counted one by one in a stream; others count as size 0.
+/// In each stream, this many different payload sizes are counted one by one; further sizes count as
+/// size 0.
 constexpr std::size_t kMostSizes = 64;
 
 using StreamKey =
     std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::uint16_t, std::uint32_t>;
 
-/// Surveys a model whose data packets tell nothing about the unit except its head and its clock.
+/// Gathers the facts of a model whose data packets tell nothing but the head's azimuths and the
+/// clock.
 class HeadSurvey {
  public:
   void add(SensorModel model, const packet::Datagram& datagram) {
@@ -86,7 +88,7 @@ struct StreamUnderSurvey {
   }
 
   [[nodiscard]] UdpStream finished() {
-    // Unknown packets do not outvote a recognised sensor.
+    // A recognised model wins over any number of unknown packets.
     std::uint64_t most = 0;
     for (const auto& [model, count] : votes) {
       if (model == SensorModel::kUnknown || count <= most) continue;

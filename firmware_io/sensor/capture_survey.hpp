@@ -33,7 +33,7 @@ struct UdpStream {
   std::int64_t last_stamp_ns = 0;
 
   SensorModel sensor = SensorModel::kUnknown;  ///< The model that most packets come from.
-  /// What describe_sensor_hints() or streams::guess_of_unknown() says of the first packet.
+  /// The hint of describe_sensor_hints() or guess_of_unknown() for the first packet.
   std::string sensor_hints;
   std::optional<Hdl64eFacts> hdl64e;    ///< Set if any packet is from an HDL-64E.
   std::optional<Ruby128Facts> ruby128;  ///< Set if any packet is an RS-Ruby128's data packet.

@@ -14,7 +14,7 @@ namespace terracut::sensor {
 struct Ruby128DeviceCounters {
   std::uint64_t packets = 0;  ///< DIFOP packets read.
   /// Packets whose serial number or angles differ from those of the packet before. A unit always
-  /// sends the same values: a change means that two sensors share a port, or that a sensor was
+  /// sends the same values, so a change means that two sensors share a port, or that a sensor was
   /// replaced.
   std::uint64_t serial_changes = 0;
   std::uint64_t angle_changes = 0;

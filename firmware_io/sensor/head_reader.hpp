@@ -16,12 +16,12 @@
 
 namespace terracut::sensor {
 
-/// Reads from the data packets of any decoded model where the head stood and when, without a
+/// Reads the head's azimuths and times from the data packets of any decoded model, without a
 /// decoder. One stream, one thread.
 class HeadReader {
  public:
-  /// Does the check() of the model's trait, for a named model (VelodyneConfig). An RS-Ruby128's
-  /// packets with a blind sector inside are rejected.
+  /// Runs check() of the model's trait. The model counts as named by the user (VelodyneConfig). An
+  /// RS-Ruby128's packets with a blind sector inside are rejected.
   [[nodiscard]] std::optional<frame::Reject> read(SensorModel model,
                                                   const packet::Datagram& datagram,
                                                   packet::PacketAzimuths& azimuths) noexcept;

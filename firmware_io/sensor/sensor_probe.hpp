@@ -18,7 +18,7 @@ namespace terracut::sensor {
 /// a decoder can be made. Not for the receive thread: allocates.
 class SensorProbe {
  public:
-  /// `named` is the model that the sensor is said to be (recognise_sensor_as()).
+  /// `named` is the model that the user has named, if any (recognise_sensor_as()).
   explicit SensorProbe(std::optional<SensorModel> named = {}) : named_(named) {}
 
   void add(const packet::Datagram& datagram);
@@ -35,9 +35,9 @@ class SensorProbe {
   /// unknown.
   [[nodiscard]] double spin_hz(SensorModel model) const;
   [[nodiscard]] bool dual_return(SensorModel model) const;
-  /// Returns the columns of the model's range image: firings per frame at the nominal 5, 10, 15 or
-  /// 20 Hz if the head rotates at about that, else at its own rate between 5 and 20 Hz. Otherwise,
-  /// and while the rate is unknown, returns the model's default.
+  /// Returns the columns of the model's range image: the firings per frame, at the nominal 5, 10,
+  /// 15 or 20 Hz if the head rotates at about that, else at its own rate. Outside 5 to 20 Hz, and
+  /// while the rate is unknown, returns the model's default.
   [[nodiscard]] int columns(SensorModel model) const;
 
   /// Returns the number of data packets in which the model's head rotates backwards, which no real

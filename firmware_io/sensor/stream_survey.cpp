@@ -12,8 +12,8 @@ namespace terracut::sensor {
 namespace {
 
 constexpr std::int64_t kJump_us = 10'000'000;
-/// In this time the head makes less than half a revolution even at 20 Hz, so the shorter way round
-/// is the true one.
+/// In this time the head makes less than half a revolution even at 20 Hz, so of two possible
+/// rotations the shorter is the true one.
 constexpr std::int64_t kSurelyUnderHalfARevolution_us = 20'000;
 constexpr std::int64_t kShortestPeriod_us = 50;
 constexpr std::int64_t kLongestPeriod_us = 1'500;  ///< A VLP-16's are 1327 us in single return.
@@ -106,7 +106,7 @@ bool StreamSurvey::follow(const packet::PacketAzimuths& azimuths, std::int64_t s
   const bool is_wide = gap.ticks() >= blind_.least_ticks();
   if (is_wide || seen_->has_sector) {
     std::int64_t missing = std::max(0LL, std::llround(static_cast<double>(step_us) / one_us) - 1);
-    // The step's time includes the blind sector, but the gap begins behind it.
+    // The time of the step includes the blind sector, but the azimuths of the gap begin behind it.
     if (seen_->has_sector) {
       missing = std::min(missing, (gap.ticks() + azimuths.pace_ticks / 2) / azimuths.pace_ticks);
     }
@@ -125,7 +125,8 @@ bool StreamSurvey::follow(const packet::PacketAzimuths& azimuths, std::int64_t s
   return is_told;
 }
 
-/// Returns the mean of the steps near the median, out of those that can be one period.
+/// Returns the mean of the steps near the median, considering only steps short enough to be one
+/// period.
 double StreamSurvey::period_us() const {
   const auto first = steps_us_.lower_bound(kShortestPeriod_us);
   const auto last = steps_us_.upper_bound(kLongestPeriod_us);
@@ -157,7 +158,7 @@ StreamFacts StreamSurvey::facts() const {
   decode::BlindSector to_the_end = blind_;
   to_the_end.end();
   facts.packets_lost += static_cast<std::uint64_t>(lost_in_gaps_ + to_the_end.take_due().packets);
-  // A reordered packet fills a gap that was counted when a later one overtook it.
+  // A reordered packet fills a gap that was counted when a later packet overtook it.
   facts.packets_lost -= std::min(facts.packets_lost, facts.packets_reordered);
   facts.blind = decode::blind_azimuths(blind_.sector());
   if (rotating_packets_ > 0) {

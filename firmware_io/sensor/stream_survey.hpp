@@ -41,8 +41,8 @@ class StreamSurvey {
   /// `clock_wrap_us` says where the device clock wraps: it counts [0, clock_wrap_us).
   explicit StreamSurvey(std::int64_t clock_wrap_us) : clock_wrap_us_(clock_wrap_us) {}
 
-  /// Adds a packet. `rotating` says that its head rotates and all of `azimuths` is valid; else only
-  /// its stamp and azimuths are.
+  /// Adds a packet. `rotating` says that all of `azimuths` is valid; otherwise (the head does not
+  /// rotate) only its stamp and column azimuths are.
   void add(const packet::PacketAzimuths& azimuths, bool rotating);
   /// Adds a packet whose azimuths are all invalid.
   void add_out_of_range() {
@@ -62,8 +62,8 @@ class StreamSurvey {
 
   /// Adds the device time and azimuth between two adjacent packets of the capture.
   void add_step(const packet::PacketAzimuths& azimuths, bool rotating);
-  /// Follows a rotating head across `step_us` to this packet. True if the azimuths tell what was
-  /// lost in between.
+  /// Follows a rotating head over the time `step_us` to this packet. True if the azimuths tell what
+  /// was lost in between.
   [[nodiscard]] bool follow(const packet::PacketAzimuths& azimuths, std::int64_t step_us);
   void begin_rotating(const packet::PacketAzimuths& azimuths);
   [[nodiscard]] double period_us() const;
@@ -77,7 +77,7 @@ class StreamSurvey {
   std::int64_t long_time_us_ = 0;  ///< Sum over all other steps.
   decode::BlindSector blind_{packet::kRevolution_ticks};
   std::optional<Seen> seen_;
-  std::int64_t frontier_ticks_ = 0;  ///< The head was seen up to here.
+  std::int64_t frontier_ticks_ = 0;  ///< Azimuth up to which the head was seen.
   /// Packets without rotation since the head was last seen rotating.
   std::int64_t not_rotating_ = 0;
   std::int64_t lost_in_gaps_ = 0;  ///< Packets lost in gaps wide enough for a blind sector.

@@ -22,15 +22,14 @@ namespace terracut::sensor {
 [[nodiscard]] std::string other_table_warning(const hdl64e::StatusStreamReader& told,
                                               const calib::SensorCalibration& in_use);
 
-/// Reads the table in an HDL-64E's packets while another one is in use, to warn when the two
-/// differ. One thread adds packets, another asks now and then; data it misses come again with the
-/// next round of the table.
+/// Reads the table in an HDL-64E's packets while another table is in use, to warn if the two
+/// differ. One thread adds packets, another asks now and then; packets dropped in between come
+/// again with the next round of the table.
 class ToldTable {
  public:
   explicit ToldTable(memory::FixedMemory& memory) : heard_("table bytes", kHeard, memory) {}
 
-  /// To be called on the receiving thread. Once the table is complete, packets are no longer passed
-  /// on.
+  /// Takes a packet, on the receiving thread. Does nothing once the table is complete.
   void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
     if (told_.load(std::memory_order_relaxed)) return;
     const auto* packet = hdl64e::packet_in(datagram.payload);

@@ -26,7 +26,7 @@ using capture::PcapSource;
 /// A table takes 4160 packets, and S2 units must send it twice; the other packets allow for losses.
 constexpr std::uint64_t kPacketsToSearch = 30'000;
 
-/// What the search for a table in the stream met.
+/// The result of the search for a table in the packets.
 struct StreamSearch {
   std::optional<hdl64e::Hdl64eCalibration> found;
   std::string table_error;  ///< Set for a whole table without a plausible calibration.
@@ -44,7 +44,7 @@ StreamSearch search_status_stream(PcapSource& source) {
     if (!next) search.broke_off = next.error().message;
     if (!next || !*next) break;
     const auto reject = hdl64e::check_hdl64e_packet((*next)->payload, azimuths);
-    // A head at rest still sends its table.
+    // A sensor whose head stands still sends its table, too.
     if (reject && *reject != frame::Reject::kStationary) continue;
     const auto* packet = hdl64e::packet_in((*next)->payload);
     if (packet == nullptr) continue;

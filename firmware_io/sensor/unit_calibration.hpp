@@ -27,17 +27,17 @@ struct CalibrationChoice {
 /// Returns the calibration from the unit's packets, or why there is none and what to do.
 using FromPackets = std::function<Expected<calib::SensorCalibration>()>;
 
-/// Returns the unit's calibration, the first of: what is known already; the table of a model that
-/// has one built in; the file; the packets; the nominal table, if allowed. `from_packets` is asked
-/// only if the first three are missing; its error is returned if there is nothing.
+/// Returns the unit's calibration: the first of choice.unit, the model's built-in table, the file,
+/// the packets, and the nominal table if allowed. `from_packets` is called only if the first three
+/// are missing; its error is returned if nothing is found.
 [[nodiscard]] Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
                                                                   SensorModel model,
                                                                   const FromPackets& from_packets);
 
-/// Fails with kNoCalibration for an HDL-64E S1 at `place`, whose packets never hold one.
+/// Fails with kNoCalibration for an HDL-64E S1 heard at `place`: its packets never contain one.
 [[nodiscard]] tl::unexpected<Error> fail_for_s1(const std::string& place);
 
-/// Returns the calibration of a capture's unit, whose packets may hold it in the HDL-64E's status
+/// Returns the calibration of a capture's unit. Its packets may hold it, in an HDL-64E's status
 /// stream or in DIFOP packets. If they do not, fails with kNoCalibration; the message says what was
 /// found instead. Leaves `source` at any position.
 [[nodiscard]] Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,

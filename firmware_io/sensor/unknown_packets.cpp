@@ -40,7 +40,7 @@ std::string_view one_of(const Known* begin, const Known* end, std::size_t number
   return found == end ? std::string_view() : found->of;
 }
 
-/// Describes a known packet inside the payload, with bytes before or after it.
+/// Describes a packet of a known model that lies inside the payload, between other bytes.
 std::string packet_inside(std::span<const std::uint8_t> payload) {
   constexpr std::size_t kMostAround = 64;
   for (const std::size_t size : {hdl64e::kHdl64ePacketBytes, ruby128::kRubyPacketBytes}) {

@@ -46,19 +46,20 @@ class FirstSeconds {
   };
   explicit FirstSeconds(Config config) : config_(std::move(config)), senders_(config_.model) {}
 
-  /// add() takes datagrams of the data port and of the device port. note_foreign() takes how many
-  /// datagrams were left out so far because they came from senders that are not wanted.
+  /// add() takes datagrams of the data port and of the device port. note_foreign() takes the number
+  /// of datagrams so far that were left out because of their sender.
   void add(const packet::Datagram& datagram) { senders_.add(datagram); }
   void note_foreign(std::uint64_t datagrams) noexcept { foreign_ = datagrams; }
 
-  /// True if the device port should be listened at.
+  /// True if the caller should listen at the device port, too: an RS-Ruby128 is wanted and no
+  /// calibration is given.
   [[nodiscard]] bool wants_device_port() const;
   /// True if the search can end: a sensor's head rotates, it is the only sender or the one used
-  /// before, and its calibration is known or will not come. Another sensor would show within 0.3 s,
-  /// a calibration within 6 s. If the sensor used before sends but stands still, the search waits
-  /// for it.
+  /// before, and its calibration is known or will not come. Another sensor would be heard within
+  /// 0.3 s, a calibration within 6 s. If the sensor used before sends but does not rotate, the
+  /// search waits for it.
   [[nodiscard]] bool is_enough() const;
-  /// Says what is missing, for people.
+  /// Returns, for people, what is still missing.
   [[nodiscard]] std::string waits_for() const;
 
   /// Names the sensors not chosen, for people: "HDL-64E at 192.168.1.7". Empty if there are none.

@@ -16,7 +16,7 @@ namespace terracut::streams {
 struct Waiting {
   std::optional<double> patience_s;  ///< Longest time to wait; empty: unlimited.
   std::function<bool()> stop_wanted;
-  /// Called many times a second with what is waited for; may be empty.
+  /// Called many times a second with the text of what is missing; may be empty.
   std::function<void(const std::string& what)> on_waiting;
 };
 

@@ -42,7 +42,7 @@ std::uint64_t HeardSenders::Sender::data_packets() const {
 std::vector<SensorStream> HeardSenders::Sender::sensors_of(sensor::SensorModel model) const {
   std::vector<SensorStream> all = streams.at(model).sensors();
   drop_strays(all);
-  // A single sensor needs no port to be told apart.
+  // A single sensor needs no port to identify it.
   if (all.size() == 1) all.front().source_port.reset();
   return all;
 }
@@ -105,7 +105,8 @@ std::vector<SensorStream> HeardSenders::sensors_that(const Predicate& are) const
 std::vector<SensorStream> HeardSenders::rotating() const {
   return sensors_that(
       [](const sensor::SensorProbe& probe, sensor::SensorModel model, const auto& its_own) {
-        // Alternating packets of several heads show no rotation, but they do show several sensors.
+        // If several heads send in turn, no rotation shows, but that there are several sensors
+        // does.
         return its_own.size() > 1 ? probe.packets_of(model) >= kSteady_packets : probe.knows(model);
       });
 }
@@ -123,7 +124,7 @@ std::vector<SensorStream> HeardSenders::steady() const {
 }
 
 bool HeardSenders::has_told(const SensorStream& sensor) const {
-  // Its calibration is known without a packet.
+  // The table of this model is built in.
   if (sensor::has_factory_table(sensor.model)) return true;
   const Sender& sender = senders_.at(sensor.source_address);
   return sensor.model == sensor::SensorModel::kRuby128 ? sender.ruby128_device.has_calibration()
@@ -140,8 +141,8 @@ std::string HeardSenders::describe(const Sender& sender) const {
     return fmt::format("{}, whose head does not rotate,", to_string(model));
   }
   if (std::string models = sender.probe.foreign_models(); !models.empty()) return models;
-  // votes() is ordered by model: datagrams of unknown kinds come first, if there are any. Otherwise
-  // only device packets came.
+  // votes() is ordered by model, and kUnknown comes first. If there are no unknown datagrams, only
+  // device packets came.
   const auto [model, datagrams] = *sender.probe.votes().begin();
   return model == sensor::SensorModel::kUnknown
              ? fmt::format("{} datagrams of no sensor known here, {},", datagrams,

@@ -18,11 +18,11 @@
 
 namespace terracut::streams {
 
-/// Collects the senders to the ports listened at, with evidence. A sensor is a sender of a steady
-/// stream of data packets of a rotating head; one packet is not enough. No flood of other senders
-/// can hide a sensor. When the memory is full, a newcomer with data packets replaces the sender
-/// that has the fewest; if several have as few, the sender that has been silent longest. Time is
-/// that of the datagrams' stamps. Allocates; one thread.
+/// Collects who sends to the ports, and how many packets of which model. A sensor is a sender of a
+/// steady stream of data packets of a rotating head; one packet is not enough. No flood of other
+/// senders can hide a sensor: when the memory is full, a newcomer with data packets replaces the
+/// sender that has the fewest; if several have as few, the one that has been silent longest. Time
+/// is that of the datagrams' stamps. Allocates; one thread.
 class HeardSenders {
  public:
   /// `wanted` is the only model that counts; empty: any that can be decoded.
@@ -40,10 +40,10 @@ class HeardSenders {
   [[nodiscard]] std::vector<SensorStream> rotating() const;
   /// Returns the sensors that send data packets steadily, rotating or not.
   [[nodiscard]] std::vector<SensorStream> steady() const;
-  /// True if the sensor is one of steady() but not of rotating().
+  /// True if the sensor is in steady() but not in rotating().
   [[nodiscard]] bool is_steady_but_stands(std::uint32_t address) const;
-  /// Returns the time since the first sensor of rotating() was known, by the newest datagram; 0
-  /// without one.
+  /// Returns the time from when rotating() got its first sensor to the newest datagram; 0 without a
+  /// sensor.
   [[nodiscard]] std::int64_t known_for_ns() const {
     return first_known_ns_ == 0 ? 0 : newest_ns_ - first_known_ns_;
   }

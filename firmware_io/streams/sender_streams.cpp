@@ -14,7 +14,8 @@
 namespace terracut::streams {
 namespace {
 
-constexpr std::uint64_t kNoChance = 5;  ///< Reordered packets never cause so many contradictions.
+/// More contradictions than this are not caused by reordered packets.
+constexpr std::uint64_t kNoChance = 5;
 constexpr std::size_t kMostSources = 16;
 constexpr std::int64_t kLongestStep_us = 10'000'000;
 
@@ -28,7 +29,8 @@ std::uint64_t hash_of(std::span<const std::uint8_t> payload) {
       {reinterpret_cast<const char*>(payload.data()), payload.size()});
 }
 
-/// True if a single head cannot send a packet `step_us` after another one: so soon, or so late.
+/// True if one head cannot send a packet `step_us` after another one, because that is too soon or
+/// too late.
 bool is_contradiction(std::int64_t step_us, const packet::PacketAzimuths& azimuths) {
   const std::int64_t least_ns = std::int64_t{azimuths.nominal_period_ns} * 3 / 4;
   return step_us * 1000 < least_ns || step_us > kLongestStep_us;

@@ -16,14 +16,15 @@
 
 namespace terracut::streams {
 
-/// Finds out how many sensors of one model send from one address, and which packets are whose.
+/// Finds out how many sensors of one model send from one address, and which packets belong to
+/// which.
 ///
-/// Packets that go to different places (address, port, VLAN) are of different sensors, unless one
-/// place gets copies of another's packets (a bridge, a mirror), or one stream is spread over them.
-/// Packets of different source ports or link-layer addresses are of one sensor, which may open a
-/// new socket for each, unless they contradict each other: one head is not at two places within a
-/// packet's time. This needs the sensor's clock; an HDL-64E S1 has none, so its packets count as
-/// one sensor's.
+/// Packets to different destinations (address, port, VLAN) are of different sensors, unless one
+/// destination gets copies of another's packets (a bridge, a mirror), or one stream is spread over
+/// them. Packets of different source ports or link-layer addresses are of one sensor, which may
+/// open a new socket for each, unless they contradict each other: one head has only one azimuth at
+/// a time. This needs the sensor's clock; an HDL-64E S1 has none, so its packets count as one
+/// sensor's.
 ///
 /// For starts and reports: allocates, within bounds. One thread.
 class SenderStreams {
@@ -39,7 +40,7 @@ class SenderStreams {
  private:
   /// Most destinations kept: more are probably a port scan.
   static constexpr std::size_t kMostDestinations = 64;
-  /// A copy of a packet comes within this many packets.
+  /// A packet is recognised as a copy within this many packets.
   static constexpr std::size_t kMostPayloads = 64;
 
   /// Counts packets that came from another source than the packet before, and how many of these
@@ -51,8 +52,8 @@ class SenderStreams {
     [[nodiscard]] bool are_of_one_head() const { return contradicting * 4 < all; }
     [[nodiscard]] bool are_of_several() const;
   };
-  /// The senders of one destination's packets, by a mark (port, link-layer address) that may tell
-  /// them apart.
+  /// The senders of the packets of one destination, told apart by a mark: source port or link-layer
+  /// address.
   struct Sources {
     std::map<std::uint64_t, std::uint64_t> packets;  ///< Keyed by mark.
     std::uint64_t newest = 0;

@@ -13,7 +13,7 @@
 
 namespace terracut::streams {
 
-/// Where the datagrams of one sender go.
+/// The destination of a sender's datagrams.
 struct Destination {
   std::uint32_t address = 0;  ///< IPv4, see Datagram.
   std::uint16_t port = 0;
@@ -30,19 +30,20 @@ struct Destination {
 struct SensorStream {
   std::uint32_t source_address = 0;  ///< IPv4, see Datagram.
   sensor::SensorModel model{};
-  /// One destination, or several that get the same packets or a part each; the one with most
-  /// packets first.
+  /// One destination, or several that get the same packets or a part of them each; that with the
+  /// most packets first.
   std::vector<Destination> destinations{};
-  /// The source port and link-layer address, set only if needed to tell this sensor from another;
-  /// see Datagram.
+  /// The source port and link-layer address, as in Datagram; set only if needed to tell this sensor
+  /// from another.
   std::optional<std::uint16_t> source_port{};
   std::optional<std::uint64_t> source_mac{};
   std::uint64_t packets = 0;
-  /// True if the sensor's packets contradict each other: several sensors that nothing tells apart.
+  /// True if the packets contradict each other: they are of several sensors that cannot be told
+  /// apart.
   bool contradicts_itself = false;
 
-  /// True if a datagram from the sensor's address may be its own. False for a data packet that went
-  /// to, or came from, another place than this sensor's.
+  /// True if a datagram from the sensor's address may be this sensor's. False for a data packet of
+  /// another source port, link-layer address or destination.
   [[nodiscard]] bool may_hold(const packet::Datagram& datagram) const noexcept {
     const bool is_its_way =
         std::ranges::find(destinations, destination_of(datagram)) != destinations.end() &&

@@ -21,7 +21,7 @@ namespace {
 enum class Mark : unsigned { kAddress, kPort, kTo, kVlan, kModel, kSourcePort, kMac, kCount };
 constexpr unsigned kMarks = static_cast<unsigned>(Mark::kCount);
 
-/// A set of marks: bit i is set if it holds the mark of number i.
+/// A set of marks: bit i stands for the mark with number i.
 using Marks = unsigned;
 constexpr Marks kAll = (1U << kMarks) - 1;
 constexpr Marks set_of(std::initializer_list<Mark> marks) {
@@ -58,7 +58,7 @@ bool tell_apart(Marks marks, std::span<const SensorStream> sensors) {
   return true;
 }
 
-/// Returns the smallest subset of `all` that tells the sensors apart; `all` if no subset does.
+/// Returns the smallest subset of `all` that distinguishes the sensors; `all` if no subset does.
 Marks telling_marks(Marks all, std::span<const SensorStream> sensors) {
   Marks best = all;
   for (Marks marks = all; marks > 0; marks = (marks - 1) & all) {

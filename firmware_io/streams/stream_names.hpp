@@ -11,15 +11,16 @@
 
 namespace terracut::streams {
 
-/// Where several sensors were heard. This decides which options can choose one of them.
+/// Whether several sensors were heard in a capture or in a live run, which have different options
+/// to choose one.
 enum class HeardIn : std::uint8_t { kCapture, kLiveRun };
 
-/// What one of several sensors is called, and the options that choose it from the others.
+/// The name of one of several sensors, and the options that choose it.
 struct StreamName {
   std::string name;     ///< "Velodyne VLP-16 at 192.168.1.201 to port 2369"
   std::string options;  ///< "--port 2369"
 };
-/// Returns the names of the sensors, made of as few marks as tell them all apart.
+/// Returns names for the sensors, built from as few properties as distinguish them all.
 [[nodiscard]] std::vector<StreamName> names_of(std::span<const SensorStream> sensors,
                                                HeardIn heard_in);
 

@@ -8,7 +8,8 @@
 
 #include "rt/error.hpp"
 
-/// VLANs and link-layer addresses as people write them; their numbers are those of Datagram.
+/// Writes and reads VLANs and link-layer addresses as people write them; the numbers are those of
+/// Datagram.
 namespace terracut::streams {
 
 /// Returns "10"; for stacked tags "100.10", the outermost first; "0" for none.

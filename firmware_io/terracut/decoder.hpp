@@ -28,7 +28,7 @@ struct Packet {
 class Decoder {
  public:
   struct Config {
-    /// A packet up to this many packets late still finds its frame; adds latency.
+    /// A packet that comes up to this many packets late still reaches its frame; adds latency.
     int reorder_packets = 2;
   };
 
@@ -44,7 +44,7 @@ class Decoder {
   Decoder& operator=(Decoder&&) noexcept;
   ~Decoder();
 
-  /// Takes a packet; its payload must stay until next() has returned null. Anything but the
+  /// Takes a packet; its payload must stay valid until next() has returned null. Anything but the
   /// sensor's data packets is counted and left out.
   void push(const Packet& packet) noexcept;
   /// Ends the stream: next() then returns the frames still open.

@@ -25,7 +25,8 @@ constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 constexpr std::string_view kNumberCharacters = "0123456789+-.eEinfaN";
 
-/// Parses a line from left to right. Every step returns whether it found what was asked for.
+/// Parses a line from left to right. Each function returns whether it found what it looks for, or
+/// what it found.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : rest_(text) {}
@@ -129,7 +130,7 @@ std::optional<DbcSignal> signal_from(LineReader line) {
   signal.bit_count = *count;
   signal.factor = *factor;
   signal.offset = *offset;
-  // The file's makers state the least and the most value that they expect; these are not used.
+  // The minimum and maximum that the file states for a signal are not used.
   if (!line.symbol('[') || !line.number() || !line.symbol('|') || !line.number() ||
       !line.symbol(']')) {
     return std::nullopt;
@@ -151,7 +152,7 @@ class Parser {
     if (!keyword) return {};
     if (*keyword == "BO_") return read_message(reader, line);
     if (*keyword == "SG_") return read_signal(reader, line);
-    // The list of symbols at the head of a file has these keywords too, with nothing after them.
+    // The list of symbols at the head of a file has the same keywords, with nothing after them.
     if (*keyword == "SIG_VALTYPE_" && text.find_first_of("0123456789") != text.npos) {
       return read_value_type(reader, line);
     }

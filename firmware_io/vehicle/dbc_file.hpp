@@ -64,8 +64,9 @@ struct DbcReference {
   const DbcSignal* signal = nullptr;
 };
 
-/// Parses any bytes. Fails with kMalformed, and the line, for a broken BO_, SG_ or SIG_VALTYPE_
-/// line, and for a text without any message. `name` stands for the path in messages.
+/// Parses a DBC file; the text may be anything. Fails with kMalformed, naming the line, for a
+/// broken BO_, SG_ or SIG_VALTYPE_ line, and for a text without any message. `name` stands for the
+/// path in messages.
 [[nodiscard]] Expected<DbcFile> parse_dbc(std::string_view text, std::string name);
 
 /// Reads a file of at most 4 MiB. Fails with kNotFound, kUnreadable, kUnsupported (larger), or as

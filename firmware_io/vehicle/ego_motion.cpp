@@ -14,7 +14,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr double kFastest_mps = 150, kFastest_radps = 10;
 
 bool is_plausible(const MotionSample& sample) noexcept {
-  // False for NaN as well.
+  // The comparisons are also false for NaN.
   return std::abs(sample.speed_mps) <= kFastest_mps &&
          std::abs(sample.yaw_rate_radps) <= kFastest_radps;
 }
@@ -102,7 +102,8 @@ EgoMotionCounters EgoMotion::counters() const noexcept {
 
 void EgoMotion::take_new() noexcept {
   MotionSample sample;
-  // Takes only the samples that wait now: a writer that keeps adding must not keep the reader here.
+  // Takes only the samples that wait now: a writer that keeps adding must not keep the reader in
+  // this loop.
   for (std::size_t left = waiting_.size_approx(); left > 0 && waiting_.try_pop(sample); --left) {
     if (const auto newest = newest_ns(); newest && sample.stamp_ns <= *newest) count_ = 0;
     if (count_ == ring_.size()) {

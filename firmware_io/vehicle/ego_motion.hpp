@@ -51,9 +51,9 @@ class EgoMotion {
   struct Config {
     /// Largest age of a sample that is still used, and largest step between samples; (0, 1 s].
     std::int64_t max_age_ns = 100'000'000;
-    /// The sensor's place relative to the middle of the rear axle. The samples give that point's
-    /// speed; it does not slip sideways, but a sensor ahead of it does when the vehicle yaws: 1.5 m
-    /// ahead, at 0.5 rad/s, 7.5 cm in 0.1 s.
+    /// The sensor's position relative to the middle of the rear axle. The samples give the speed of
+    /// that point, which does not move sideways; a sensor ahead of it does when the vehicle yaws:
+    /// at 0.5 rad/s, one that is 1.5 m ahead moves 7.5 cm in 0.1 s.
     double sensor_ahead_m = 0, sensor_left_m = 0;
     std::size_t waiting = 256;  ///< Room for samples on their way to the reader; > 0.
     std::size_t kept = 1024;    ///< Newest samples kept; enough for one and a half frames; > 1.
@@ -71,13 +71,13 @@ class EgoMotion {
   /// For the reader. Takes over the samples added since the last call.
   void take_new() noexcept TERRACUT_NONBLOCKING;
 
-  /// For the reader. Tells that the clock of the stamps was set, so that all earlier samples are
+  /// For the reader. Notes that the clock of the stamps was set, so that all earlier samples are
   /// invalid.
   void reset() noexcept TERRACUT_NONBLOCKING;
 
-  /// For the reader. Computes the sensor's poses at `instants_ns`, which must not decrease, in its
-  /// frame at `reference_ns`. `poses` has the same size. False, and `poses` untouched, unless ego
-  /// motion is known for the whole span.
+  /// For the reader. Computes the sensor's poses at `instants_ns`, which must not decrease, in the
+  /// sensor's frame at `reference_ns`. `poses` has the same size. Returns false and leaves `poses`
+  /// unchanged unless ego motion is known for all these instants.
   [[nodiscard]] bool poses(std::span<const std::int64_t> instants_ns, std::int64_t reference_ns,
                            std::span<PlanarPose> poses) const noexcept TERRACUT_NONBLOCKING;
 
@@ -91,7 +91,8 @@ class EgoMotion {
   [[nodiscard]] const MotionSample& kept(std::size_t number) const noexcept;
   /// Returns the last sample at or before this instant; the first if there is none.
   [[nodiscard]] std::size_t last_before(std::int64_t instant_ns) const noexcept;
-  /// Returns the sample from which ego motion is known for this whole span; nothing if it is not.
+  /// Returns the sample from which on ego motion is known up to `last_ns`; nothing if it is not
+  /// known for the whole time.
   [[nodiscard]] std::optional<std::size_t> beginning_of(std::int64_t first_ns,
                                                         std::int64_t last_ns) const noexcept;
 

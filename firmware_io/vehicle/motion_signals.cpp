@@ -18,7 +18,7 @@ constexpr double kSecond_ns = 1e9;
 constexpr double kLeastAge_s = 1e-3, kMostAge_s = 10, kMostTimeout_s = 60;
 
 Status check(const MotionSignalsConfig& config) {
-  // The comparison is also true for NaN.
+  // The range check also refuses NaN.
   const auto out_of = [](const char* name, double value_s, double least_s, double most_s) {
     return fail(ErrorCode::kInvalidArgument, fmt::format("{} {} s: expected a time from {} to {} s",
                                                          name, value_s, least_s, most_s));

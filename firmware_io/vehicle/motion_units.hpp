@@ -8,13 +8,13 @@
 
 namespace terracut::vehicle {
 
-/// Returns the metres a second of one `unit`: "m/s", "km/h" or "mph", and their other spellings in
-/// DBC files ("kph", "KPH", "mi/h" and so on). Fails with kInvalidArgument, naming the unit, for
-/// others.
+/// Returns how many metres per second one `unit` is: "m/s", "km/h" or "mph", or another of their
+/// spellings in DBC files ("kph", "KPH", "mi/h" and so on). Fails with kInvalidArgument, naming the
+/// unit, for others.
 [[nodiscard]] Expected<double> metres_per_second_in(std::string_view unit);
 
-/// Returns the radians a second of one `unit`: "rad/s" or "deg/s", and their other spellings
-/// ("°/s").
+/// Returns how many radians per second one `unit` is: "rad/s" or "deg/s", or another of their
+/// spellings ("°/s").
 [[nodiscard]] Expected<double> radians_per_second_in(std::string_view unit);
 
 }  // namespace terracut::vehicle

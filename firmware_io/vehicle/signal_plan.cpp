@@ -13,12 +13,12 @@ namespace {
 constexpr int kMostBits = 64;
 constexpr int kFrameBits = 8 * static_cast<int>(can::CanFrame::kMostBytes);
 
-/// Returns `bit_count` bits of a little-endian number of up to nine bytes, from bit `shift` on.
+/// Returns a little-endian number of `count` <= 9 bytes without its lowest `shift` bits.
 std::uint64_t intel_bits(const std::uint8_t* bytes, unsigned count, unsigned shift) noexcept {
   std::uint64_t low = 0;
   for (unsigned i = 0; i < std::min(count, 8U); ++i) low |= std::uint64_t{bytes[i]} << 8 * i;
   low >>= shift;
-  // A number of nine bytes always has a shift above 0, so the shift by (64 - shift) is valid.
+  // A number of nine bytes always has a shift above 0, so shifting by (64 - shift) is valid.
   return count == 9 ? low | std::uint64_t{bytes[8]} << (64 - shift) : low;
 }
 
@@ -78,8 +78,9 @@ Expected<SignalPlan> SignalPlan::make(const DbcFile& file, std::string_view name
                   fmt::format("is a floating-point number of {} bits; expected {}",
                               signal.bit_count, wrong_float ? 32 : 64));
   }
-  // Treats both kinds of signal as a run of bits: an Intel signal goes up from its lowest bit, a
-  // Motorola signal down from its highest, counting the bits of each byte from the top.
+  // Treats either kind of signal as a run of bits: an Intel signal goes up from its lowest bit, a
+  // Motorola signal down from its highest; for Motorola, the bits of each byte are counted from the
+  // top.
   const int start = std::clamp(signal.start_bit, -1, kFrameBits);
   const int first_bit = signal.motorola ? start / 8 * 8 + 7 - start % 8 : start;
   const int last_bit = first_bit + (signal.bit_count - 1);

@@ -14,8 +14,8 @@
 
 namespace terracut::vehicle {
 
-/// Extracts one signal from a frame: load up to eight bytes, shift, mask, scale. Made once from a
-/// DBC file; a plain value.
+/// Extracts one signal from a frame: loads up to nine bytes, shifts, masks and scales. Made once
+/// from a DBC file; a plain value.
 class SignalPlan {
  public:
   /// Makes the plan of a signal, named as for find_signal(). Fails with kInvalidArgument if there

@@ -14,7 +14,7 @@
 
 namespace terracut::velodyne {
 
-/// The offsets of a model's beams from their column's azimuth, by channel, in whole numbers
+/// The azimuth offsets of a model's beams from their column, by channel, in whole numbers
 /// (firmware_io/packet/beam_azimuth.hpp), for decoder and encoder. Allocation-free.
 template <class Model>
 class BeamOffsets {
@@ -38,7 +38,8 @@ class BeamOffsets {
     const std::size_t group = Model::group(static_cast<std::size_t>(channel));
     return advance_ticks<Model>(step_ticks, group) + beam_ticks(channel);
   }
-  /// The offsets of all beams lie in [hindmost_ticks(), foremost_ticks()] for that step.
+  /// hindmost_ticks() and foremost_ticks() return the least and the greatest offset of all beams
+  /// for a step.
   [[nodiscard]] std::int32_t hindmost_ticks() const noexcept { return least_ticks_; }
   [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
     return step_ticks + most_ticks_;

@@ -12,8 +12,8 @@
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/velodyne/packet_layout.hpp"
 
-/// The models of Velodyne's family, and when each fires which laser (velodyne_sensor.hpp says what
-/// a model has to say).
+/// The models of Velodyne's family, and when each of their lasers fires (velodyne_sensor.hpp lists
+/// what a model must define).
 namespace terracut::velodyne {
 
 /// Velodyne's VLP-16, also sold as Puck and Puck LITE (VLP-16 user manual, packet structure and
@@ -129,8 +129,8 @@ struct ModelList {
   template <template <class...> class Template>
   using In = Template<First, Rest...>;
 
-  /// Calls `use` with the std::type_identity of the given model and returns the result. If the
-  /// model is not in the list, calls `use` with that of the list's last model.
+  /// Calls `use` with the std::type_identity of the given model and returns the result. For a model
+  /// not in the list, calls it with the list's last model.
   template <class Use>
   static decltype(auto) with(sensor::SensorModel model, const Use& use) {
     if constexpr (sizeof...(Rest) == 0) {
@@ -144,7 +144,8 @@ struct ModelList {
 
 /// All models above, for code that folds over models.
 using Models = ModelList<Vlp16, Hdl32e, Vlp32c, Vls128>;
-/// For code that needs the preprocessor: expands to DO(Template<model>) for each model above.
+/// A macro for code that needs the preprocessor: expands to DO(Template<model>) for each model
+/// above.
 #define TERRACUT_FOR_VELODYNE_MODELS(DO, Template) \
   DO(Template<terracut::velodyne::Vlp16>)          \
   DO(Template<terracut::velodyne::Hdl32e>)         \

@@ -23,8 +23,8 @@ inline constexpr std::int64_t kClockWrap_us = hdl64e::kDeviceHour_us;
 /// Values of the return mode, the byte after the stamp.
 inline constexpr std::uint8_t kStrongest = 0x37, kLast = 0x38, kDual = 0x39;
 
-/// The differences between the models' packets. A column has one head azimuth: it is one block or,
-/// if a firing fills several, all of these.
+/// What differs between the models' packets. A column has one head azimuth: it is one block, or all
+/// blocks that one firing fills.
 struct PacketLayout {
   sensor::SensorModel model{};
   std::array<std::uint16_t, 4> block_ids{};  ///< Ids of a column's blocks, as many as it has.
@@ -39,14 +39,15 @@ struct PacketLayout {
   [[nodiscard]] constexpr int firings(bool dual_return) const noexcept {
     return dual_return ? columns_dual / 2 : columns(false);
   }
-  /// Returns the block with part number `part` of a column. In dual return the two returns of a
-  /// part are adjacent.
+  /// Returns the block of a column that holds its part number `part`. In dual return the two
+  /// returns of a part are in adjacent blocks.
   [[nodiscard]] constexpr std::size_t block(int column, int part, bool dual_return) const noexcept {
     const int pairs_before = column / 2 * blocks_per_column + part;
     return static_cast<std::size_t>(dual_return ? 2 * pairs_before + column % 2
                                                 : column * blocks_per_column + part);
   }
-  /// Returns the most that the head may rotate in a column, at 30 Hz; the sensors spin at 5 to 20.
+  /// Returns the most that the head may rotate in a column: its rotation at 30 Hz, while the
+  /// sensors spin at 5 to 20.
   [[nodiscard]] constexpr int most_step_cdeg() const noexcept {
     return static_cast<int>(std::int64_t{36'000} * 30 * column_ns / 1'000'000'000) + 1;
   }
@@ -58,7 +59,7 @@ struct PacketLayout {
                                                      int firings) noexcept {
   return advance_cdeg * packet::kTicksPerCdeg / (firings - 1);
 }
-/// Returns the step at 10 Hz, for packets of one firing before the rate is known.
+/// Returns the step at 10 Hz, used for packets of one firing until the rate is known.
 [[nodiscard]] constexpr std::int32_t assumed_step_ticks(const PacketLayout& layout) noexcept {
   return static_cast<std::int32_t>(std::int64_t{packet::kRevolution_ticks} * 10 * layout.column_ns /
                                    1'000'000'000);
@@ -73,9 +74,9 @@ template <class Model>
                                    Model::kLayout.column_ns);
 }
 
-/// Largest step back from column to column.
+/// Largest accepted backwards step from column to column.
 inline constexpr int kMaxJitter_cdeg = 5;
-/// Smallest mean step from column to column; if the head advances less, it stands still.
+/// Smallest mean step from column to column; a head that advances less counts as standing still.
 inline constexpr int kMinStep_cdeg = 2;
 
 }  // namespace terracut::velodyne

@@ -128,8 +128,8 @@ void PacketReader::complete(packet::PacketAzimuths& azimuths) const noexcept {
                              ? azimuths.advance_cdeg(azimuths.columns - 1) * packet::kTicksPerCdeg +
                                    azimuths.step_ticks
                              : azimuths.pace_ticks;
-  // While the step is a guess, the sweep is as wide as it can be: otherwise a fast head's gap to
-  // the next packet would count as a loss.
+  // While the step is a guess, the sweep is set as wide as it can be; otherwise the gap that a fast
+  // head leaves to the next packet would count as a loss.
   if (is_step_guessed_) azimuths.sweep_ticks = layout_.most_step_cdeg() * packet::kTicksPerCdeg;
   azimuths.nominal_period_ns = layout_.column_ns * firings;
   azimuths.shortest_period_ns =

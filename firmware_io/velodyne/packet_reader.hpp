@@ -30,8 +30,9 @@ namespace terracut::velodyne {
 /// one thread; real-time safe.
 class PacketReader {
  public:
-  /// `is_named`: the model was stated. Then a packet with an unknown product number is the model's
-  /// (sensor::recognise_sensor_as()), and its return mode is told by its azimuths.
+  /// `is_named` says that the user has named the model. A packet with an unknown product number
+  /// then counts as the model's (sensor::recognise_sensor_as()), and its return mode is found from
+  /// its azimuths.
   explicit PacketReader(const PacketLayout& layout, bool is_named = false) noexcept
       : layout_(layout), is_named_(is_named) {}
 

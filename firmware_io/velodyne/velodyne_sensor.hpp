@@ -48,8 +48,8 @@ class VelodyneSensor {
   static constexpr std::size_t kGroups = Model::kGroups;
   static constexpr std::int64_t kClockWrap_us = velodyne::kClockWrap_us;
   static constexpr int kDefaultColumns = Model::kDefaultColumns;
-  /// Three are enough for dual return: some cells get more than two returns, because two firings
-  /// may share a column.
+  /// Three are enough for dual return: some cells get more than two returns, where two firings
+  /// share a column.
   static constexpr int kDefaultReturnsPerCell = 3;
   using Returns = packet::FiringReturns<static_cast<std::size_t>(kChannels)>;
 
@@ -91,7 +91,7 @@ class VelodyneSensor {
   void read_column(std::span<const std::uint8_t> payload, std::size_t column,
                    const Returns& found) const noexcept TERRACUT_NONBLOCKING {
     const auto* packet = hdl64e::packet_in(payload);
-    if (packet == nullptr) return;  // check() has ruled this out
+    if (packet == nullptr) return;  // cannot happen: check() has accepted the packet
     for (int part = 0; part < Model::kLayout.blocks_per_column; ++part) {
       const std::size_t block =
           Model::kLayout.block(static_cast<int>(column), part, is_dual_packet_);

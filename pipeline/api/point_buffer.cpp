@@ -75,7 +75,7 @@ Read check_fields(const PointBuffer& buffer) {
                      fmt::format("field {} has type {}; known are 1 to 8", field.name,
                                  static_cast<int>(field.type)));
     }
-    // Divides, because a product of these values could overflow.
+    // Divides instead of multiplying: a product of these values could overflow.
     const std::size_t count = std::max<std::size_t>(field.count, 1);
     if (field.offset < buffer.point_step && count <= (buffer.point_step - field.offset) / bytes) {
       continue;
@@ -89,7 +89,7 @@ Read check_fields(const PointBuffer& buffer) {
   return {};
 }
 
-/// Requires `point_step` above 0, as fields lie in a point.
+/// Requires `point_step` > 0, which holds if the fields lie within a point.
 Read check_sizes(const PointBuffer& buffer, std::size_t row_step) {
   if (buffer.width == 0 || buffer.height == 0) {
     return refused(BufferFault::kNoPoints,
@@ -128,7 +128,7 @@ Read unpack(const PointBuffer& buffer, cloud::Cloud& cloud) {
   cloud.points.resize(buffer.width * buffer.height);
   cloud.laser.resize(laser != nullptr ? cloud.points.size() : 0);
   cloud.rows = buffer.height;
-  // Drivers give intensity as the sensor's 0..255; 0..1 would stay dark in pictures.
+  // Drivers write the sensor's intensity, 0..255; pictures need 0..1, or they would stay dark.
   constexpr float kPerStep = 1.0F / 255;
   const auto value_of = [&](const std::byte* point, const PointField& field) {
     return value_at(point + field.offset, field.type, buffer.big_endian);
@@ -142,7 +142,8 @@ Read unpack(const PointBuffer& buffer, cloud::Cloud& cloud) {
       if (laser == nullptr) continue;
       const float number = value_of(point, *laser);
       const bool is_laser = number >= 0 && number < float{cloud::kMostLasers};
-      // Drivers write any number where a beam had no return.
+      // Only points with a valid position count: drivers write any number where a beam had no
+      // return.
       if (!is_laser && scan::is_place(cloud.points[i])) {
         return refused(BufferFault::kLaserNumber,
                        fmt::format("{} of point {} is {}; expected 0 to {}", laser->name, i, number,

@@ -105,7 +105,8 @@ struct Segmenter::Engine {
     if (const Status labelled = pipeline->label(view, record); !labelled) {
       return tl::unexpected(labelled.error());
     }
-    // Reserved only now: reserve() may move these buffers, and `view` may point into them.
+    // Reserves only here, after labelling: `view` may point into these buffers, which reserve() may
+    // move.
     cloud.points.reserve(most_points);
     cloud.laser.reserve(most_points);
     return std::span<const Label>(pipeline->point_labels());

@@ -28,7 +28,7 @@ Expected<CloudReader> CloudReader::open(const Participant& participant, const st
   if (reader.id() < 0) {
     return refused(ErrorCode::kInvalidArgument, "a reader of " + topic, reader.id());
   }
-  // The condition is deleted with its reader.
+  // The condition belongs to the reader and is deleted with it.
   const dds_entity_t has_clouds = dds_create_readcondition(reader.id(), DDS_ANY_STATE);
   Entity waiting(dds_create_waitset(participant.id()));
   if (const dds_return_t added = dds_waitset_attach(waiting.id(), has_clouds, 0); added < 0) {

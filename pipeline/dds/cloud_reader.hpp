@@ -20,8 +20,8 @@ using TakenCloud = std::unique_ptr<const sensor_msgs_msg_dds__PointCloud2_,
 /// Takes the clouds of one topic. For use by one thread.
 class CloudReader {
  public:
-  /// `topic` is from dds_topic(). `reliable`: lost parts are requested again, and writers that do
-  /// not offer that are not received.
+  /// `topic` is from dds_topic(). With `reliable`, lost parts are requested again, but only from
+  /// writers that offer this; others are not received at all.
   [[nodiscard]] static Expected<CloudReader> open(const Participant& participant,
                                                   const std::string& topic, bool reliable);
 

@@ -25,7 +25,7 @@ std::vector<sensor_msgs_msg_dds__PointField_> cloud_fields(bool with_label) {
   return fields;
 }
 
-/// Returns the time of the frame's first packet after the stamp of its header.
+/// Returns the time from the stamp of the header to the frame's first packet.
 float time_of_first_s_of(const publish::LabelledFrame& frame) noexcept {
   const std::int64_t stamp_ns = ros_messages::stamp_ns_of(frame.record);
   return static_cast<float>(frame.record.info.first_packet_ns - stamp_ns) * 1e-9F;
@@ -89,7 +89,7 @@ Status DdsSink::write_mount(const publish::RunFacts& facts) {
 
 Status DdsSink::put(const publish::LabelledFrame& frame) {
   await_readers();
-  // Obstacles go first: a planner stops for them.
+  // Obstacles are published first, because planners stop for them.
   put_points(obstacles_, frame, CloudOf::kObstacles);
   put_points(ground_, frame, CloudOf::kGround);
   put_points(road_, frame, CloudOf::kRoad);
@@ -98,7 +98,7 @@ Status DdsSink::put(const publish::LabelledFrame& frame) {
   return {};
 }
 
-/// Waits, because a history that overflows silently loses frames for slow readers.
+/// Waits for slow readers: a writer's history that overflows would lose frames without a sign.
 void DdsSink::await_readers() {
   const auto all_have_it = [&](Writer& writer) {
     return !writer || writer->is_acknowledged(config_.patience_ns);

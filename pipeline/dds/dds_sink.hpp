@@ -28,7 +28,7 @@ class DdsSink final : public publish::FrameSink {
   struct Config {
     Participant::Config participant{};
     Quality quality{};
-    /// Topics from dds_topic(). A topic that is empty is not published.
+    /// Topics from dds_topic(); an empty topic is not published.
     std::string points{}, ground{}, obstacles{}, road{}, raw{}, diagnostics{}, tf_static{};
     /// How long a frame waits for reliable readers to acknowledge earlier frames; 0: no wait.
     std::int64_t patience_ns = 0;
@@ -56,7 +56,7 @@ class DdsSink final : public publish::FrameSink {
   void await_readers();
   void put_points(Writer& writer, const publish::LabelledFrame& frame, ros_messages::CloudOf which);
   void put_raw(const publish::LabelledFrame& frame);
-  /// Writes the frame's points, which have been put into bytes_.
+  /// Publishes the frame's points, which must have been put into bytes_.
   void write(TopicWriter& writer, const publish::LabelledFrame& frame, std::string& frame_id,
              std::vector<sensor_msgs_msg_dds__PointField_>& fields);
 

@@ -32,7 +32,7 @@ const RosCloud& DerivedCloud::with_labels(const RosCloud& from,
   begin(from);
   set_size(from.height, from.width, step);
   cloud_.is_dense = from.is_dense;
-  // A label that the points came with is replaced.
+  // A field `label` of the original cloud is replaced.
   std::erase_if(fields_,
                 [](const auto& field) { return std::string_view(field.name) == kLabelField; });
   fields_.push_back({kLabelField, own, static_cast<std::uint8_t>(FieldType::kUint8), 1});

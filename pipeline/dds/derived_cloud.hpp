@@ -23,9 +23,9 @@ using RosCloud = sensor_msgs_msg_dds__PointCloud2_;
   return cloud.data._buffer + row * row_step + column * cloud.point_step;
 }
 
-/// A cloud made from another one, keeping its stamp, frame and fields in that original, which must
-/// outlive this object and have passed terracut::unpack() with one label per point. The points lie
-/// here, in memory that the next derived cloud reuses.
+/// A cloud made from another one. Its stamp, frame and field names stay in that original, which
+/// must outlive this object and have passed terracut::unpack() with one label per point. The points
+/// lie here, in memory that the next derived cloud reuses.
 class DerivedCloud {
  public:
   /// Copies the points whose label `takes` accepts, byte for byte, into one row.

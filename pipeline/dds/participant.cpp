@@ -29,20 +29,22 @@ Expected<int> domain_of(const Participant::Config& config) {
               fmt::format("ROS_DOMAIN_ID is '{}'; expected 0 to {}", named, kMostDomain));
 }
 
-/// Returns the configuration: our part first, then the user's. Cyclone accepts several parts
-/// separated by commas; a later part overrides earlier ones.
+/// Returns the configuration for Cyclone: our part, a comma, then the user's part, which overrides
+/// ours.
 std::string configuration(const Participant::Config& config) {
   const std::string_view users = environment("CYCLONEDDS_URI");
   std::string interface = config.interface;
   if (interface.empty() && environment("ROS_LOCALHOST_ONLY") == "1") interface = "lo";
-  // The interfaces of all parts are used together, and naming one interface twice is an error.
+  // Cyclone uses the interfaces of all parts together and refuses one that is named twice, so ours
+  // is left out if the user's part names any.
   if (users.find("NetworkInterface") != std::string_view::npos) interface.clear();
   const std::string interfaces =
       interface.empty()
           ? ""
           : fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>", interface);
-  // WhcHigh is so large that a writer never waits for a reader that has stopped reading: other
-  // readers would wait too. A writer's history bounds its memory.
+  // WhcHigh (the limit of a writer's backlog) is so large that a writer never waits for a reader
+  // that has stopped reading, since other readers would wait, too. A writer's history bounds its
+  // memory.
   const std::string own = fmt::format(
       "<CycloneDDS><Domain id=\"any\">"
       "<General>{}<MaxMessageSize>{}B</MaxMessageSize><FragmentSize>{}B</FragmentSize></General>"

@@ -34,9 +34,9 @@ namespace terracut::ground {
 /// All memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
 class CoarseStages {
  public:
-  /// `profile` must have shape.rows rings.
-  /// `made` is for images that keep their returns as measured, else null: advance() fills it as
-  /// columns are needed, and finish() with all points.
+  /// `profile` must have shape.rows rings. `made` computes points of images that keep their returns
+  /// as measured, and is null for other images: advance() computes the columns it needs, finish()
+  /// all.
   CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
                frame::ImageShape shape, memory::FixedMemory& memory,
                frame::FramePoints* made = nullptr);
@@ -95,7 +95,7 @@ class CoarseStages {
   elevation::RingElevationMap map_;
   elevation::AdjacentPoints adjacent_;
   frame::FramePoints* made_;
-  const frame::RangeImage* image_ = nullptr;  // the frame in work
+  const frame::RangeImage* image_ = nullptr;  // the frame being labelled
   std::uint32_t generation_ = 0;
   stage::StageObserver* observer_ = nullptr;
   int labelled_ = 0;  // the next sector to label, among RingElevationMap::settled()

@@ -68,7 +68,7 @@ stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
   };
   if (observer != nullptr) observer->resumed();
 
-  // The cheapest cut of the range image labels the cells that are still uncertain together.
+  // The cut labels all cells that are still uncertain together.
   report.last_stage = config_.last_stage;
   if (config_.last_stage >= stage::Stage::kMinCut && has_expired(budget)) {
     report.last_stage = stage::Stage::kAdjacentPoints;

@@ -28,15 +28,15 @@ namespace terracut::ground {
 class FineStages {
  public:
   /// `profile` must have shape.rows rings. `return_capacity` is the most returns of an image.
-  /// `made` is as in CoarseStages, but for this thread; points are filled in where needed, unless
-  /// all are there.
+  /// `made` is as in CoarseStages, but for this thread; it computes only the points needed that are
+  /// missing.
   FineStages(const SegmenterConfig& config, const mount::RingProfile& profile,
              frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
              frame::FramePoints* made = nullptr);
 
-  /// Labels the returns of a frame. CoarseStages::finish() must have filled `planes`; refine()
-  /// makes the labels in `planes` final. If `budget` expires before the random field, or too early
-  /// in the cut, the labels stay unchanged.
+  /// Labels the returns of a frame for which CoarseStages::finish() has filled `planes`, and makes
+  /// the labels in `planes` final. If `budget` expires before the random field, or early in the
+  /// cut, the labels of the coarse stages stay.
   [[nodiscard]] stage::SegmentationReport refine(
       const frame::RangeImage& image, stage::CellPlanes& planes,
       const min_cut::CutBudget& budget = {},
@@ -54,7 +54,8 @@ class FineStages {
  private:
   [[nodiscard]] min_cut::CutReport cut(const frame::PointPlanes& points, stage::CellPlanes& planes,
                                        const min_cut::CutBudget& budget) noexcept;
-  /// Returns the points that later stages need: with a cut, those next to unknown cells.
+  /// Returns the points that later stages need: if there is a cut, only those next to unknown
+  /// cells.
   [[nodiscard]] frame::PointPlanes points_of(const frame::RangeImage& image, bool has_cut) noexcept;
 
   SegmenterConfig config_;

@@ -26,8 +26,8 @@ class FrameMethod {
  public:
   virtual ~FrameMethod() = default;
 
-  /// May do part of the work on a frame that is still arriving; does nothing by default. Labels are
-  /// the same without it. Overwrites planes(), not labels().
+  /// May do part of the work on a frame while it is still arriving; does nothing by default. The
+  /// labels are the same without it. Overwrites planes(), but not labels().
   virtual void advance(const frame::RangeImage& /*image*/, int /*complete_columns*/,
                        stage::StageObserver* /*observer*/ = nullptr) noexcept {}
 
@@ -44,7 +44,7 @@ class FrameMethod {
 
   /// Returns one label per return, in order of arrival (RangeImage::return_index()).
   [[nodiscard]] virtual std::span<const frame::Label> labels() const noexcept = 0;
-  /// Returns the label of each cell and the height from which it was judged; for pictures.
+  /// Returns for each cell its label and the height that led to the label; for pictures.
   [[nodiscard]] virtual const stage::CellPlanes& planes() const noexcept = 0;
 };
 

@@ -11,9 +11,9 @@
 
 namespace terracut::ground {
 
-/// Finds the mount from the near ground in a run's first frames: that of an upright sensor or, if
-/// the frames are not certain of one, of a tilted or inverted one; if of neither, that of an
-/// upright sensor by the ground up to 30 m away. Start-up only: allocates.
+/// Finds the mount from the near ground in a run's first frames. Tries an upright sensor first; if
+/// the result is uncertain, a tilted or inverted one; and last an upright one with ground up to 30
+/// m away. Start-up only: allocates.
 class MountSearch {
  public:
   /// Adds a frame that was decoded with the mount mount::kAtTheSensor.

@@ -9,7 +9,8 @@
 namespace terracut::ground {
 namespace {
 
-/// A sixth of a revolution: at the nearest range the strip is 30 degrees wide to either side.
+/// The frame is read in sixths of a revolution: at the nearest range the strip is 30 degrees wide
+/// to either side.
 constexpr int kSectorsAFrame = 6;
 
 }  // namespace
@@ -34,7 +35,7 @@ void take_near_ground(const frame::PointPlanes& points, std::span<const float> h
   const float *x_m = points.x_m, *y_m = points.y_m, *z_m = points.z_m;
   ground.count = 0;
   for (int row = 0; row < shape.rows; ++row) {
-    // Rows begin at different columns, so that thinned rows do not use the same azimuths.
+    // Each row begins at another column, so that thinned rows do not all use the same azimuths.
     for (int at = row % step; at < 2 * sector; at += step) {
       const int from_ahead =
           at < sector ? at - sector / 2 : shape.columns / 2 + at - sector * 3 / 2;

@@ -13,10 +13,10 @@
 
 namespace terracut::ground {
 
-/// The returns from which the mount is found: those of the strip before and behind the vehicle, on
+/// The returns from which the mount is found: those in a strip before and behind the vehicle, on
 /// the surface it stands on. Beside the strip a crowned road falls away. Farther ground is not one
-/// plane where a slope begins: on the simulated hill, a sensor 3 m up seems 0.7 m higher from
-/// ground up to 25 m away, and 0.1 m lower from ground up to 15 m away.
+/// plane where a slope begins: on the simulated hill, the estimated height of a sensor 3 m up is
+/// 0.7 m too large from ground up to 25 m away, and 0.1 m too small from ground up to 15 m away.
 struct NearGround {
   static constexpr float kHalfWidth_m = 1.5F;
   static constexpr float kNearest_m = 3.0F;  ///< Nearer returns may be the vehicle itself.
@@ -48,7 +48,8 @@ struct NearGround {
 
 /// Fills `ground` with returns of the strip up to `farthest_m`, evenly thinned. Examines at most
 /// kMostCellsLookedAt cells of the columns that may have near ground. `points` must be valid in
-/// these columns; `height_m` is any height that is NaN in cells without a return. Real-time safe.
+/// these columns; of `height_m` only matters that it is NaN in cells without a return. Real-time
+/// safe.
 void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,
                       const frame::ImageShape& shape, NearGround& ground,
                       float farthest_m = NearGround::kFarthest_m) noexcept TERRACUT_NONBLOCKING;

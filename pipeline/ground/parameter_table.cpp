@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 3> kCutRows{"auto", "all", "ground"};
 constexpr std::array<std::string_view, 2> kRegionRules{"histogram", "height_ramp"};
 constexpr std::array<std::string_view, 2> kBoundaryRules{"height_gradient", "nearness"};
 
-// The pair of functions that read and write one field of the configuration.
+// Makes the two functions that read and write one field of the configuration.
 #define TERRACUT_FIELD(path)                                                     \
   [](const SegmenterConfig& c) noexcept { return static_cast<double>(c.path); }, \
       [](SegmenterConfig& c, double value) noexcept {                            \
@@ -175,7 +175,7 @@ bool is_read(const Parameter& parameter, const SegmenterConfig& config) noexcept
   const bool has_ramp = config.region.rule == RegionRule::kHeightRamp;
   const bool has_nearness = config.boundary.rule == BoundaryRule::kNearness;
   struct Reader {
-    std::string_view keys;  // what they begin with
+    std::string_view keys;  // beginning of the keys
     bool is_in_use;
   };
   const std::array readers{

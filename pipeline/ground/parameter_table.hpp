@@ -13,11 +13,12 @@ namespace terracut::ground {
 
 using Parameter = ParameterOf<SegmenterConfig>;
 
-/// Returns all parameters of the method, by stage in the order the stages run
-/// (docs/reference/parameters.md is printed from this table).
+/// Returns all parameters of the method by stage, in the order in which the stages run.
+/// docs/reference/parameters.md is printed from this table.
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
 
-/// True if the method with `config` reads the parameter: some belong to one rule of several.
+/// True if the method with `config` reads the parameter; some parameters belong to a rule that may
+/// be switched off.
 [[nodiscard]] bool is_read(const Parameter& parameter, const SegmenterConfig& config) noexcept;
 
 /// Sets one parameter from text ("0.2", "local_surface"). The error's message names the key, the

@@ -19,8 +19,8 @@ namespace terracut::ground {
 /// the min-cut short). One thread at a time; two threads use CoarseStages and FineStages instead.
 class Segmenter final : public FrameMethod {
  public:
-  /// `profile` must have shape.rows rings. `return_capacity` is the most returns of an image.
-  /// `reader` is the sensor's tile reader if images keep their returns as measured, else null.
+  /// `profile` must have shape.rows rings. `return_capacity` is the most returns of an image. If
+  /// images keep their returns as measured, `reader` is the sensor's tile reader, else null.
   Segmenter(const SegmenterConfig& config, const mount::RingProfile& profile,
             frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
             std::unique_ptr<frame::TileReader> reader = nullptr)
@@ -31,8 +31,8 @@ class Segmenter final : public FrameMethod {
         coarse_(config, profile, shape, memory, made_.get()),
         fine_(config, profile, shape, return_capacity, memory, made_.get()) {}
 
-  /// Does part of the work on a frame that is still arriving, by CoarseStages::advance(). Labels
-  /// are the same without it. Overwrites planes(), not labels().
+  /// Does part of the work on a frame while it is still arriving (CoarseStages::advance()). The
+  /// labels are the same without it. Overwrites planes(), but not labels().
   void advance(const frame::RangeImage& image, int complete_columns,
                stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING override {
     coarse_.advance(image, complete_columns, planes_, observer);
@@ -58,7 +58,7 @@ class Segmenter final : public FrameMethod {
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept override {
     return fine_.labels();
   }
-  /// Returns the label of each cell and the height from which it was judged; for pictures and
+  /// Returns for each cell its label and the height that led to the label; for pictures and
   /// measurements.
   [[nodiscard]] const stage::CellPlanes& planes() const noexcept override { return planes_; }
 

@@ -15,7 +15,7 @@ constexpr std::uint64_t kNoLatency = 0xFFFF;
 constexpr std::uint64_t kNoCause = 7;
 constexpr std::uint64_t kMostReturns = (1U << 18) - 1;
 
-/// A run of bits in a frame, lowest first, like "start|count@1+" in a DBC file.
+/// A run of bits in a frame, counted from the lowest, like "start|count@1+" in a DBC file.
 struct Bits {
   unsigned start, count;
 };

@@ -34,9 +34,10 @@ inline constexpr can::CanId kHealthId{1744, false};
 [[nodiscard]] HealthReport health_report_of(const status::MonitorSnapshot& figures,
                                             const status::FrameRecord& newest) noexcept;
 
-/// Returns TERRACUT_FRAME and TERRACUT_TOTALS, to be sent in this order. Values too large for their
-/// signal: latency and returns saturate, counters wrap to 0. `first` is the id of the first frame;
-/// the second frame has the next id. With an id other than kHealthId readers need a changed DBC.
+/// Returns the frames TERRACUT_FRAME and TERRACUT_TOTALS, to be sent in this order. If a value is
+/// too large for its signal, latency and returns saturate, counters wrap to 0. `first` is the id of
+/// the first frame; the second frame has the next id. With an id other than kHealthId, readers need
+/// a changed DBC file.
 [[nodiscard]] std::array<can::CanFrame, 2> health_frames(const HealthReport& report,
                                                          can::CanId first = kHealthId) noexcept;
 

@@ -11,15 +11,16 @@
 
 namespace terracut::health {
 
-/// Reports the health of a live run on a CAN bus (pipeline/health/terracut_health.dbc): for the
-/// newest frame whenever frames were judged, and four times a second if no frames come, so that a
-/// counter that stands still means a dead process. Never waits. For one thread without a deadline.
+/// Reports the health of a live run on a CAN bus (pipeline/health/terracut_health.dbc): the newest
+/// frame whenever frames were judged, and four times a second if no frames come. So a counter that
+/// stands still means a dead process. Never waits. For one thread without a deadline.
 class HealthReporter {
  public:
   /// `bus` is the name of the CAN bus, for show().
   HealthReporter(std::string bus, can::CanSender sender);
 
-  /// Sends what is due; may be called at any rate. `now_ns` is measure::monotonic_ns().
+  /// Sends the reports that are due; may be called at any rate. `now_ns` is
+  /// measure::monotonic_ns().
   void work_round(const status::MonitorSnapshot& figures, const status::FrameRecord& newest,
                   std::int64_t now_ns) noexcept;
 

@@ -19,19 +19,19 @@ namespace terracut::live {
 /// Decides how far a frame is refined before its deadline: by the whole method, by a min-cut that
 /// is stopped when time runs out, by the coarse stages alone, or not at all. It predicts a stage's
 /// cost from the last three frames that ran the stage. A stage that is left out cannot be measured,
-/// so after some frames it is tried whatever the prediction:
+/// so after some frames it is tried, whatever the prediction:
 ///
-/// A frame is skipped if even the least of the three costs of its coarse stages does not fit. After
-/// two skipped frames the next one is tried. The trial costs no miss, because a skipped frame has
-/// missed its deadline as well; a late trial counts as skipped (end()).
+/// A frame is skipped if even the least of the last three costs of the coarse stages does not fit.
+/// After two skipped frames the next one is tried. The trial costs no miss, because a skipped frame
+/// misses its deadline as well; a late trial counts as skipped (end()).
 ///
-/// The cut is left out if the greatest of its three costs does not fit, because a cut begun in vain
-/// delays the labels. After two frames without a cut the next one is tried. Each trial that makes
-/// its frame late doubles the number of frames before the next trial, up to 32: during a long
-/// overload one frame in 33 pays for noticing its end.
+/// The cut is left out if the greatest of its last three costs does not fit, because a cut begun in
+/// vain delays the labels. After two frames without a cut the next one is tried. Each trial that
+/// makes its frame late doubles the number of frames before the next trial, up to 32: during a long
+/// overload one frame in 33 is late to find out whether the overload has ended.
 ///
-/// So labels return within three frames after a slow frame or an overload, and so does the whole
-/// method, unless trials of the cut made frames late before.
+/// So after a slow frame or an overload, labels return within three frames, and so does the whole
+/// method unless earlier trials of the cut made frames late.
 ///
 /// Real-time safe; one thread. `Clock` is like measure::SystemClock.
 template <class Clock>
@@ -61,8 +61,8 @@ class DegradationPolicyOf {
     return true;
   }
   /// Returns the cut's budget for this frame, valid as long as this object. It expires early enough
-  /// for the stages after the cut; before the cut has begun, it counts as expired unless the cut
-  /// can probably end in time.
+  /// for the stages after the cut. Asked before the cut has begun, it counts as expired unless the
+  /// cut can probably end in time.
   [[nodiscard]] min_cut::CutBudget budget() noexcept TERRACUT_NONBLOCKING {
     return {min_cut::CutBudget::kDefaultOps,
             [](void* degradation) noexcept TERRACUT_NONBLOCKING {
@@ -70,7 +70,7 @@ class DegradationPolicyOf {
             },
             this};
   }
-  /// True if the frame's labels may be handed on; false if the frame was a trial and is late.
+  /// True if the frame's labels may be handed on; false for a trial that is late.
   [[nodiscard]] bool may_hand_on() const noexcept TERRACUT_NONBLOCKING {
     return !is_trial_ || clock_.realtime_ns() <= due_ns_;
   }
@@ -85,7 +85,7 @@ class DegradationPolicyOf {
     labels_.add(labels_ns);
     coarse_.add(cost_ns(Stage::kElevationMap) + cost_ns(Stage::kAdjacentPoints) + labels_ns);
     if (before_cut_) return;
-    // How long labels take after an unfinished cut is known only if a cut was stopped.
+    // The time that labels take after a cut was stopped is known only if this cut was stopped.
     if (stopped_cpu_ns_ != 0) {
       stopping_.add(clock_.thread_cpu_ns() - stopped_cpu_ns_ + kMargin_ns);
     }
@@ -108,7 +108,7 @@ class DegradationPolicyOf {
   }
 
  private:
-  /// The costs of one kind of work in the last three frames that did it; at first an estimate.
+  /// The costs of one kind of work in the last three frames that did it; estimates at first.
   class LastThree {
    public:
     explicit LastThree(std::int64_t expected_ns) noexcept {
@@ -164,7 +164,7 @@ class DegradationPolicyOf {
     return true;
   }
 
-  /// The most skipped frames in a row, and the least number of frames between trials of the cut.
+  /// The most frames skipped in a row, and the longest rest between trials of the cut, in frames.
   static constexpr int kMostInARow = 2;
   static constexpr int kMostRest = 32;
   /// Time reserved for waking up late and for handing labels on.
@@ -185,7 +185,7 @@ class DegradationPolicyOf {
   int cut_left_out_ = 0;          ///< Successive cuts left out.
   int cut_rest_ = kMostInARow;
 
-  // State of the frame in work.
+  // State of the frame being processed.
   std::int64_t due_ns_ = 0;
   bool is_trial_ = false, tries_cut_ = false;
   bool before_cut_ = true;

@@ -13,8 +13,9 @@
 
 namespace terracut::live {
 
-/// Hands frames from the receiving thread to the segmenting one: always the newest, never a queue.
-/// A frame that was not taken before the next one came is skipped; the receiving thread counts it.
+/// Hands frames from the receiving thread to the segmenting one: always the newest, without a
+/// queue. A frame that is not taken before the next one comes is skipped, and the receiving thread
+/// counts it.
 ///
 /// Images are exchanged one for one. The decoder has two open images; this object has three more:
 /// the image being read, the newest one, and one that the decoder gets back for its next frame.

@@ -15,7 +15,7 @@ FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publi
       publisher_(publisher),
       slots_(slots),
       ready_(ready),
-      // A failure needs no handler: the slots count the frames that nobody takes any more.
+      // A failure of this thread needs no handler: the slots count the frames that nobody takes.
       thread_([this] { work(); }, [](std::string_view) {}) {}
 
 bool FrameOutlet::finish(std::chrono::milliseconds patience) {

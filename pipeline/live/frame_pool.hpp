@@ -26,7 +26,7 @@ template <class T>
 class FramePool {
  public:
   struct Frame {
-    status::FrameRecord record;  ///< Lacks only what happens after labelling.
+    status::FrameRecord record;  ///< Complete except for what happens after labelling.
     std::span<const T> items;
   };
 
@@ -74,8 +74,8 @@ class FramePool {
   /// Returns how many frames found no room or were given back unused. This and the next function
   /// may be called on any thread.
   [[nodiscard]] std::uint64_t unused() const noexcept { return unused_.load(); }
-  /// Returns how many frames are not given back yet. They are lost if the other thread hangs for
-  /// good.
+  /// Returns how many frames have not been given back yet. They are lost if the other thread hangs
+  /// for good.
   [[nodiscard]] std::uint64_t waiting() const noexcept { return waiting_.load(); }
 
  private:

@@ -28,10 +28,10 @@ namespace terracut::live {
 /// The receiving half of a live run: takes datagrams and hands over frames with most of their
 /// coarse stages done. One thread with a deadline, which calls work_round() repeatedly.
 ///
-/// The cost of one packet does not depend on its content (docs/design.md, "Work per packet"):
-/// decoding, one block of the coarse stages, and the hand-over of frames that it ends, of which at
-/// most one still needs its last sectors labelled. A frame with less than three quarters labelled
-/// ahead (deskewed, packets lost, or stream broken off) is left to the segmenting thread.
+/// The cost of one packet does not depend on its content (docs/design.md, "Work per packet"): it is
+/// decoded, one block of the coarse stages is done, and the frames that it ends are handed over; at
+/// most one of these still needs its last sectors labelled. A frame with less than three quarters
+/// labelled ahead (deskewed, packets lost, or stream broken off) is left to the segmenting thread.
 ///
 /// `Source` is a DatagramSource with refresh_drops(), `Clock` is like measure::SystemClock, and
 /// `Wait` is like measure::RunQueueWait.
@@ -42,7 +42,8 @@ class FrameReceiver {
     std::int64_t deadline_ns = 0;  ///< Time from a frame's last packet to its labels.
     GatheringPolicy::Config gathering;
   };
-  /// The receivers of results must outlive this object; `recorder`, `told_table` may be null.
+  /// Where results go. Everything pointed to must outlive this object; `recorder` and `told_table`
+  /// may be null.
   struct Outlets {
     FrameExchange* frames;
     const threads::WakeEvent* frame_ready;
@@ -78,7 +79,7 @@ class FrameReceiver {
 
   struct Round {
     int frames = 0;  ///< Number of frames handed over.
-    /// How long the next packets may gather: none that ends a frame is due in that time.
+    /// How long the next packets may gather: during this time no packet is due that ends a frame.
     std::int64_t gathering_ns = 0;
   };
   /// Waits at most `timeout_ns` for datagrams and processes those that came.
@@ -86,8 +87,7 @@ class FrameReceiver {
     waited_before_last_fetch_ns_ = waited_before_fetch_ns_;
     waited_before_fetch_ns_ = wait_.read_ns();
     const std::span<const packet::Datagram> datagrams = source_.receive(timeout_ns);
-    // Counts all received datagrams: those of other senders fill a batch, too, but are not
-    // returned.
+    // Counts received datagrams, not delivered ones: those of other senders also fill a batch.
     const std::uint64_t received = source_.counters().received;
     const bool more_may_wait =
         received - std::exchange(received_, received) >= net::kBatchDatagrams;
@@ -98,16 +98,16 @@ class FrameReceiver {
     publish();
     return {frames_, more_may_wait ? 0 : gathering_.time_ns(share_to_come_)};
   }
-  /// Ends the run: counts the datagrams that the kernel dropped last.
+  /// Ends the run: counts the datagrams that the kernel dropped since the last count.
   void finish() noexcept TERRACUT_NONBLOCKING {
     source_.refresh_drops();
     publish();
   }
 
  private:
-  /// Ends the loop even if a sender never stops; no buffer holds so many batches.
+  /// Ends the loop even if a sender never stops; no kernel buffer holds so many batches.
   static constexpr int kMostBatches = 10'000;
-  /// One block has at least eight times the columns of a packet, so the coarse stages catch up.
+  /// A block has at least eight times as many columns as a packet, so the coarse stages catch up.
   static constexpr int kBlocksAPacket = 1;
   static constexpr float kEnoughAhead = 0.5F;
 
@@ -116,7 +116,7 @@ class FrameReceiver {
     if (to_.recorder != nullptr) to_.recorder->add(datagram);
     if (to_.told_table != nullptr) to_.told_table->add(datagram);
     if (!gate_.lets_in(datagram.stamp_ns, now_ns)) {
-      // Without this, the decoder would count the packets left out here as lost on the network.
+      // Otherwise the decoder would count the packets left out here as lost on the network.
       if (!std::exchange(lets_go_, true)) {
         pipeline_.decoder.end_stream();
         hand_over_frames();
@@ -171,7 +171,7 @@ class FrameReceiver {
     record.segment_cpu_ns = record.ahead_cpu_ns = record.stages.sum_ns();
     const std::int64_t now_ns = clock_.thread_cpu_ns();
     record.decode_cpu_ns = now_ns - std::exchange(spent_ns_, now_ns) - record.segment_cpu_ns;
-    // The last packet of the frame came with this fetch or the previous one.
+    // The frame's last packet came with this fetch or the previous one.
     record.run_queue_wait_ns = wait_.read_ns() - waited_before_last_fetch_ns_;
     record.handed_over_ns = clock_.realtime_ns();
     return record;

@@ -27,7 +27,8 @@ namespace terracut::live {
 template <class Clock, class Wait>
 class FrameSegmenter {
  public:
-  /// The receivers of results must outlive this object; slots and `near_ground` may be null.
+  /// Where results go. Everything pointed to must outlive this object; the slots and `near_ground`
+  /// may be null.
   struct Outlets {
     FrameRecords* records;
     FramePool<frame::Label>* labels;
@@ -78,7 +79,7 @@ class FrameSegmenter {
     record.labels_ns = clock_.realtime_ns();
     const std::int64_t labelled_cpu_ns = clock_.thread_cpu_ns();
     if (record.level != status::Level::kSkipped) hand_on(frame);
-    record.labels_ns = clock_.realtime_ns();  // a frame is in time if it is handed on in time
+    record.labels_ns = clock_.realtime_ns();  // handing on is part of the latency
     const std::int64_t handed_on_cpu_ns = clock_.thread_cpu_ns();
     record.segment_cpu_ns += handed_on_cpu_ns - begun_cpu_ns;
     const stage::StageTimes times = stage_clock_.take();

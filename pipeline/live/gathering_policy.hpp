@@ -27,8 +27,9 @@ class GatheringPolicy {
         frame_period_ns_(config.frame_period_ns),
         longest_ns_(longest_ns(kMostPacketsAFrame)) {}
 
-  /// Returns how long the next packets may gather; 0 if one that ends the frame may come too soon.
-  /// `share_to_come` is the share of the arriving frame that has not come yet, [0, 1].
+  /// Returns how long the next packets may gather; 0 if a packet that ends the frame may come
+  /// sooner than is worth a wait. `share_to_come` is the share of the arriving frame that has not
+  /// come yet, [0, 1].
   [[nodiscard]] std::int64_t time_ns(float share_to_come) const noexcept {
     const auto left_ns = static_cast<std::int64_t>((share_to_come - kFetchedAsTheyCome) *
                                                    static_cast<float>(frame_period_ns_));
@@ -36,15 +37,16 @@ class GatheringPolicy {
     return time_ns < kWorthwhile_ns ? 0 : time_ns;
   }
 
-  /// Learns from a frame. `last_packet_ns` is the stamp of its last packet; `received` counts
-  /// datagrams up to now, also of other senders, which fill the buffer as well. A head set to
-  /// rotate faster must not be waited for too long; a lost frame looks like a slower head.
+  /// Learns from a frame. `last_packet_ns` is the stamp of its last packet. `received` counts all
+  /// datagrams up to now, as those of other senders fill the buffer, too. The period may become
+  /// shorter than configured (a head set to rotate faster) but never longer: a lost frame looks
+  /// like a slower head.
   void note_frame(std::int64_t last_packet_ns, std::uint64_t received) noexcept {
     const std::int64_t period_ns = last_packet_ns - std::exchange(last_packet_ns_, last_packet_ns);
     frame_period_ns_ = std::clamp<std::int64_t>(period_ns, 0, config_.frame_period_ns);
     const std::uint64_t packets = received - std::exchange(received_before_, received);
     if (period_ns == last_packet_ns) return;  // the first frame may have begun anywhere
-    // A flood shortens gathering at once and keeps it short until some seconds after the flood.
+    // A flood shortens gathering at once, and for some seconds after its end.
     many_packets_ = std::max(many_packets_ - many_packets_ / 16, packets);
     longest_ns_ = longest_ns(many_packets_);
   }

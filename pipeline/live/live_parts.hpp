@@ -25,7 +25,8 @@
 
 namespace terracut::live {
 
-/// The settings for the vehicle's motion. `source`, a CAN bus, was opened for `signals`.
+/// The settings for the vehicle's motion. `source` is a CAN bus opened for the messages of
+/// `signals`.
 struct VehicleConfig {
   const vehicle::MotionSignals* signals = nullptr;
   can::SocketCanSource* source = nullptr;
@@ -43,8 +44,8 @@ struct LiveConfig {
   std::optional<VehicleConfig> vehicle;
 };
 
-/// The computing parts of a live run in fixed memory, composed alike for the program and the
-/// library. All arguments must outlive this object.
+/// The computing parts of a live run in fixed memory, put together in the same way for the program
+/// and the library. All arguments must outlive this object.
 struct LiveParts {
   static constexpr std::size_t kKeptFrames = 256;  ///< Kept by `monitor` for traces and dumps.
 

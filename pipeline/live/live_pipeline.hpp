@@ -27,7 +27,7 @@ namespace terracut::live {
 }
 
 /// The objects with which two threads turn packets into labels. The receiving thread decodes and
-/// does the coarse stages, mostly before the frame has ended; the result travels with the frame's
+/// does the coarse stages, mostly before the frame has ended; their result stays with the frame's
 /// image. If the coarse stages were behind when a frame ended, the segmenting thread does them.
 struct LivePipeline {
   decode::Decoder decoder;  ///< Used by the receiving thread, as is `coarse`.

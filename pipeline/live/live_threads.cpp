@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kLongestWait_ns = 100'000'000;
 
-/// Waits on purpose, so that packets gather and one call receives many of them.
+/// Lets packets gather by waiting, so that one call receives many of them.
 void gather(std::int64_t time_ns) noexcept {
   threads::trusted_call(
       [&]() noexcept { std::this_thread::sleep_for(std::chrono::nanoseconds(time_ns)); });

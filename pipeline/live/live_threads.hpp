@@ -88,11 +88,11 @@ class LiveThreads {
     return events_.points_ready;
   }
 
-  /// Returns the newest near ground unless it was returned before, else null. Near ground comes
-  /// from one frame in LatestNearGround::kFramesApart. For one thread; valid until its next call.
+  /// Returns the near ground of the newest examined frame (one in LatestNearGround::kFramesApart)
+  /// unless it was returned before; else null. For one thread; valid until its next call.
   [[nodiscard]] const ground::NearGround* near_ground() noexcept { return near_ground_.newest(); }
 
-  /// Returns what packets tell of the unit's calibration table (Config::compares_tables).
+  /// Returns the reader of the calibration table in the packets (Config::compares_tables).
   [[nodiscard]] sensor::ToldTable& told_table() noexcept { return told_table_; }
 
   /// Returns the state of the input. To be called from one thread.

@@ -15,7 +15,7 @@
 
 namespace terracut::live {
 
-/// What is known of the vehicle's bus and motion after the latest work_round().
+/// State and figures of the vehicle's bus and motion after the latest work_round().
 struct HeardMotion {
   can::CanReceiveCounters bus;
   vehicle::MotionCounters signals;
@@ -47,7 +47,7 @@ class MotionReceiver {
   }
 
  private:
-  /// Least time between samples: no car's speed or yaw rate changes faster than this shows.
+  /// Least time between samples: no car's speed or yaw rate changes noticeably faster.
   static constexpr std::int64_t kClosest_ns = 2'000'000;
 
   void take(const can::CanFrame& frame) noexcept {

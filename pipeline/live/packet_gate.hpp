@@ -10,16 +10,16 @@
 namespace terracut::live {
 
 /// Decides which packets to decode when more come than this machine can handle. The kernel's buffer
-/// is a queue of more than a second; without the gate every label would be that late throughout an
+/// is a queue of more than a second; without the gate every label would be that late during an
 /// overload. There are two rules.
 ///
-/// A packet is dropped when it is older than a frame and the deadline together: its frame is late,
-/// whatever is done now. After a standstill this drops useless packets and no others.
+/// A packet is dropped if it is older than a frame's duration and the deadline together: its frame
+/// is late, whatever is done now. After a standstill this drops the useless packets and no others.
 ///
-/// The backlog is dropped when three frames in a row were handed over after their deadline. After a
-/// standstill this thread catches up within two frames, so three late frames mean that it is too
-/// slow for the load. It goes on with the newest packets; frames after that are in time until the
-/// lag has grown again.
+/// The backlog is dropped after three frames in a row were handed over too late. This thread
+/// catches up with a standstill within two frames, so three late frames mean that it is too slow
+/// for the load. It goes on with the newest packets; later frames are in time until the lag has
+/// grown again.
 ///
 /// Ages are measured by CLOCK_REALTIME, like the kernel's stamps: a step of the clock costs at most
 /// the packets then waiting in the buffer. One thread; reads no clock.
@@ -29,7 +29,7 @@ class PacketGate {
   PacketGate(std::int64_t deadline_ns, std::int64_t frame_period_ns) noexcept
       : deadline_ns_(deadline_ns), oldest_useful_ns_(deadline_ns + frame_period_ns) {}
 
-  /// Notes that packets were fetched. `more_may_wait`: the batch was full, more may be ready.
+  /// Notes that a batch of packets was fetched. `more_may_wait` says that it was full.
   void begin_batch(bool more_may_wait) noexcept TERRACUT_NONBLOCKING {
     if (!more_may_wait) lets_backlog_go_ = false;
   }

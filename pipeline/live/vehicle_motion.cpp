@@ -13,11 +13,11 @@
 namespace terracut::live {
 namespace {
 
-/// How often the age of the motion is checked when the bus is silent.
+/// How often the motion's age is checked while the bus is silent.
 constexpr std::int64_t kPatience_ns = 50'000'000;
 constexpr std::chrono::milliseconds kRest{1};
 
-/// Waits on purpose, so that messages gather.
+/// Lets messages gather by waiting.
 void rest() noexcept {
   threads::trusted_call([]() noexcept { std::this_thread::sleep_for(kRest); });
 }

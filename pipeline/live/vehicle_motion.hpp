@@ -51,7 +51,7 @@ class VehicleMotion {
   /// Returns the vehicle's motion, to be read by one other thread.
   [[nodiscard]] vehicle::EgoMotion& motion() noexcept { return motion_; }
 
-  /// Fills in the figures of bus and samples, but none that come from frames. For one thread.
+  /// Fills in the figures of bus and samples, but not those of frames. For one thread.
   void show(status::MotionFigures& figures) noexcept;
   [[nodiscard]] const LiveThreadState& thread_state() const noexcept { return thread_state_; }
 

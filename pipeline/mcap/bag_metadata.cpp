@@ -11,7 +11,7 @@
 namespace terracut::mcap {
 namespace {
 
-/// Returns the text in quotes on one line.
+/// Returns the text in double quotes, with line ends escaped.
 std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {

@@ -20,7 +20,7 @@ enum class Qos : std::uint8_t {
 /// every later version reads it, too.
 [[nodiscard]] std::string offered_qos_of(Qos qos);
 
-/// A file of a bag that has been closed.
+/// A closed file of a bag.
 struct BagFile {
   std::string name;  ///< Relative to the bag's folder.
   McapFile::Span span;

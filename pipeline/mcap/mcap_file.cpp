@@ -23,7 +23,7 @@ constexpr std::array<std::uint8_t, 8> kMagic{0x89, 'M', 'C', 'A', 'P', '0', '\r'
 constexpr std::string_view kProfile = "ros2";
 constexpr std::string_view kLibrary = "terracut " TERRACUT_VERSION;
 constexpr std::string_view kMetadataName = "terracut";
-constexpr int kCompressionLevel = 1;  // the fastest: there is only a frame's time for it
+constexpr int kCompressionLevel = 1;  // the fastest: a chunk must be done within a frame's time
 
 tl::unexpected<Error> write_failed(const std::filesystem::path& path, int error_number) {
   return fail(ErrorCode::kWriteFailed,
@@ -102,7 +102,7 @@ Status McapFile::begin(const Metadata& metadata) {
 }
 
 void McapFile::add_schemas(RecordWriter& to) const {
-  // Writes one schema of each type, under the number of the first channel that has it.
+  // Writes each message type's schema once, under the number of the first channel with that type.
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const Channel& channel = channels_[i];
     const auto first = std::ranges::find(channels_, channel.type, &Channel::type);

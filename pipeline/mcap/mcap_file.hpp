@@ -49,7 +49,7 @@ class McapFile {
   /// CLOCK_REALTIME; negative ones count as 1970. Fails with kWriteFailed.
   [[nodiscard]] Status add_message(std::size_t channel, std::int64_t time_ns,
                                    std::span<const std::byte> message);
-  /// Completes the file and renames it; must be the last call. Fails with kWriteFailed.
+  /// Completes the file and renames it; no call may follow. Fails with kWriteFailed.
   [[nodiscard]] Status close();
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
@@ -66,8 +66,8 @@ class McapFile {
   [[nodiscard]] Span span() const noexcept { return span_.value_or(Span{}); }
 
  private:
-  /// A chunk is closed at this size. A frame is larger, so each frame of a running recording is on
-  /// the disk when the next frame comes.
+  /// A chunk that reaches this size is closed. A frame is larger, so each frame of a running
+  /// recording is on the disk when the next frame comes.
   static constexpr std::size_t kChunkBytes = 1 << 20;
 
   struct IndexEntry {

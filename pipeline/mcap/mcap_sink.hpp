@@ -36,13 +36,13 @@ class McapSink final : public publish::FrameSink {
     /// A bag begins a new file at this many bytes or this much time; 0: no such limit.
     std::uint64_t split_bytes = 0;
     std::int64_t split_ns = 0;
-    /// Records only the cloud of all points, whose labels tell ground from obstacles; else ground,
-    /// obstacles and, if labelled, road also have a cloud each.
+    /// True: records only the cloud of all points, whose labels tell ground from obstacles. False:
+    /// ground, obstacles and, if labelled, road have a cloud each, too.
     bool points_alone = false;
     McapFile::Metadata metadata{};  ///< Stored in every file.
-    /// Takes the next free name: "drive_2.mcap" if "drive.mcap" or a killed process's part of it
-    /// exists, "drive_2" if the folder "drive" is not empty, and so on. When the disk has no room
-    /// left (files::check_room_left()), completes the file and put() fails.
+    /// True: takes the next free name: "drive_2.mcap" if "drive.mcap" exists or a killed process
+    /// has left a part of it, "drive_2" if the folder "drive" is not empty, and so on. When the
+    /// disk has no room left (files::check_room_left()), put() completes the file and fails.
     bool unattended = false;
   };
 
@@ -80,8 +80,8 @@ class McapSink final : public publish::FrameSink {
   [[nodiscard]] static std::filesystem::path free_place(const std::filesystem::path& path);
   [[nodiscard]] std::size_t channel_of(std::size_t topic) const;
   [[nodiscard]] std::filesystem::path next_path() const;
-  /// Makes sure that a file is open and that the file and its disk have room for a message of this
-  /// time. Each file begins with the transform.
+  /// Makes sure that a file is open, and that both the file's limits and the disk allow another
+  /// message at this time. Each file begins with the transform.
   [[nodiscard]] Status make_room(std::int64_t time_ns);
   [[nodiscard]] Status close_file();
 

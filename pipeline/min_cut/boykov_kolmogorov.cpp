@@ -164,8 +164,8 @@ std::uint32_t BoykovKolmogorov::origin_distance(std::uint32_t index) noexcept {
     at = n.neighbour[n.parent];
   }
   const std::uint32_t distance = steps + node(at).distance;
-  // Stores the distances found on the way: they hold for this augmentation, so the next search
-  // stops at them.
+  // Stores the distances of the nodes on the way: they stay valid until the next augmentation, so
+  // the next search stops at these nodes.
   std::uint32_t known = distance;
   for (at = index; node(at).stamp != time_; at = node(at).neighbour[node(at).parent]) {
     node(at).stamp = time_;

@@ -16,9 +16,9 @@ namespace terracut::min_cut {
 
 /// Finds the maximum flow of one component after Y. Boykov, V. Kolmogorov, "An Experimental
 /// Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision", PAMI 26(9), 2004,
-/// section 3: two search trees, one from each terminal, grow until they touch; the path is
-/// augmented; the nodes it cuts off are adopted by other parents or set free. It is the fastest on
-/// street scenes, but has no useful bound: give it a budget.
+/// section 3. Two search trees, one from each terminal, grow until they touch; flow is pushed along
+/// the path; the nodes that this cuts off are adopted by other parents or set free. It is the
+/// fastest solver on street scenes, but has no useful bound: give it a budget.
 class BoykovKolmogorov {
  public:
   BoykovKolmogorov(std::size_t max_nodes, memory::FixedMemory& memory);
@@ -30,7 +30,7 @@ class BoykovKolmogorov {
                            OpClock& clock, std::int64_t ops_limit) noexcept TERRACUT_NONBLOCKING;
 
  private:
-  /// Values of CutNode::parent that are no direction.
+  /// Values of CutNode::parent that are not directions.
   static constexpr std::uint8_t kParentTerminal = 8;
   static constexpr std::uint8_t kParentNone = 9;  ///< The node is an orphan or in no tree.
 

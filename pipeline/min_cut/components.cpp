@@ -9,7 +9,7 @@
 namespace terracut::min_cut {
 namespace {
 
-/// Returns bits that order like non-negative floats; NaN comes last.
+/// Returns bits that as integers have the same order as non-negative floats; NaN comes last.
 std::uint32_t ordered_bits(float range_m) noexcept {
   return range_m < 0 ? 0U : std::bit_cast<std::uint32_t>(range_m + 0.0F) & 0x7FFFFFFFU;
 }
@@ -26,7 +26,7 @@ std::span<const std::uint32_t> Components::operator[](std::uint32_t i) const noe
 
 void Components::find(CutGraph& graph, std::span<const std::uint32_t> cells,
                       std::span<const float> ground_range_m) noexcept {
-  // `queued` means reached here.
+  // While components are searched, `queued` means that a node was reached.
   for (CutNode& node : graph.nodes) node.queued = node.side != Side::kFree;
   count_ = 0;
   std::uint32_t end = 0;

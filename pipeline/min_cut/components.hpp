@@ -12,8 +12,8 @@
 
 namespace terracut::min_cut {
 
-/// The connected components of the nodes that persistency left open. Each component is solved
-/// exactly by itself; as the nearest are solved first, the work can be stopped at any time.
+/// The connected components of the nodes that persistency left undecided. Each component is solved
+/// exactly by itself, the nearest first, so that the work can be stopped at any time.
 class Components {
  public:
   Components(std::size_t max_nodes, memory::FixedMemory& memory);

@@ -26,10 +26,10 @@ namespace terracut::min_cut {
 /// to the cost of that label, and hard seeds need no nodes; this is exact.
 ///
 /// Persistency: a cell whose terminal capacity outweighs all its edges together takes that
-/// terminal's label, whatever its neighbours get. The cell becomes a hard seed at once: later cells
-/// see it as a seed; earlier nodes are updated and may be decided by that in turn, until nothing
-/// changes. On real frames two of three unknown cells are decided this way, most without ever being
-/// a node. A tie goes to obstacle, as grid_cut.hpp promises.
+/// terminal's label, whatever its neighbours get. Such a cell becomes a hard seed at once: later
+/// cells see it as a seed, and earlier nodes beside it are updated, which may decide them in turn,
+/// until nothing changes. On real frames two of three unknown cells are decided this way, most
+/// without ever being a node. A tie goes to obstacle, as grid_cut.hpp promises.
 class Contraction {
  public:
   Contraction(const frame::ImageShape& shape, std::size_t max_nodes, memory::FixedMemory& memory);
@@ -41,21 +41,21 @@ class Contraction {
     std::int64_t ops = 0;       ///< Edges from decided cells to nodes.
     bool finished = false;
   };
-  /// Turns each unknown cell of `problem.seeds` into a decided cell or into a node of `graph`,
-  /// whose seed stays kUnknown; when all nodes are in use, pins the cell to its label in `coarse`.
-  /// If the caller's clock expires, `finished` is false and the graph is useless. Real-time safe.
+  /// Decides each unknown cell of `problem.seeds`, or makes it a node of `graph` and leaves its
+  /// seed kUnknown; when all nodes are in use, pins the cell to its label in `coarse`. If the
+  /// caller's clock expires, `finished` is false and the graph is useless. Real-time safe.
   template <RegionCosts Costs, EdgeWeights Weights>
   [[nodiscard]] Result run(const GridProblem& problem, const Costs& costs, const Weights& weights,
                            std::span<const frame::Label> coarse, OpClock& clock,
                            CutGraph& graph) noexcept;
 
-  /// Returns the cell of each node. A node decided after its creation has a side but no edges.
+  /// Returns the cell of each node. A node that was decided later has a side but no edges.
   [[nodiscard]] std::span<const std::uint32_t> cells() const noexcept {
     return cells_.first(size_);
   }
 
  private:
-  /// A cell's edges to open neighbours and its excess, as in CutNode.
+  /// The weights of a cell's edges to undecided neighbours, and its excess, as in CutNode.
   struct OpenEnds {
     EightLanes weights;
     std::int32_t excess;
@@ -63,8 +63,8 @@ class Contraction {
 
   void begin(const GridProblem& problem, OpClock& clock) noexcept TERRACUT_NONBLOCKING;
   void begin_row(int row) noexcept TERRACUT_NONBLOCKING;
-  /// Counts one piece of work and reads the clock once in kNodesPerClockLook calls. Returns false
-  /// when the clock has expired.
+  /// Counts one piece of work, and reads the clock once in kNodesPerClockLook calls. Returns false
+  /// once the clock has expired.
   [[nodiscard]] bool has_time() noexcept {
     if (work_++ % CutBudget::kNodesPerClockLook == 0 && clock_->expired()) is_stopped_ = true;
     return !is_stopped_;
@@ -88,7 +88,7 @@ class Contraction {
     return excess >= capacity ? Side::kObstacle : -excess > capacity ? Side::kGround : Side::kFree;
   }
   void add_node(std::uint32_t cell, int column, const OpenEnds& ends) noexcept;
-  /// Tells the nodes of earlier cells next to a cell that this cell has been decided.
+  /// Updates the nodes of earlier cells beside a cell in `column` that has just been decided.
   void tell_nodes_before(int column, unsigned edges, Side side) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::uint32_t node_before(int column, int direction) const noexcept;
   /// Returns the directions to neighbours that come before the cell in `column`.
@@ -127,18 +127,17 @@ template <RegionCosts Costs, EdgeWeights Weights>
     const bool has_rows_around = row > 0 && row + 1 < shape.rows;
     const std::uint32_t first = static_cast<std::uint32_t>(row) * stride;
     const auto seeds = problem.seeds.subspan(first, static_cast<std::size_t>(columns_));
-    for_each_unknown(
-        seeds, [&](std::size_t index) __attribute__((always_inline)) {
-          if (!has_time()) return;
-          const auto column = static_cast<int>(index);
-          const std::uint32_t cell = first + static_cast<std::uint32_t>(index);
-          if (has_rows_around && column > 0 && column + 1 < columns_) [[likely]] {
-            take_cell(costs, weights, cell, column, neighbours_inside(cell, stride), coarse[cell]);
-          } else {
-            take_cell_at_edge(costs, weights, cell, column, neighbour_cells(shape, row, column),
-                              coarse[cell]);
-          }
-        });
+    for_each_unknown(seeds, [&](std::size_t index) __attribute__((always_inline)) {
+      if (!has_time()) return;
+      const auto column = static_cast<int>(index);
+      const std::uint32_t cell = first + static_cast<std::uint32_t>(index);
+      if (has_rows_around && column > 0 && column + 1 < columns_) [[likely]] {
+        take_cell(costs, weights, cell, column, neighbours_inside(cell, stride), coarse[cell]);
+      } else {
+        take_cell_at_edge(costs, weights, cell, column, neighbour_cells(shape, row, column),
+                          coarse[cell]);
+      }
+    });
     if (is_stopped_) break;
   }
   graph.nodes = nodes_.first(size_);
@@ -179,8 +178,8 @@ template <class Costs, class Weights>
     seeds_[cell] = decided(side);
     ++result_.decided;
   } else {
-    // The cell's own cost and its cost against hard seeds are constant, so they are left out of the
-    // energy, as for a hard seed.
+    // A cell with its coarse label counts as a hard seed: its own cost and its cost against hard
+    // seeds are constants, which the energy leaves out.
     const bool is_obstacle = coarse == frame::Label::kObstacle;
     flow_ += (is_obstacle ? to_ground : to_obstacle).where(seed, bit(Seed::kDecided)).sum();
     seeds_[cell] = is_obstacle ? Seed::kPinnedObstacle : Seed::kPinnedGround;

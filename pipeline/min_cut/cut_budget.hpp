@@ -9,13 +9,13 @@
 
 namespace terracut::min_cut {
 
-/// Limits the work of the solvers of one min-cut. An operation is one visit of an arc (3-14 ns on a
-/// 3 GHz core, more in larger components). The steps before the solvers, and one linear pass over
-/// the interrupted component, are outside the budget; the cap on unknown cells bounds them.
+/// Limits the work of the solvers of one min-cut. An operation is one visit of an arc (3 to 14 ns
+/// on a 3 GHz core, more in larger components). Not counted are the steps before the solvers and
+/// one linear pass over the interrupted component; the limit on unknown cells bounds them.
 ///
 /// Without `expired` the result depends on the input alone: the deterministic mode, for replays and
-/// tests. With `expired` the caller's clock also stops the solvers and the expensive steps before
-/// them (weights, persistency): live mode.
+/// tests. With `expired` the caller's clock can also stop the solvers and the expensive steps
+/// before them (weights, persistency): live mode.
 struct CutBudget {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
   /// Takes 10 to 25 ms: fifty to two hundred times what a typical street frame needs.
@@ -23,7 +23,7 @@ struct CutBudget {
   /// Operations between two readings of the clock, some 40 microseconds. Push-relabel does not read
   /// the clock while it measures distances, which visits each arc of the component once.
   static constexpr std::int64_t kOpsPerClockLook = 4096;
-  /// Nodes between two readings of the clock in steps that go from node to node, which also takes
+  /// Nodes between two readings of the clock in steps that visit node after node; these also take
   /// some 40 microseconds.
   static constexpr std::uint32_t kNodesPerClockLook = 1024;
 

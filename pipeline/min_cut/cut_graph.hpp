@@ -28,8 +28,8 @@ enum class Side : std::uint8_t {
 
 /// An unknown cell as a node of the residual graph; one cache line.
 ///
-/// All solvers keep this sum constant for every labelling: flow + cut of the residual graph. So
-/// each may stop at any time, and the next one continues from the graph as it is.
+/// For every labelling all solvers keep this sum constant: flow + cost of the cut in the residual
+/// graph. So each may stop at any time, and the next one continues from the graph as it is.
 struct alignas(64) CutNode {
   std::array<std::uint32_t, kDirections> neighbour;  ///< Node index; valid if `edges` has the bit.
   std::array<std::int16_t, kDirections> residual;  ///< Remaining capacity to it; 0 without an edge.
@@ -43,7 +43,7 @@ struct alignas(64) CutNode {
 };
 static_assert(sizeof(CutNode) == 64);
 
-/// The graph that remains after hard seeds have been folded into the terminals.
+/// The graph that remains after hard seeds have become terminal capacities.
 struct CutGraph {
   std::span<CutNode> nodes;
   std::int64_t flow = 0;  ///< Flow found so far: energy that no labelling avoids.
@@ -64,7 +64,7 @@ inline void push_along(CutNode& from, CutNode& to, int direction, int amount) no
 }
 
 /// Adds terminal capacity to a node: above 0 from the source, below 0 to the sink. Returns the part
-/// that cancels capacity of the opposite terminal, which is flow.
+/// that cancels capacity of the opposite terminal: this part is flow.
 [[nodiscard]] inline int add_excess(CutNode& node, int amount) noexcept {
   const bool meets = (node.excess > 0) != (amount > 0);
   const int flow = meets ? std::min(std::abs(node.excess), std::abs(amount)) : 0;

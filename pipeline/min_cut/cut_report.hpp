@@ -29,7 +29,8 @@ struct CutReport {
   std::int64_t boykov_kolmogorov_ops = 0;
   std::int64_t push_relabel_ops = 0;  ///< Push-relabel's operations; count against CutBudget::ops.
   bool budget_hit = false;            ///< Operations or time ran out before the last component.
-  /// The budget ran out before GridCut::Config::least_finished, so no label is from the cut.
+  /// True if the budget ran out before GridCut::Config::least_finished, so no label is from the
+  /// cut.
   bool discarded = false;
 
   /// Energy E (GridProblem) of the labels returned; 0 if the cut was discarded, as weights may then

@@ -50,15 +50,16 @@ using NeighbourCells = std::array<std::uint32_t, kDirections>;
   return cells;
 }
 
-/// Returns what neighbour_cells() returns, but faster, for a cell at no edge of the image.
+/// Returns the same as neighbour_cells(), but faster, for a cell that is not at an edge of the
+/// image.
 [[nodiscard]] constexpr NeighbourCells neighbours_inside(std::uint32_t cell,
                                                          std::uint32_t stride) noexcept {
   const std::uint32_t below = cell - stride, above = cell + stride;
   return {below - 1, below, below + 1, cell - 1, cell + 1, above - 1, above, above + 1};
 }
 
-/// True if the neighbours are contiguous in memory, as for a cell at no edge of the image: four
-/// cells may then be read from neighbours[0], [3] and [5] - 1 on.
+/// True if the neighbours are contiguous in memory, as those of a cell that is not at an edge of
+/// the image: four cells may then be read from neighbours[0], [3] and [5] - 1 on.
 [[nodiscard]] constexpr bool are_next_to_each_other(const NeighbourCells& neighbours) noexcept {
   return neighbours[0] + 2 == neighbours[2] && neighbours[3] + 2 == neighbours[4] &&
          neighbours[5] + 2 == neighbours[7];

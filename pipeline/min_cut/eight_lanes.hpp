@@ -31,7 +31,7 @@ struct EightLanes {
     std::memcpy(numbers.data(), &lanes, sizeof(lanes));
   }
 
-  /// Widens the four bytes of `low` and the four of `high`, lowest first.
+  /// Widens the four bytes of `low`, lowest first, then those of `high`, to lanes.
   [[nodiscard]] static EightLanes widened(std::uint32_t low, std::uint32_t high) noexcept {
     using Bytes = std::uint8_t __attribute__((vector_size(16)));
     using Pairs = std::uint32_t __attribute__((vector_size(16)));
@@ -40,8 +40,7 @@ struct EightLanes {
                                                               3, 19, 4, 20, 5, 21, 6, 22, 7, 23))};
   }
 
-  /// Returns the lanes of `*this` for which the same lane of `flags` has a bit of `bits`; other
-  /// lanes are 0.
+  /// Returns `*this` with 0 in all lanes for which the same lane of `flags` has none of `bits`.
   [[nodiscard]] EightLanes where(const EightLanes& flags, std::int16_t bits) const noexcept {
     return {lanes & ((flags.lanes & bits) != 0)};
   }

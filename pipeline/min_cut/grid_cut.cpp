@@ -31,8 +31,8 @@ GridCut::Config checked(const frame::ImageShape& shape, GridCut::Config config) 
   return config;
 }
 
-/// Returns the cost of the labels in `side` in the residual graph: terminal capacities and arcs
-/// that they cut.
+/// Returns the cost in the residual graph of the labels in `side`: the terminal capacities and arcs
+/// that these labels cut.
 std::int64_t residual_cost(const CutGraph& graph,
                            std::span<const std::uint32_t> component) noexcept {
   std::int64_t cost = 0;
@@ -51,7 +51,7 @@ std::int64_t residual_cost(const CutGraph& graph,
   return cost;
 }
 
-/// Labels decided cells; others keep their label.
+/// Writes the labels of decided cells; other labels stay.
 TERRACUT_VECTOR_CLONES void take_decisions(std::span<const Seed> seeds,
                                            std::span<frame::Label> labels) noexcept {
   static_assert(static_cast<int>(Seed::kGround) == static_cast<int>(frame::Label::kGround) &&

@@ -20,11 +20,11 @@
 
 namespace terracut::min_cut {
 
-/// Minimises GridProblem's energy exactly. When the budget runs out, components not finished keep
+/// Minimises GridProblem's energy exactly. If the budget runs out, unfinished components keep
 /// coarse labels, which are counted. The energy is never above that of the coarse labels; if too
 /// little is finished, all labels stay coarse.
 ///
-/// Among labellings of equal energy it returns the labelling with the most obstacle cells (there is
+/// Of all labellings of least energy it returns the one with the most obstacle cells (there is
 /// exactly one: the largest source side). So the labels of a finished component depend on the
 /// problem alone, not on the solver, the order of work or the budget.
 ///
@@ -82,7 +82,7 @@ class GridCut {
   [[nodiscard]] std::int64_t finalize_unfinished(std::span<const std::uint32_t> component,
                                                  bool started, std::span<const frame::Label> labels,
                                                  std::span<Seed> seeds, CutReport& report) noexcept;
-  /// Gives a node's side to its cell in `seeds`.
+  /// Writes a node's side to the seed of its cell.
   void decide(std::uint32_t index, std::span<Seed> seeds) const noexcept;
 
   Config config_;

@@ -32,8 +32,9 @@ enum class Seed : std::uint8_t {
   kPinnedObstacle = kPinned | kObstacle,
 };
 
-/// Calls `visit(index)` for each unknown cell, in order. As unknown cells are few and lie together,
-/// 32 cells are skipped at once and eight tested together. `visit` may change its own cell.
+/// Calls `visit(index)` for each unknown cell, in order. `visit` may change its own cell. Unknown
+/// cells are few and lie together, so 32 cells without one are skipped at once, and others tested
+/// by eights.
 template <class Visit>
 [[gnu::always_inline]] inline void for_each_unknown(std::span<const Seed> seeds, Visit visit) {
   static_assert(std::endian::native == std::endian::little, "the first cell is in the low byte");

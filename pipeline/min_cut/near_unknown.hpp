@@ -13,9 +13,9 @@
 
 namespace terracut::min_cut {
 
-/// Finds the parts of the image that have an unknown cell in them or next to them, where a cut's
-/// graph has nodes and edges. Works by groups of columns, so it also reports some cells farther
-/// away.
+/// Finds the parts of the image in which cells are unknown or next to an unknown cell: there a
+/// cut's graph has nodes and edges. Works by groups of columns, so it also reports some cells
+/// farther away.
 ///
 /// Takes all memory in the constructor. One thread; real-time safe.
 class NearUnknown {
@@ -24,7 +24,7 @@ class NearUnknown {
 
   /// Reads all seeds of a frame, including those of padding cells.
   void find(std::span<const Seed> seeds) noexcept TERRACUT_NONBLOCKING;
-  /// True if one of these cells or of their neighbours is unknown.
+  /// True if one of these cells, or a neighbour of one, is unknown.
   [[nodiscard]] bool is_near(int row, frame::ColumnRange columns) const noexcept {
     const std::size_t row_begin = static_cast<std::size_t>(row) * groups_;
     const int left = columns.begin == 0 ? columns_ - 1 : columns.begin - 1;
@@ -47,7 +47,8 @@ class NearUnknown {
   int columns_;
   std::size_t rows_, groups_;
   std::span<std::uint8_t> unknown_;  // [row][group]: the group has an unknown cell
-  std::span<std::uint8_t> near_;     // [row][group]: this row or an adjacent one has one there
+  // [row][group]: this row or an adjacent one has an unknown cell in or next to the group
+  std::span<std::uint8_t> near_;
 };
 
 }  // namespace terracut::min_cut

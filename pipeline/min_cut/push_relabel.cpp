@@ -11,7 +11,7 @@ namespace {
 
 /// After lifts have cost this much work, distances are computed exactly again. Such a computation
 /// visits each arc once, about 8 operations a node. Four times that was the best interval over the
-/// adversarial inputs; without exact distances one of them takes 10 times as long.
+/// adversarial inputs; without it one of them takes 10 times as long.
 constexpr std::int64_t kLiftWorkPerNode = 32;
 
 }  // namespace
@@ -139,8 +139,8 @@ void PushRelabel::lift(std::uint32_t index, std::uint32_t distance) noexcept {
     if (distance != kNoWayToSink) enter_level(index);
     return;
   }
-  // There is a gap: no node is left at the old distance, so no node above it has a path to the
-  // sink. No active node is lost, as this one was the highest.
+  // This leaves a gap: no node is left at the old distance, so no node above it has a path to the
+  // sink. No active node is lost, because this one was the highest.
   nodes_[index].distance = kNoWayToSink;
   for (std::uint32_t level = old + 1; level <= levels_; ++level) {
     for (std::uint32_t at = level_first_[level]; at != kEnd; at = level_next_[at]) {

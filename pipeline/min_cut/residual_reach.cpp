@@ -37,8 +37,8 @@ std::uint32_t certify(CutGraph& graph, std::span<const std::uint32_t> component,
   const auto size = static_cast<std::uint32_t>(component.size());
   measure_way_to_sink(graph, component, queue, ops);
 
-  // From here on, kFree means that the source reaches the node, until the nodes proven to be on the
-  // sink side are labelled.
+  // From here on kFree means that the source reaches the node; at the end, nodes proven to be on
+  // the sink side get their label.
   std::uint32_t end = 0;
   for (const std::uint32_t index : component) {
     CutNode& node = graph.nodes[index];

@@ -22,11 +22,11 @@ std::uint32_t measure_way_to_sink(CutGraph& graph, std::span<const std::uint32_t
                                   std::span<std::uint32_t> queue,
                                   std::int64_t& ops) noexcept TERRACUT_NONBLOCKING;
 
-/// Labels the provable nodes of an unfinished component from the residual graph alone: a node that
-/// cannot reach the sink is on the source side in an optimum, a node that the source cannot reach
-/// is on the sink side (if both: source side). Replacing the labels of these nodes never raises the
-/// energy of a labelling. Sets `side`, kFree if nothing is proven. Returns the number of nodes
-/// proven. Real-time safe, linear in the component.
+/// Labels those nodes of an unfinished component that can be proven from the residual graph: a node
+/// that cannot reach the sink is on the source side in an optimum, a node that the source cannot
+/// reach is on the sink side (if both: source side). Replacing the labels of these nodes never
+/// raises the energy of a labelling. Sets `side`; kFree means that nothing is proven. Returns the
+/// number of nodes proven. Real-time safe, linear in the component.
 std::uint32_t certify(CutGraph& graph, std::span<const std::uint32_t> component,
                       std::span<std::uint32_t> queue) noexcept TERRACUT_NONBLOCKING;
 

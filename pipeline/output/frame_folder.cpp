@@ -21,10 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Begins the line of a list that names the input of its files. Earlier versions wrote no such
-/// line.
+/// The line of a list that names the input of the files begins with this. Earlier versions wrote no
+/// such line.
 constexpr std::string_view kMadeOf = "of: ";
-/// Replaces a line break of a name in a list; a file's name may hold a line break but no slash.
+/// Stands for a line break in a name in a list: a file's name may contain a line break but no
+/// slash.
 constexpr char kLineBreak = '/';
 
 struct List {
@@ -32,7 +33,7 @@ struct List {
   std::set<std::string> names;
 };
 
-/// Returns the complete lines of a list; an empty list if there is none.
+/// Returns the complete lines of a list file; an empty list if there is no file.
 Expected<List> list_in(const fs::path& path) {
   constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // enough for ten million frames
   List list;
@@ -115,7 +116,7 @@ Status FrameFolder::begin() {
   if (!list) return tl::unexpected(list.error());
   std::size_t removed = 0;
   for (const std::string& name : list->names) {
-    // Removes only names that place() can have listed.
+    // Removes only files whose names place() can have listed.
     if (!name.ends_with(config_.ending)) continue;
     removed += fs::remove(config_.folder / name, error) ? 1 : 0;
     if (error) return write_failed(config_.folder / name, error);

@@ -13,10 +13,10 @@
 
 namespace terracut::output {
 
-/// A folder to which a run writes one file per frame, all with the same ending. The folder holds
-/// the files of one run: the first file of a run removes those of an earlier run on the same input,
-/// and no others. A list of the files and their input is kept in the folder (the ending and
-/// ".terracut"). Not thread-safe; blocks on the disk.
+/// A folder to which a run writes one file per frame, all with the same ending. It holds the files
+/// of one run: the first file of a run removes those of an earlier run on the same input, and no
+/// others. A list file beside them, named by the ending and ".terracut", has their names and their
+/// input. Not thread-safe; blocks on the disk.
 class FrameFolder {
  public:
   struct Config {
@@ -31,14 +31,14 @@ class FrameFolder {
   /// Does nothing on the disk before the first file.
   explicit FrameFolder(Config config) : config_(std::move(config)) {}
 
-  /// Fails with kInvalidArgument if the folder has files of that ending that no run has listed
-  /// (they may be truth labels) or that a run made from another input; with kUnreadable if the
-  /// folder's list of files cannot be understood.
+  /// Checks the folder. Fails with kInvalidArgument if it has files of that ending that no run has
+  /// listed (they may be truth labels) or that a run made from another input; with kUnreadable if
+  /// the list file cannot be understood.
   [[nodiscard]] Status check() const;
 
-  /// Returns the path for `name`, which must have the ending, and lists the file. Before the first
-  /// file it fails with the errors of check(), later with kWriteFailed, also if another, unchecked
-  /// folder has taken the folder's place.
+  /// Returns the path for `name`, which must have the ending, and adds the file to the list. Before
+  /// the first file it fails with the errors of check(), later with kWriteFailed, also if another,
+  /// unchecked folder has taken the folder's place.
   [[nodiscard]] Expected<std::filesystem::path> place(const std::string& name);
 
  private:

@@ -29,8 +29,8 @@ namespace terracut::output {
 }
 
 /// Writes one frame's labels as a SemanticKITTI prediction: one little-endian uint32 per return, in
-/// the order of `labels` (order of arrival for packets, point order for scans). The file appears
-/// whole or not at all.
+/// the order of `labels` (order of arrival for packets, order of points for scans). The file
+/// appears whole or not at all.
 [[nodiscard]] Status write_label_file(const std::filesystem::path& path,
                                       std::span<const frame::Label> labels);
 

@@ -70,9 +70,8 @@ class StatusPageReader {
     return StatusPageReader(std::move(*file));
   }
 
-  /// Returns the newest whole value. Returns nothing if none was published yet, or if the publisher
-  /// was in the middle of writing at each of kTries tries, because it died or is held up. Try
-  /// later.
+  /// Returns the newest whole value. Returns nothing if none was published yet, or if all kTries
+  /// tries met the publisher in the middle of writing, because it died or is held up. Try later.
   [[nodiscard]] std::optional<T> read() const noexcept TERRACUT_NONBLOCKING {
     return queues::SequenceLock<T>::read(file_.header()->sequence, file_.words(), kTries);
   }

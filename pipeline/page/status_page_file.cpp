@@ -56,10 +56,10 @@ std::size_t file_bytes(std::size_t value_bytes) {
   return sizeof(StatusPageHeader) + (value_bytes + kWord - 1) / kWord * kWord;
 }
 
-/// Describes a lock of this open file, not of the process: two objects in one process exclude each
-/// other as two processes do.
+/// Describes a lock that belongs to the open file, not to the process: two objects in one process
+/// exclude each other as two processes do.
 struct flock whole_file(short type) {
-  struct flock lock {};
+  struct flock lock{};
   lock.l_type = type;
   lock.l_whence = SEEK_SET;
   return lock;
@@ -73,8 +73,8 @@ int try_lock(int file) {
 }
 
 bool is_file_at(int file, const std::filesystem::path& path) {
-  struct stat of_file {};
-  struct stat at_path {};
+  struct stat of_file{};
+  struct stat at_path{};
   return ::fstat(file, &of_file) == 0 && ::lstat(path.c_str(), &at_path) == 0 &&
          of_file.st_dev == at_path.st_dev && of_file.st_ino == at_path.st_ino;
 }
@@ -85,7 +85,7 @@ std::int32_t pid_in(int file) {
   return pid;
 }
 
-/// Renames the finished page to `path`, where there may be no file or the page of a dead process.
+/// Renames the finished page to `path`, where there may be no file, or a dead process's page.
 Status put_in_place(const std::filesystem::path& made, const std::filesystem::path& path) {
   for (int tries = 0; tries < 100; ++tries) {
     if (::link(made.c_str(), path.c_str()) == 0) {
@@ -100,7 +100,7 @@ Status put_in_place(const std::filesystem::path& made, const std::filesystem::pa
     if (!old && errno == ENOENT) continue;
     if (!old) {
       const int error_number = errno;
-      struct stat there {};
+      struct stat there{};
       const bool known = ::lstat(path.c_str(), &there) == 0;
       return not_written(path,
                          known ? "there is one of user " + std::to_string(there.st_uid) + " already"
@@ -152,7 +152,7 @@ Expected<StatusPageFile> StatusPageFile::create(const std::filesystem::path& fol
                                                 std::size_t value_bytes) {
   if (!is_sound(name)) return bad_name(name);
   const std::filesystem::path path = path_of(folder, name);
-  struct statfs system {};
+  struct statfs system{};
   if (::statfs(folder.c_str(), &system) != 0) return not_written(path, "its folder", errno);
   if (system.f_type != TMPFS_MAGIC && system.f_type != RAMFS_MAGIC) {
     return fail(ErrorCode::kUnsupported,
@@ -208,7 +208,7 @@ Expected<StatusPageFile> StatusPageFile::open(const std::filesystem::path& folde
   // O_NONBLOCK keeps open() from waiting if the path is a named pipe.
   files::OwnedDescriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (!file) return unreadable(errno);
-  struct stat status {};
+  struct stat status{};
   if (::fstat(file.get(), &status) != 0) return unreadable(errno);
 
   struct Fields {  // the members of StatusPageHeader before its atomic

@@ -18,7 +18,8 @@
 namespace terracut::page {
 namespace {
 
-/// Returns the process of a page's header, without mapping it; nothing if `file` is no page.
+/// Returns the process number in a page's header, without mapping the page; nothing if `file` is no
+/// page.
 std::optional<std::int32_t> publisher_of(int file) {
   std::byte header[sizeof(StatusPageHeader)];
   std::uint64_t magic = 0;
@@ -43,7 +44,7 @@ std::vector<StatusPageEntry> list_status_pages(const std::filesystem::path& fold
     const files::OwnedDescriptor file(
         ::open(it->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (!file) continue;
-    struct stat status {};
+    struct stat status{};
     const bool trusted =
         ::fstat(file.get(), &status) == 0 && files::check_trusted(status, it->path());
     if (const auto pid = trusted ? publisher_of(file.get()) : std::nullopt) {

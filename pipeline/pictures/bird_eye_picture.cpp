@@ -32,7 +32,7 @@ struct Canvas {
   }
 };
 
-/// Draws returns as 3 x 3 oversampled pixels; where several fall together the highest is visible.
+/// Draws each return as 3 x 3 oversampled pixels; where several overlap, the highest is visible.
 void draw_returns(Canvas& canvas, const ColouredFrame& frame) {
   const int width = canvas.picture.width(), height = canvas.picture.height();
   std::vector<float> top_m(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
@@ -83,7 +83,7 @@ void draw_vehicle(Canvas& canvas) {
   }
 }
 
-/// Draws one ring spacing, with its length above.
+/// Draws a scale bar of one ring spacing, with its length written above.
 void draw_scale_bar(Canvas& canvas, const BirdEyeView& view) {
   const int length = static_cast<int>(view.ring_spacing_m * canvas.pixels_per_m);
   const int margin = canvas.picture.width() / 40;
@@ -105,7 +105,7 @@ Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view) {
   frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
     colours[placed.return_index] = colour_of_return(frame, placed.return_index, placed.point);
   });
-  // Mistakes lie on top of everything, since they are the purpose of such a picture.
+  // Mistakes are drawn over everything else: such a picture is made to show them.
   std::vector<std::uint8_t> mistaken;
   for (const Mistake mistake : frame.mistakes) mistaken.push_back(mistake != Mistake::kNone);
   return bird_eye_picture(ColouredFrame{frame.image, colours, mistaken}, view);

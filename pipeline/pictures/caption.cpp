@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kSwatchGlyphs = 4;  // Width of a swatch and its gap, in characters.
 
-/// The place of a legend entry: pixels from the left, lines from the first.
+/// The position of a legend entry: pixels from the left, and lines from the first.
 struct Place {
   int left = 0, line = 0;
 };

@@ -48,7 +48,7 @@ Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
     return kFalseObstacleColour;
   }
   if (frame.labels[return_index] == frame::Label::kGround) {
-    // The square root brightens the dark end, where asphalt lies.
+    // The square root brightens dark returns, such as those of asphalt.
     return mix(kDarkSand, kBrightSand, std::sqrt(point.intensity / 255.0));
   }
   if (frame.labels[return_index] == frame::Label::kOtherGround) {

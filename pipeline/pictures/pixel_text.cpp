@@ -10,7 +10,7 @@ namespace terracut::pictures {
 namespace {
 
 constexpr int kColumns = 5;
-/// Columns from the left; bit 0 is the top pixel.
+/// A glyph's columns from the left; in each column bit 0 is the top pixel.
 using Glyph = std::array<std::uint8_t, kColumns>;
 
 constexpr Glyph kUnknown{0x02, 0x01, 0x51, 0x09, 0x06};

@@ -63,7 +63,7 @@ void Picture::circle(double centre_x, double centre_y, double radius, double wid
       }
       return right;
     };
-    // Skips the inside of the ring, most of the line.
+    // Skips the inside of the ring, which is most of the row.
     const int left_end = blend_between(centre_x - half_chord(outer), centre_x - half_chord(inner));
     blend_between(std::max(centre_x + half_chord(inner) - 1, left_end + 1.0),
                   centre_x + half_chord(outer));

@@ -15,7 +15,8 @@
 namespace terracut::pictures {
 namespace {
 
-/// Dims with distance: far returns stay readable, and depth edges show.
+/// Darkens a colour with distance, so that depth edges show, but not so much that far returns
+/// vanish.
 Colour dimmed(Colour colour, double range_m) noexcept {
   constexpr double kFar_m = 80, kMostDimming = 0.55;
   return mix(colour, kPictureBackground, kMostDimming * std::min(range_m / kFar_m, 1.0));
@@ -49,7 +50,7 @@ void close_lone_gaps(Picture& picture) noexcept {
   }
 }
 
-/// True if columns go counter-clockwise, as with packets of a sensor upside down.
+/// True if columns go counter-clockwise, as in packets of a sensor mounted upside down.
 bool is_mirrored(const frame::RangeImage& image) noexcept {
   std::int64_t clockwise = 0;
   frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
@@ -68,8 +69,8 @@ Picture range_image_picture(const LabelledFrame& frame) {
                   kPictureBackground);
   const bool mirrored = is_mirrored(frame.image);
   frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
-    // Column 0 is straight ahead and columns go clockwise, so the middle is half a revolution
-    // further.
+    // Column 0 is straight ahead and columns go clockwise; straight ahead is drawn in the middle,
+    // so columns are shifted by half a revolution.
     const int from_left = (placed.column + shape.columns / 2) % shape.columns;
     const int x = mirrored ? shape.columns - 1 - from_left : from_left;
     const int y = (shape.rows - 1 - placed.row) * kPixelsPerRow;

@@ -12,8 +12,8 @@ namespace {
 /// firing, one above the other in the image, so the four points of a cache line come from four
 /// rows. In a strip these cache lines are still in the second-level cache when the next row needs
 /// them, and runs along a row are long enough to be prefetched. By
-/// tests/bench/labelled_stream_bench.cpp, packing whole rows takes 1.5 to 2 times as long on 128
-/// rows, and strips of 16 columns take three times as long on 64 rows.
+/// tests/bench/labelled_stream_bench.cpp, packing whole rows takes 1.5 to 2 times as long for 128
+/// rows, and strips of 16 columns take three times as long for 64 rows.
 constexpr int kColumnsAtOnce = 256;
 
 LabelledPoint labelled_point(const frame::Return& point, int row, frame::Label label,
@@ -22,8 +22,8 @@ LabelledPoint labelled_point(const frame::Return& point, int row, frame::Label l
           time_s};
 }
 
-/// The measuring times of a row: its beam measures column 0 at first_s, and each column step_s
-/// after the column before.
+/// The times of measurement in a row: its beam measures column 0 at `first_s` and each further
+/// column `step_s` later.
 struct RowTimes {
   float first_s = 0, step_s = 0;
 

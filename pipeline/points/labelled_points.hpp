@@ -12,8 +12,9 @@
 
 namespace terracut::points {
 
-/// Gives the times of a frame's returns, assuming that the head rotated evenly from the first
-/// packet to the last. The default gives 0 for all returns and is for clouds without times.
+/// From this the times of a frame's returns are computed, assuming that the head rotated evenly
+/// from the first packet to the last. The default gives 0 for all returns; it is for clouds without
+/// times.
 struct FrameTiming {
   frame::HeadSweep head;
   double duration_s = 0;              ///< Time from the first packet to the last.

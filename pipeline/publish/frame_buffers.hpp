@@ -12,8 +12,8 @@
 
 namespace terracut::publish {
 
-/// Recycles frames and the memory of their points once no output holds them. For threads without a
-/// deadline.
+/// Recycles frames, with the memory of their points, once no output holds them. For threads without
+/// a deadline.
 class FrameBuffers {
  public:
   /// At most `count` frames exist at a time.

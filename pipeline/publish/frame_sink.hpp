@@ -30,7 +30,7 @@ class FrameSink {
   /// Takes a frame, valid during the call. After an error no function of the output is called any
   /// more, not even finish().
   [[nodiscard]] virtual Status put(const LabelledFrame& frame) = 0;
-  /// Takes the run's figures, about once a second. An error has the effect of one of put().
+  /// Takes the run's figures, about once a second. An error ends the output, as in put().
   [[nodiscard]] virtual Status put_figures(const status::MonitorSnapshot& /*figures*/) {
     return {};
   }

@@ -12,7 +12,7 @@ namespace terracut::publish {
 
 /// A labelled frame on its way to outputs without a deadline.
 struct LabelledFrame {
-  status::FrameRecord record;                 ///< Lacks only what happens after labelling.
+  status::FrameRecord record;                 ///< Complete except for what happens after labelling.
   std::vector<points::LabelledPoint> points;  ///< Returns of the frame in order of arrival.
 };
 

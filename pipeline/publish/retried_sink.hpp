@@ -15,9 +15,9 @@
 
 namespace terracut::publish {
 
-/// An output whose failure neither ends a run nor keeps it from starting: an inner sink is opened
-/// on the output's thread, and again after a failure (Reopened). Frames that come in between are
-/// left out and counted as NAME_frames_while_closed.
+/// An output whose failure neither ends a run nor keeps it from starting. An inner sink is opened
+/// on the output's thread, and opened again after a failure (Reopened). Frames that come while it
+/// is closed are left out and counted as NAME_frames_while_closed.
 class RetriedSink final : public FrameSink {
  public:
   using Inner = std::unique_ptr<FrameSink>;
@@ -25,7 +25,7 @@ class RetriedSink final : public FrameSink {
     std::string name;  ///< The inner sink's name.
     std::size_t queue_frames = 2;
     Reopened<Inner>::Config inner;
-    /// True for a recording: finish() then fails if frames are missing.
+    /// True for a recording that must be whole: finish() then fails if frames are missing.
     bool is_to_be_whole = false;
   };
   explicit RetriedSink(Config config);

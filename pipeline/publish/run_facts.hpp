@@ -18,8 +18,9 @@ struct RunFacts {
   bool has_road = false;         ///< True if ground that is not road has its own label.
 
   /// Names of coordinate frames in ROS' transform tree. Points lie in the vehicle frame
-  /// (calib/mount/mount.hpp), published as a child of the sensor's frame: the sensor's frame
-  /// already has a parent in a vehicle's tree, and a frame can have only one parent.
+  /// (calib/mount/mount.hpp), which is published as a child of the sensor's frame, not as its
+  /// parent: a frame has only one parent, and in a vehicle's tree the sensor's frame already has
+  /// one.
   std::string frame_id = "terracut_ground";
   std::string sensor_frame_id = "terracut_lidar";  ///< Sensor's frame; empty: no transform.
 };

@@ -35,7 +35,7 @@ class SinkWorker {
   SinkWorker& operator=(const SinkWorker&) = delete;
   ~SinkWorker() { begin_to_finish(); }
 
-  // The following functions are for one thread.
+  // For one thread:
 
   void put(SharedFrame frame);
   /// Hands over figures; figures that the sink has not taken yet are replaced.
@@ -47,7 +47,7 @@ class SinkWorker {
     return thread_.ends_within(patience);
   }
 
-  // The following functions are for any thread.
+  // For any thread:
 
   [[nodiscard]] const FrameSink& sink() const noexcept { return *sink_; }
   /// Returns how many frames were left out for lack of room or after a failure.

@@ -66,7 +66,7 @@ class BoundaryTerm {
 
   using FourFloats = stage::FourFloats;
   using FourInts = stage::FourInts;
-  /// A value of each neighbour: those in directions 0, 2, 4, 6 and those in 1, 3, 5, 7.
+  /// One value for each neighbour: those in directions 0, 2, 4, 6, then those in 1, 3, 5, 7.
   struct Eight {
     FourFloats even, odd;
   };

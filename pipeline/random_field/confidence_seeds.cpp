@@ -21,7 +21,7 @@ int rows_to_cut(CutRows rows, const mount::RingProfile& profile, const frame::Im
   return all ? shape.rows : stage::rows_that_meet_ground(profile);
 }
 
-/// Returns the seed that keeps the label of earlier stages.
+/// Returns the seed by which a cell keeps the label of earlier stages.
 min_cut::Seed kept(frame::Label label) noexcept {
   switch (label) {
     case frame::Label::kNone:
@@ -35,7 +35,7 @@ min_cut::Seed kept(frame::Label label) noexcept {
   return min_cut::Seed::kNone;
 }
 
-/// The windows around the cells of a row, and the threshold for trusted ground.
+/// The windows around the cells of a row, and the share of ground from which ground is trusted.
 struct TrustedWindows {
   const std::uint8_t *ground_in_column, *returns_in_column;  ///< Starting at the first window.
   int columns;                                               ///< Columns of a window.
@@ -62,7 +62,7 @@ TERRACUT_VECTOR_CLONES void uncount(const frame::Label* labels, std::size_t colu
   }
 }
 
-/// sums[i] = counts[i] + .. + counts[i + width - 1]
+/// Computes sums[i] = counts[i] + .. + counts[i + width - 1].
 template <class Sum>
 [[gnu::always_inline]] inline void sum_windows(const std::uint8_t* __restrict counts, int width,
                                                std::size_t columns, Sum* __restrict sums) noexcept {
@@ -73,8 +73,8 @@ template <class Sum>
   }
 }
 
-/// Finds the returns whose ground label is trusted: enough of the window is ground. `Sum` must hold
-/// the count of a window.
+/// Finds the returns whose ground label is trusted: enough of the window around them is ground.
+/// `Sum` must be able to hold the count of a window.
 template <class Sum>
 [[gnu::always_inline]] inline void find_trusted_ground(const TrustedWindows& windows,
                                                        Sum* __restrict ground,
@@ -180,7 +180,7 @@ void ConfidenceSeeds::count_in_columns(const stage::CellPlanes& planes, int row)
   const auto columns = static_cast<std::size_t>(shape_.columns);
   std::uint8_t* ground = &ground_in_column_[reach];
   std::uint8_t* returns = &returns_in_column_[reach];
-  // Windows only move upwards, so every row enters once and leaves once.
+  // Windows only move upwards, so every row is added once and removed once.
   for (; counted_end_ < window_end_[static_cast<std::size_t>(row)]; ++counted_end_) {
     count(labels_of(counted_end_), columns, ground, returns);
   }

@@ -22,8 +22,8 @@ enum class CutRows : std::uint8_t {
 
 /// Stage 3a: chooses the returns that initialise the MRF as "object" and "background"; other
 /// returns stay unknown (paper, section III-D). Obstacles of earlier stages are trusted: the random
-/// field decides where evidence is weak, it erases nothing that was seen. Ground is trusted if the
-/// share of ground in a window around it exceeds k.
+/// field decides where evidence is weak, and never removes an obstacle that was seen. Ground is
+/// trusted if the share of ground in a window around it exceeds k.
 class ConfidenceSeeds {
  public:
   struct Config {
@@ -42,7 +42,7 @@ class ConfidenceSeeds {
   void select(const stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] std::span<const min_cut::Seed> seeds() const noexcept { return seeds_; }
-  /// Returns the seeds, in which the cut then decides the unknown cells.
+  /// Returns the seeds; the cut writes its decisions about unknown cells into them.
   [[nodiscard]] std::span<min_cut::Seed> mutable_seeds() noexcept { return seeds_; }
   /// Returns how many rows may hold unknown returns: rows 0 to cut_rows() - 1.
   [[nodiscard]] int cut_rows() const noexcept { return cut_rows_; }

@@ -14,7 +14,7 @@
 
 namespace terracut::random_field {
 
-/// The way to find what it costs to call an unknown return ground or obstacle.
+/// The rule for the cost of calling an unknown return ground or obstacle.
 enum class RegionRule : std::uint8_t {
   /// -lambda ln of the seeds' height histograms: Eq. 10-13, read as cost(obstacle) = -ln D_obj and
   /// cost(ground) = -ln D_bkg (as printed, both use D_obj).
@@ -40,8 +40,8 @@ class RegionTerm {
 
   explicit RegionTerm(const Config& config) noexcept : config_(config) {}
 
-  /// Sets the frame whose cells will be asked for. kHistogram needs `points` at all seeds;
-  /// kHeightRamp needs no points. Real-time safe.
+  /// Begins a frame: the calls that follow are about its cells. kHistogram needs `points` at all
+  /// seeds; kHeightRamp needs no points. Real-time safe.
   void look_at(const frame::PointPlanes& points, const stage::CellPlanes& planes,
                std::span<const min_cut::Seed> seeds) noexcept TERRACUT_NONBLOCKING;
 

@@ -53,7 +53,7 @@ bool begins_with_stamp(std::string_view text) noexcept {
                     [](char shape, char c) { return shape == '0' ? is_digit(c) : shape == c; });
 }
 
-/// A file of one of our dumps, by its name.
+/// A file of one of the recorder's dumps, as its name tells.
 struct OwnFile {
   std::uint64_t serial = 0;           ///< 0: from a version without serial numbers.
   std::string dump;                   ///< The name without ending, which all its files share.
@@ -94,14 +94,14 @@ std::optional<OwnFile> own_file(std::string_view file, std::string_view name) {
   return own;
 }
 
-/// True if the process that wrote a temporary file is gone. This process writes no file while it
-/// makes room, so its own process number counts as gone: in a container, a dead predecessor often
+/// True if the process that wrote a temporary file is gone. This process's own number counts as
+/// gone, too: it writes no file while it makes room, and in a container a dead predecessor often
 /// had the same number.
 bool is_abandoned_by(::pid_t pid) noexcept {
   return pid == ::getpid() || (::kill(pid, 0) != 0 && errno == ESRCH);
 }
 
-/// The size of one of our dumps on the disk.
+/// The files of one of the recorder's dumps, and their size on the disk.
 struct OldDump {
   std::vector<fs::path> files;
   std::uint64_t bytes = 0;
@@ -116,7 +116,7 @@ struct OldDump {
 };
 
 struct Holdings {
-  /// Keyed by serial number and name, so that the oldest is first.
+  /// The key is serial number and name, so that the oldest dump is first.
   std::map<std::pair<std::uint64_t, std::string>, OldDump> dumps;
   OldDump leftovers;  ///< Temporary files of processes that are gone.
 
@@ -243,7 +243,7 @@ tl::expected<std::filesystem::path, RefusedDump> DumpFolder::make_room(std::uint
     }
     ++deleted_;
   }
-  // Serial numbers are never given again, even if their dump was deleted.
+  // A serial number is never used again, even if its dump was deleted.
   newest_serial_ = std::max(newest_serial_, held.newest_serial());
   while (true) {
     fs::path capture = folder / fmt::format("{}-{:06}-{}-{}{}", limits_.name, ++newest_serial_,

@@ -26,12 +26,12 @@ struct DumpFolderLimits {
 /// becomes part of file names.
 [[nodiscard]] bool is_dump_name(std::string_view name) noexcept;
 
-/// The folder in which a recorder keeps its dumps: names dumps and makes room by deleting the
+/// The folder in which a recorder keeps its dumps: names dumps, and makes room by deleting the
 /// oldest. It touches only files of its own: plain files called
 /// `NAME-SERIAL-YYYYMMDDTHHMMSS.mmmZ-REASON.pcap`, the `.frames.json` and the unit's
 /// `.calibration.xml` or `.csv` beside such a file, and parts of these that a killed process left
-/// (`...part-PID-N`). The oldest dump has the lowest serial number, whatever the clock said; dumps
-/// of earlier versions, without a number, are older than all others.
+/// (`...part-PID-N`). The oldest dump is the one with the lowest serial number, whatever its time;
+/// dumps of earlier versions, without a number, are older than all others.
 ///
 /// For one thread without a deadline: blocks on the disk.
 class DumpFolder {
@@ -39,9 +39,9 @@ class DumpFolder {
   /// Throws std::invalid_argument for an invalid name or a limit out of range.
   explicit DumpFolder(DumpFolderLimits limits);
 
-  /// Makes room for a dump whose files have `bytes` together, and returns the path of its capture.
+  /// Makes room for a dump whose files have `bytes` together, and returns the path for its capture.
   /// Deletes old dumps as the limits require, but only if the new dump can then be written: a
-  /// failure with kOverQuota, kDiskLow or kFolderUnusable changes nothing.
+  /// failure with kOverQuota, kDiskLow or kFolderUnusable deletes nothing.
   [[nodiscard]] tl::expected<std::filesystem::path, RefusedDump> make_room(std::uint64_t bytes,
                                                                            DumpReason reason,
                                                                            std::int64_t now_ns);

@@ -44,9 +44,9 @@ class DumpPolicy {
   /// Throws std::invalid_argument for a limit out of range.
   explicit DumpPolicy(const DumpLimits& limits);
 
-  /// Makes the first check, before anything is copied: kTooSoon by the rate limit of `reason`. Each
-  /// call uses up one allowed dump even if no dump is written, as an attempt costs as much.
-  /// `monotonic_ns` is a clock that is never set.
+  /// Makes the first check, before anything is copied: kTooSoon if the rate limit of `reason` is
+  /// reached. Each success uses up one allowed dump, even if none is written afterwards, because an
+  /// attempt costs as much. `monotonic_ns` is a clock that is never set.
   [[nodiscard]] tl::expected<void, RefusedDump> admit(DumpReason reason, std::int64_t monotonic_ns);
 
   /// Makes the second check, when the size is known, by DumpFolder::make_room().
@@ -60,7 +60,7 @@ class DumpPolicy {
   [[nodiscard]] const DumpCounters& counters() const noexcept { return counters_; }
 
  private:
-  /// How many dumps the rate allows now: counted down by dumps, refilled with time.
+  /// How many dumps the rate allows now: each dump takes one away, time adds them again.
   struct Allowance {
     DumpRate rate;
     double left = 0;

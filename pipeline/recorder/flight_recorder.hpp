@@ -25,11 +25,12 @@ struct DumpFrames {
 };
 
 /// Keeps the last seconds of datagrams in fixed memory and writes them to disk when something went
-/// wrong: a pcap, which `terracut replay` shows again, and the times of the frames as JSON beside
+/// wrong: as a pcap, which `terracut replay` can play, with the times of the frames as JSON beside
 /// it (`X.pcap` and `X.frames.json`).
 ///
-/// Two threads: one adds, another one dumps. A dump first copies the ring to its own memory (so
-/// twice the ring's size is taken at start), then writes the copy: a stalled disk loses nothing.
+/// Two threads: one adds, another one dumps. A dump first copies the ring to memory of its own (so
+/// twice the ring's size is taken at start), then writes the copy, so that a stalled disk loses no
+/// datagram.
 class FlightRecorder {
  public:
   /// Takes all memory. Throws std::invalid_argument for a size of 0.

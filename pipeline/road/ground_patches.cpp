@@ -16,13 +16,13 @@ namespace {
 
 constexpr float kFar_m = std::numeric_limits<float>::max();
 constexpr float kUnknown_m = std::numeric_limits<float>::quiet_NaN();
-constexpr float kLeastSpacing_m = 0.001F;  // limit close to the sensor
+constexpr float kLeastSpacing_m = 0.001F;  // Limits the spacing close to the sensor.
 constexpr auto kMostOver = static_cast<float>(GroundPatches::kMostPatchesOver);
 
 // The loops of the next functions have no branches, so that the compiler vectorises them.
 
-/// Finds the ground of a row, the ground whose neighbours are ground as well (is_bend), and how far
-/// each height departs from the mean of its neighbours', which is valid only with is_bend.
+/// Finds for each return of a row whether it is ground, whether its neighbours are, too (is_bend),
+/// and how far its height is from the mean of its neighbours' (valid only if is_bend).
 TERRACUT_VECTOR_CLONES void find_bends(const float* z_m, const frame::Label* label,
                                        std::size_t columns, std::uint8_t* __restrict is_ground,
                                        std::uint8_t* __restrict is_bend,
@@ -41,8 +41,8 @@ TERRACUT_VECTOR_CLONES void find_bends(const float* z_m, const frame::Label* lab
   }
 }
 
-/// Gives the range of cells lower than `clearance_height_m`, else kFar_m. A cell without a return
-/// has a NaN height, which is not lower.
+/// Returns the ranges of cells lower than `clearance_height_m`, and kFar_m for all others. A cell
+/// without a return has a NaN height, which is not lower.
 TERRACUT_VECTOR_CLONES void find_low(const float* range_m, const float* height_m,
                                      std::size_t columns, float clearance_height_m,
                                      float* __restrict low_m) noexcept {
@@ -52,7 +52,7 @@ TERRACUT_VECTOR_CLONES void find_low(const float* range_m, const float* height_m
   }
 }
 
-/// Computes what patches_over() returns, for many ranges.
+/// Computes patches_over() for many ranges.
 TERRACUT_VECTOR_CLONES void count_over(float length_m, const float* range_m, std::size_t count,
                                        float spacing_rad, std::int32_t* patches) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -82,7 +82,7 @@ struct ColumnsOf {
     for (std::size_t i = 1; i < size(); ++i) least = std::min(least, values[i]);
     return least;
   }
-  /// Counts the values that are 1; the others are 0. Reads kReadAhead values beyond the first.
+  /// Returns how many values are 1; the others must be 0. Reads kReadAhead values beyond the first.
   [[nodiscard]] std::size_t count_of(const std::uint8_t* values) const noexcept {
     if constexpr (kWidth > 0 && kWidth <= 8) {  // all at once: the product's top byte is the sum
       std::uint64_t bytes = 0;
@@ -108,8 +108,8 @@ struct RowOfColumns {
   const std::uint32_t* return_index;
   std::size_t stride;
 
-  /// Prefetches the next row's values for some columns: six planes do not fit the cache that
-  /// earlier stages have used.
+  /// Prefetches some columns of the next row: its six planes are not in the cache, which earlier
+  /// stages have filled.
   void fetch_ahead(std::size_t column) const noexcept {
     for (const float* plane : {x_m, y_m, z_m, range_m, height_m}) {
       __builtin_prefetch(plane + column + stride);

@@ -40,7 +40,8 @@ class GroundPatches {
   [[nodiscard]] std::span<const float> x_m() const noexcept { return x_m_; }
   [[nodiscard]] std::span<const float> y_m() const noexcept { return y_m_; }
   [[nodiscard]] std::span<const float> z_m() const noexcept { return z_m_; }
-  /// Returns horizontal ranges: of the ground, else of the nearest obstacle, else NaN.
+  /// Returns the horizontal range of each patch: that of its ground, else of its nearest obstacle,
+  /// else NaN.
   [[nodiscard]] std::span<const float> range_m() const noexcept { return range_m_; }
   /// Returns how much the height of a return differs on average from the mean of its two neighbours
   /// on the ring, over roughness_window_m. 0 if unknown.
@@ -50,8 +51,8 @@ class GroundPatches {
   [[nodiscard]] std::span<const std::uint8_t> has_obstacle() const noexcept {
     return has_obstacle_;
   }
-  /// Returns 1 where the last returns of a ring meet its first ones, in the patch or between it and
-  /// the next. The vehicle moved in between, so heights do not match there.
+  /// Returns 1 where the last returns of a ring meet its first ones, inside the patch or between it
+  /// and the next. The vehicle moved in between, so heights do not match there.
   [[nodiscard]] std::span<const std::uint8_t> is_seam() const noexcept { return is_seam_; }
   [[nodiscard]] int columns_per_patch() const noexcept { return columns_per_patch_; }
   /// Maps a patch number beyond either end of its row to a valid number.
@@ -60,7 +61,7 @@ class GroundPatches {
     while (index >= per_row_) index -= per_row_;
     return index;
   }
-  /// The next two functions return the number of the adjacent patch, across a row's end, too.
+  /// after() and before() return the number of the adjacent patch, across a row's end, too.
   [[nodiscard]] int after(int index) const noexcept { return index + 1 < per_row_ ? index + 1 : 0; }
   [[nodiscard]] int before(int index) const noexcept {
     return index > 0 ? index - 1 : per_row_ - 1;

@@ -16,11 +16,11 @@ constexpr float kSameSurface_m = 1.0F;
 /// How far to either side of an edge the ring is checked for an equally steep slope.
 constexpr float kBeside_m = 1.5F;
 constexpr float kNoGround_m = std::numeric_limits<float>::max();
-/// A step that at least this share of the rings shows in the same direction runs through the
-/// sensor.
+/// If at least this share of the rings shows a step in the same direction, the step runs through
+/// the sensor.
 constexpr float kMostRings = 0.8F;
-/// At least this many rings must have ground on both sides of such a step: fewer rings may all be
-/// near. An HDL-64E on a car has 30 on open ground.
+/// At least this many rings must have ground on both sides of such a step, because a few rings may
+/// all be near. An HDL-64E on a car has 30 on open ground.
 constexpr float kEnoughRings = 24;
 
 /// The planes of a row, each from its first patch on, with a margin at both ends.
@@ -28,7 +28,7 @@ struct Row {
   const float *x_m, *y_m, *z_m, *range_m;
 };
 
-/// Sums over patches on one side of each patch of a row.
+/// Sums over the patches on one side of each patch of a row.
 struct Sums {
   float *x_m, *y_m, *z_m, *count;
 };
@@ -39,12 +39,13 @@ inline float one_if(bool condition) noexcept {
   return condition ? 1.0F : 0.0F;
 }
 
-/// std::max() by value: loops with references to memory are not vectorised.
+/// Does the same as std::max(), but with values: loops with references to memory are not
+/// vectorised.
 inline float greater(float one, float other) noexcept {
   return one > other ? one : other;
 }
 
-/// Adds the patch `beside` places away to each patch's sums if it is on the same surface.
+/// Adds to each patch's sums the patch `beside` places away, if both are on the same surface.
 TERRACUT_VECTOR_CLONES void add_patch(const Row row, int beside, int count, float* __restrict x_m,
                                       float* __restrict y_m, float* __restrict z_m,
                                       float* __restrict patches) noexcept {
@@ -71,8 +72,8 @@ TERRACUT_VECTOR_CLONES void find_means(const Row row, int count, const Sums sums
   }
 }
 
-/// Adds the slope between the means, relative to the terrain, for patches whose windows reach over
-/// `reach` patches.
+/// Computes the slope between the means, relative to the terrain, for patches whose windows have
+/// `reach` patches on each side.
 TERRACUT_VECTOR_CLONES void find_slopes(const Sums left, const Sums right,
                                         const TerrainSlope::Gradient* terrain,
                                         const std::int32_t* reaches, int reach, int count,
@@ -89,8 +90,8 @@ TERRACUT_VECTOR_CLONES void find_slopes(const Sums left, const Sums right,
 }
 
 /// Counts for each patch the rings with ground on both sides within `most_range_m`, and how many of
-/// these rise or fall across the patch by more than `step_m`, also relative to their slope beside
-/// it.
+/// these rise or fall across the patch by more than `step_m`, measured both absolutely and relative
+/// to their slope beside it.
 TERRACUT_VECTOR_CLONES void add_steps(const Row row, float most_range_m, float step_m, int count,
                                       float* __restrict rings, float* __restrict rises,
                                       float* __restrict falls) noexcept {

@@ -33,10 +33,10 @@ class RingEdges {
   [[nodiscard]] std::span<const std::uint8_t> find(const GroundPatches& ground,
                                                    const TerrainSlope& terrain,
                                                    int row) noexcept TERRACUT_NONBLOCKING;
-  /// True if an edge goes up, or down, at this patch number in most rings of the frame, near and
-  /// far. The seam of a compensated frame does so, because its last returns were measured at
-  /// another place than its first. A kerb does so only if it leads from under the vehicle to 20 m
-  /// away; then it blocks nothing.
+  /// True if an edge goes up (or down) at this patch number in most rings of the frame, near and
+  /// far. The seam of a compensated frame looks like this, because its last returns were measured
+  /// from another place than its first. A kerb does so only if it leads from under the vehicle to
+  /// 20 m away; then it blocks nothing.
   [[nodiscard]] bool runs_through_sensor(int index) const noexcept TERRACUT_NONBLOCKING;
 
  private:
@@ -51,10 +51,11 @@ class RingEdges {
   void reset_at_seam(const GroundPatches& ground, std::size_t first) noexcept;
   void count_steps(int per_row) noexcept;
   void find_slopes_across(int per_row) noexcept;
-  /// True if the ring is about as steep on one side of a patch as across the patch.
+  /// True if on one side of a patch the ring is about as steep as across the patch.
   [[nodiscard]] bool goes_on_beside(const GroundPatches& ground, int index) const noexcept;
-  /// Returns the slope (rise over run) between the patches of two runs, minus the terrain's at the
-  /// patch `index`; uses only ground at about that patch's range. NaN if there is no such ground.
+  /// Returns the slope (rise over run) between the patches of two runs, minus the terrain's slope
+  /// at patch `index`; uses only ground at about that patch's range. NaN if there is no such
+  /// ground.
   [[nodiscard]] float slope_between(int index, Run left, Run right) const noexcept;
 
   /// Number of patches beyond both ends of a row that windows can include.

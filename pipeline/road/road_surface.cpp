@@ -15,13 +15,13 @@ namespace {
 constexpr float kFar_m = std::numeric_limits<float>::max();
 /// The most rows without ground that a path may cross.
 constexpr int kRowsAcross = 3;
-/// A barrier is lone if few barriers lie within so many rows and patches around it.
+/// A barrier is lone if few others lie within this many rows and patches around it.
 constexpr int kAround = 2;
 /// Growing back goes as far as this many times half the vehicle's width: its path follows rings and
 /// columns, which is longer than a straight line.
 constexpr float kGrowBack = 1.3F;
 
-/// Counts, for each value, how many ones are among it and the 2 kAround values after it.
+/// Counts for each value the ones among it and the 2 kAround values after it.
 TERRACUT_VECTOR_CLONES void count_around(const std::uint8_t* values, std::size_t count,
                                          std::uint8_t* around) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -57,8 +57,8 @@ TERRACUT_VECTOR_CLONES void find_rough(const float* roughness_m, float most_m, s
   for (std::size_t i = 0; i < count; ++i) is_rough[i] = roughness_m[i] > most_m ? 1 : 0;
 }
 
-/// Converts the distance to a barrier along a ring into the range over which the barrier blocks
-/// other rings passing there; negative if it does not.
+/// Converts the distance to a barrier along a ring into the range over which the barrier also
+/// blocks other rings; negative if it blocks none.
 TERRACUT_VECTOR_CLONES void find_reaches(float half_width_m, std::size_t count,
                                          float* distance_m) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
@@ -68,9 +68,9 @@ TERRACUT_VECTOR_CLONES void find_reaches(float half_width_m, std::size_t count,
   }
 }
 
-/// Finds the patches of a row within the ranges that earlier barriers block, and adds the row's own
-/// barriers. A patch outside a blocked range ends that range: patches beyond it lie behind
-/// something else. Patches without a range (NaN) change nothing.
+/// Finds the patches of a row within the ranges that barriers of earlier rows block, and adds the
+/// row's own barriers. A patch outside a blocked range ends that range, because patches beyond it
+/// lie behind something else. Patches without a range (NaN) change nothing.
 TERRACUT_VECTOR_CLONES void block_ranges(const float* range_m, const float* reach_m,
                                          std::size_t count, float* __restrict from_m,
                                          float* __restrict to_m,
@@ -169,9 +169,9 @@ void RoadSurface::find_barriers() noexcept {
 }
 
 void RoadSurface::open_seams() noexcept {
-  // A seam's step makes the ground around it rough, and the step's upper side may be labelled
-  // obstacle. Both effects are narrower than the vehicle, so an obstacle that blocks the vehicle
-  // also has patches beside them.
+  // At a seam a step makes the ground look rough, and its upper side may be labelled obstacle. Both
+  // effects are narrower than the vehicle, so an obstacle that blocks the vehicle also has patches
+  // beside them.
   for (int index = 0; index < ground_.per_row(); ++index) {
     if (!edges_.runs_through_sensor(index)) continue;
     for (int row = 0; row < ground_.rows(); ++row) {
@@ -187,8 +187,8 @@ void RoadSurface::open_seams() noexcept {
 }
 
 void RoadSurface::drop_lone_barriers() noexcept {
-  // Kerbs and grass show in several rings; a barrier in a single ring is a laser's noise. Obstacles
-  // are never dropped.
+  // Kerbs and grass show in several rings; a barrier in a single ring is noise of that laser.
+  // Obstacles are never dropped.
   const auto per_row = static_cast<std::size_t>(ground_.per_row());
   for (int row = 0; row < ground_.rows(); ++row) {
     const std::size_t first = at(row, 0);
@@ -241,7 +241,7 @@ void RoadSurface::measure_along_rings() noexcept {
 void RoadSurface::measure_from(int row, int index, int step) noexcept {
   const float half_width_m = 0.5F * config_.vehicle_width_m;
   const float barrier_m = ground_.range_m()[at(row, index)];
-  // No patch that matters is nearer to the sensor than this, so none has a smaller spacing.
+  // No patch that matters is nearer to the sensor than this; so no spacing is smaller.
   const float least_spacing_m = ground_.spacing_m(barrier_m - half_width_m);
   float since = 1;
   for (; since * least_spacing_m < half_width_m; ++since) {

@@ -16,15 +16,15 @@
 
 namespace terracut::road {
 
-/// Finds the road surface: ground the vehicle can reach without crossing a kerb or an edge, and
-/// without leaving smooth ground. Not in the paper.
+/// Finds the road surface: ground that the vehicle can reach without crossing a kerb or an edge,
+/// and without leaving smooth ground. Not in the paper.
 ///
 /// An edge is where the ground rises or falls along a ring more steeply than the terrain at large.
-/// Edges, rough ground (grass) and obstacles are barriers; ground farther from barriers than half
-/// the vehicle's width is clear. The road is reached from the track ahead of and behind the vehicle
-/// over clear ground that is level with its neighbours, ring to ring and along the rings; a gap in
-/// a kerb too narrow for the vehicle leads nowhere. Finally the surface is grown from clear ground
-/// to the barriers.
+/// Edges, rough ground (grass) and obstacles are barriers; ground farther from all barriers than
+/// half the vehicle's width is clear. The road is reached from the track ahead of and behind the
+/// vehicle, over clear ground that is level with its neighbours, from ring to ring and along the
+/// rings; a gap in a kerb that is too narrow for the vehicle leads nowhere. Finally the surface
+/// grows from clear ground back to the barriers.
 class RoadSurface {
  public:
   struct Config {

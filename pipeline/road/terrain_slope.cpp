@@ -10,7 +10,7 @@
 namespace terracut::road {
 namespace {
 
-/// Returns the line of squares of a coordinate, limited to the first and last one.
+/// Returns the row or column of squares that holds a coordinate, limited to the first and the last.
 inline std::int32_t line_of(float coordinate_m, float square_m, float side) noexcept {
   const float line = coordinate_m / square_m + 0.5F * side;
   const float not_before = line > 0.0F ? line : 0.0F;  // this removes NaN
@@ -53,7 +53,7 @@ void TerrainSlope::fit(const GroundPatches& ground) noexcept {
       square = square_[i];
       at_hand = sums_[static_cast<std::size_t>(square)];
     }
-    // Patches are denser nearby; weighting by range makes every square metre count alike.
+    // Patches are denser near the sensor; weighting by range makes every square metre count alike.
     const auto weight = static_cast<double>(ground.range_m()[i]);
     const auto x = static_cast<double>(ground.x_m()[i]);
     const auto y = static_cast<double>(ground.y_m()[i]);
@@ -95,8 +95,8 @@ TerrainSlope::Gradient TerrainSlope::gradient_around(int line_x, int line_y) con
     }
   }
   if (all.weight <= 0) return {};
-  // Fits by least squares with a regularising term: ground seen only along one direction gets no
-  // slope across it.
+  // Fits by least squares with a regularising term, so that ground seen only along one direction
+  // gets no slope across it.
   constexpr double kLevel_m2 = 4.0;
   const double x = all.x / all.weight, y = all.y / all.weight, z = all.z / all.weight;
   const double xx = all.xx / all.weight - x * x + kLevel_m2;

@@ -10,8 +10,8 @@
 
 namespace terracut::ros_messages {
 
-/// Returns the instant for which a frame's points are valid, CLOCK_REALTIME: the one to which they
-/// were deskewed, else the stamp of its first packet.
+/// Returns the instant for which a frame's points are valid (CLOCK_REALTIME): the instant to which
+/// they were deskewed or, if they were not, the stamp of the first packet.
 [[nodiscard]] constexpr std::int64_t stamp_ns_of(const status::FrameRecord& record) noexcept {
   const frame::DeskewInfo& deskew = record.info.deskew;
   return deskew.state == frame::DeskewState::kDone ? deskew.reference_ns

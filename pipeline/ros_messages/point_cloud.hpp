@@ -41,7 +41,7 @@ inline constexpr CloudField kCloudFields[]{{"x", offsetof(CloudPoint, x_m), kFlo
                                            {"label", offsetof(CloudPoint, label), kUint8},
                                            {"time", offsetof(CloudPoint, time_s), kFloat32}};
 
-/// Selects the points of a frame that a cloud has.
+/// The choice of a frame's points that a cloud holds.
 enum class CloudOf : std::uint8_t { kAll, kGround, kObstacles, kRoad };
 
 /// True if points of this label belong to the cloud. Road is a part of the ground, or all of it if

@@ -24,7 +24,7 @@ Status CloudPipeline::label(const cloud::CloudView& cloud, status::FrameRecord& 
   record.stages = clock_.take();
   placement_.labels_of_points(labels(), point_labels_);
   record.segmentation.count(point_labels_);
-  // Points that are no return have the label kNone, which counts as neither ground nor obstacle.
+  // Points that are no return have the label kNone, so they count as neither ground nor obstacle.
   const auto no_place = static_cast<std::uint32_t>(placed().no_place);
   record.segmentation.returns -= no_place;
   record.segmentation.obstacles -= no_place;

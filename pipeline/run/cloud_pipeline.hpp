@@ -18,8 +18,8 @@
 
 namespace terracut::run {
 
-/// Turns clouds into labels on one thread: clouds of one sensor go in one after the other, and a
-/// label for every point comes out.
+/// Turns clouds into labels on one thread: takes clouds of one sensor one after the other, and
+/// returns a label for every point.
 ///
 ///   status::FrameRecord record;
 ///   if (const Status labelled = pipeline.label(cloud, record); !labelled) return labelled;

@@ -13,10 +13,10 @@
 
 namespace terracut::run {
 
-/// Shows a mount finder one second of frames from a live sensor. If they do not show the mount for
-/// certain, shows the frames of the next second instead, until `patience` is over or stop_wanted().
-/// Calls `on_waiting` many times a second with what is waited for. `config` must be for frames with
-/// points. Start-up only: allocates.
+/// Gives a mount finder the frames of one second from a live sensor. As long as they do not show
+/// the mount for certain, tries again with the next second, until `patience` is over or
+/// stop_wanted() returns true. Calls `on_waiting` many times a second with a text about what is
+/// missing. `config` must be for frames with points. Start-up only: allocates.
 [[nodiscard]] mount::MountFinder mount_on_air(
     net::LiveSource& source, const streams::SensorOnAir& sensor,
     const decode::Decoder::Config& config, std::chrono::seconds patience,

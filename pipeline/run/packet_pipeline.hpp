@@ -60,7 +60,7 @@ class PacketPipeline {
 
   /// Labels the frame returned last and completes its record; labels() then has one label per
   /// return, by return index, until the next call. A frame that is not labelled costs only the work
-  /// done while it arrived.
+  /// that is done while it arrives.
   void label(Frame& frame) noexcept;
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_->labels(); }
 

@@ -13,8 +13,9 @@
 
 namespace terracut::run {
 
-/// Measures the times of the pipeline's stages, as the pipeline has no clock. Adds up the times of
-/// a frame until take(), even with interruptions. `Clock` is like measure::SystemClock.
+/// Measures the times of the pipeline's stages, because the pipeline itself has no clock. Sums the
+/// times of a frame until take(), even if its work is interrupted. `Clock` is like
+/// measure::SystemClock.
 template <class Clock>
 class StageClockOf final : public stage::StageObserver {
  public:

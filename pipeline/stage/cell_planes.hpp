@@ -23,8 +23,8 @@ struct CellPlanes {
   std::span<float> height_m;
   /// The label given so far; kNone in cells without a return.
   std::span<frame::Label> label;
-  /// Has the bit kSteep where the adjacent points test found a steep step at this return; that test
-  /// uses the other bits for itself.
+  /// Bit kSteep is set where the adjacent points test found a steep step at this return; the other
+  /// bits are that test's own.
   std::span<std::uint8_t> steep;
 
   CellPlanes(frame::ImageShape shape, memory::FixedMemory& memory)

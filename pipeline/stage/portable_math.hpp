@@ -29,7 +29,7 @@ class NegativeExp {
     const FourFloats position = where(is_inside & (t > 0.0F), t) * kStepsPerUnit;
     const FourInts step = __builtin_convertvector(position, FourInts);
     const FourFloats share = position - __builtin_convertvector(step, FourFloats);
-    // One load reads an entry and the next one.
+    // A single load reads an entry and the next one.
     const auto pair = [&](int lane) {
       return load_two(&table_[static_cast<std::size_t>(step[lane])]);
     };

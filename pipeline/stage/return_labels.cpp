@@ -33,8 +33,8 @@ void write_labels(std::span<const std::uint8_t> of_firing, frame::Label* next) n
       next += sizeof(eight);
       continue;
     }
-    // A branch would be mispredicted. So each label is written, and the next one overwrites a
-    // kNone.
+    // A branch would be mispredicted. So each label is written, and the next one overwrites it if
+    // it is kNone.
     for (; eight != 0; eight >>= 8U) {
       *next = static_cast<frame::Label>(eight & 0xFFU);
       next += (eight & 0xFFU) != 0 ? 1 : 0;
@@ -55,7 +55,8 @@ void ReturnLabels::assign(const frame::RangeImage& image, const CellPlanes& plan
   const auto index = image.return_index();
   const std::size_t nowhere = labels_.size() - 1;
   for (std::size_t cell = 0; cell < planes.label.size(); ++cell) {
-    // A branch would be mispredicted. So empty cells write as well, to a slot that nobody reads.
+    // A branch would be mispredicted. So empty cells write their label, too, to a slot that nobody
+    // reads.
     const frame::Label label = planes.label[cell];
     labels_[label != frame::Label::kNone ? index[cell] : nowhere] = label;
   }

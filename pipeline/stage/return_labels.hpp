@@ -26,8 +26,9 @@ class ReturnLabels {
     float same_surface_height_m = 0.10F;  ///< Returns farther apart in height are not close.
   };
 
-  /// A return that is not close is an obstacle from `obstacle_height_m` above the ground on.
-  /// `return_capacity` is RangeImage::return_capacity() of the images that will be labelled.
+  /// A return that is not close to its cell's owner is an obstacle if it lies at least
+  /// `obstacle_height_m` above the ground. `return_capacity` is RangeImage::return_capacity() of
+  /// the images to be labelled.
   ReturnLabels(const Config& config, float obstacle_height_m, std::size_t return_capacity,
                memory::FixedMemory& memory);
 
@@ -44,7 +45,7 @@ class ReturnLabels {
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
     return labels_.first(returns_);
   }
-  /// Returns the labels so that a later stage can tell road from other ground.
+  /// Returns the labels for a later stage that separates road from other ground.
   [[nodiscard]] std::span<frame::Label> mutable_labels() noexcept {
     return labels_.first(returns_);
   }

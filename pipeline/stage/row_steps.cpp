@@ -9,8 +9,8 @@
 namespace terracut::stage {
 namespace {
 
-/// Tolerance for tables rounded to hundredths or thousandths of a degree, whose differences fall
-/// short.
+/// Tolerance for tables rounded to hundredths or thousandths of a degree: their differences may be
+/// a little too small.
 constexpr double kRounding_rad = beams::deg_to_rad(1e-6);
 
 }  // namespace

@@ -10,12 +10,13 @@ namespace terracut::stage {
 /// Returns the number of rows up to the highest whose beams meet the ground; 0 if none does.
 [[nodiscard]] int rows_that_meet_ground(const mount::RingProfile& profile) noexcept;
 
-/// Steps over rows by angle. Rows may be unevenly spaced: those of an RS-Ruby128 are 0.1 degrees
-/// apart around the horizon and up to 5.4 degrees below, an HDL-64E's a third or half a degree. A
-/// step goes to the next row, or over as many rows as it takes to cover `step_deg`; so k steps
-/// cover about the same angle on any sensor. If step_deg is 0, a step is a row, as in the paper.
+/// Steps from row to row by angle. Rows may be unevenly spaced: those of an RS-Ruby128 are 0.1
+/// degrees apart around the horizon and up to 5.4 degrees below, an HDL-64E's a third or half a
+/// degree. A step goes to the next row, or over as many rows as it takes to cover `step_deg`; so k
+/// steps cover about the same angle on any sensor. If step_deg is 0, a step is one row, as in the
+/// paper.
 ///
-/// For use in constructors: each answer is looked up in the profile, O(rows).
+/// For use in constructors: each call searches the profile, O(rows).
 class RowSteps {
  public:
   /// `profile` must outlive this object.

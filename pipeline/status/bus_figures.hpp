@@ -47,7 +47,7 @@ struct MotionFigures {
   std::uint64_t deskewed = 0;       ///< Deskewed frames of any level.
   std::uint64_t no_ego_motion = 0;  ///< Frames not deskewed.
 
-  /// Stamp of the newest sample when a frame was handed over, minus the instant of the frame's last
+  /// Stamp of the newest sample at the hand-over of a frame, minus the instant of the frame's last
   /// firing: about 0 if both use one clock; 0 without a sample.
   std::int64_t newest_sample_after_frame_ns = 0;  ///< Of the newest frame.
   /// The least and the greatest newest_sample_after_frame_ns over all deskewed frames.

@@ -36,7 +36,7 @@ FrameMissCause largest_share(const FrameRecord& frame,
   share_of(FrameMissCause::kWaitingForCore) =
       take_share(frame.run_queue_wait_ns - std::max<std::int64_t>(frame.steal_ns, 0), rest_ns);
   share_of(FrameMissCause::kOwnWork) = rest_ns;
-  // If shares are equal, max_element() finds the first; the enumeration begins with our own work.
+  // Of equal shares max_element() finds the first, and the enumeration begins with our own work.
   const auto largest = std::max_element(share_ns.begin(), share_ns.end());
   return static_cast<FrameMissCause>(largest - share_ns.begin());
 }
@@ -81,7 +81,8 @@ void DeadlineMonitor::judge_latency(FrameRecord& frame) noexcept TERRACUT_NONBLO
   const bool skipped = frame.level == Level::kSkipped;
   frame.missed = skipped;
   frame.cause = FrameMissCause::kOwnWork;
-  // A clock was set back between packet and labels, or the packet has no stamp.
+  // No latency can be told: a clock was set back between packet and labels, or the packet has no
+  // stamp.
   if (frame.info.last_packet_ns <= 0 || frame.labels_ns < frame.info.last_packet_ns) {
     ++figures.unjudged;
     return;
@@ -119,7 +120,7 @@ void DeadlineMonitor::record_costs(const FrameRecord& frame) noexcept TERRACUT_N
   figures.total_cpu.record(frame.decode_cpu_ns + frame.segment_cpu_ns);
   figures.segment_cpu.record(frame.segment_cpu_ns);
   for (std::size_t i = 0; i < figures.stages(); ++i) {
-    // A frame that skipped this stage does not count, or the stage would look cheap.
+    // A frame that skipped this stage is left out; otherwise the stage would look cheap.
     if (frame.stages.stage_ns[i] > 0) figures.stage_cpu[i].record(frame.stages.stage_ns[i]);
   }
 }

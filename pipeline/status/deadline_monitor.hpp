@@ -56,9 +56,9 @@ class DeadlineMonitor {
   /// how many were copied.
   std::size_t copy_newest(std::span<FrameRecord> into) const noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns the figures. judge() fills in all that comes from frames, deadline_ns and the names of
-  /// the stages; the caller fills in the other fields (version, sensor, input, link, losses,
-  /// threads, times, and those of the CAN bus).
+  /// Returns the figures. judge() fills in everything that comes from frames, deadline_ns and the
+  /// names of the stages; the caller fills in the other fields (version, sensor, input, link,
+  /// losses, threads, times, and those of the CAN bus).
   [[nodiscard]] MonitorSnapshot& snapshot() noexcept { return *snapshot_; }
   [[nodiscard]] const MonitorSnapshot& snapshot() const noexcept { return *snapshot_; }
 

@@ -63,8 +63,8 @@ enum class Shown : std::uint8_t {
   kAlarmOrNone,  ///< Like kAlarm, and otherwise "none".
 };
 
-/// The text of a figure in the lines for people (figure_lines.hpp); for a histogram, its row in the
-/// table of times. Left out if `line` is empty.
+/// The text of a figure in the lines for people (figure_lines.hpp); a histogram's text is its row
+/// in the table of times. Left out if `line` is empty.
 struct Phrase {
   std::string_view line;  ///< Title of the line that has the figure.
   /// A format for fmt: "{} packets"; for a duration "{ms}" or "{s}". The text follows the previous
@@ -74,7 +74,7 @@ struct Phrase {
   Shown shown = Shown::kAlways;
 };
 
-/// A measured value, with its name and the places and forms in which it is shown.
+/// A measured value with its name, and the places where and the forms in which it is shown.
 struct Figure {
   std::string_view key;  ///< In its JSON group, with unit: "deadline_ms"; empty: not in JSON.
   Value value;
@@ -83,7 +83,7 @@ struct Figure {
   std::string group{};  ///< JSON group: "frames", "mount.seen"; digits are an index: "threads.0".
 };
 
-/// True if a process can have published this value, so that calculating with the value is safe.
+/// True if a process can have published this value; calculating with it is then safe.
 [[nodiscard]] bool is_possible(const Value& value) noexcept;
 
 /// True for 0, false or an empty value, and for times that are all 0.

@@ -21,7 +21,8 @@ namespace {
 
 constexpr double kMost = 1e12;  // the highest rate or percentage shown
 
-/// Subtracts times from a page, which may have any value: wraps instead of overflowing.
+/// Returns a difference of times that wraps instead of overflowing: times from a page may have any
+/// value.
 Duration between(std::int64_t from_ns, std::int64_t to_ns) noexcept {
   return {static_cast<std::int64_t>(static_cast<std::uint64_t>(to_ns) -
                                     static_cast<std::uint64_t>(from_ns))};
@@ -65,7 +66,7 @@ Counts counts_of(std::string_view label, std::span<const std::uint64_t> counts) 
   for (std::size_t i = 0; i < names.size(); ++i) result.each.emplace_back(names[i], counts[i]);
   return result;
 }
-/// Returns the losses of onlookers if `of_onlookers`, else all other losses.
+/// Returns the losses of viewing clients if `of_onlookers`, else all other losses.
 Counts losses_of(const MonitorSnapshot& f, bool of_onlookers) {
   Counts losses = counts_of("cause", f.losses_in_use());
   std::erase_if(losses.each,

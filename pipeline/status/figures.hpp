@@ -13,11 +13,11 @@
 namespace terracut::status {
 
 /// Returns all figures of a live run, from one table (figures.cpp). `terracut top`, /metrics,
-/// --json and the final summary show them, and a status page is checked by them. A new figure needs
-/// only a new row. The figures refer to `snapshot`, which may have any content.
+/// --json and the final summary show them, and a status page is checked by them. So a new figure
+/// needs only a new row in that table. The figures refer to `snapshot`, which may have any content.
 [[nodiscard]] std::vector<Figure> figures_of(const MonitorSnapshot& snapshot);
 
-/// These return groups of figures that runs over files also have.
+/// Each of these returns a group of figures that runs over files have, too.
 [[nodiscard]] std::vector<Figure> figures_of(const MountFigures& mount);
 [[nodiscard]] std::vector<Figure> figures_of(const frame::BlindAzimuths& blind);
 

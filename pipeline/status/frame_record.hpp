@@ -47,8 +47,8 @@ inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCau
 
 /// All facts about one frame, filled in by the threads that the frame passes from its first packet
 /// to the last report, and judged at the end (pipeline/status/deadline_monitor.hpp). Times of day
-/// are CLOCK_REALTIME like the kernel's packet stamps; 0 means "unknown". Trivially copyable;
-/// threads must be kept apart by the user.
+/// are CLOCK_REALTIME like the kernel's packet stamps; 0 means "unknown". Trivially copyable; only
+/// one thread at a time may use it.
 struct FrameRecord {
   frame::FrameInfo info;  ///< From the decoder: number, packets' stamps, returns, losses.
 
@@ -57,7 +57,7 @@ struct FrameRecord {
   std::int64_t segment_begin_ns = 0;
   std::int64_t labels_ns = 0;  ///< When labels were handed out or the frame was skipped.
 
-  /// The processor time of the work on the frame:
+  /// Processor time of the work on the frame:
   std::int64_t decode_cpu_ns = 0;   ///< Decoding all packets of the frame.
   stage::StageTimes stages;         ///< Indexed by stage.
   std::int64_t ahead_cpu_ns = 0;    ///< Stages done while the frame was arriving.
@@ -71,7 +71,7 @@ struct FrameRecord {
 
   stage::SegmentationReport segmentation;
   Level level = Level::kFull;
-  std::uint8_t stages_ahead = 0;  ///< How many first stages were done at hand-over.
+  std::uint8_t stages_ahead = 0;  ///< How many of the first stages were done at hand-over.
 
   bool missed = false;                              ///< Set by DeadlineMonitor::judge.
   FrameMissCause cause = FrameMissCause::kOwnWork;  ///< Set by judge; valid only if missed.

@@ -28,7 +28,7 @@ struct InputState {
 /// whether its head rotates, where it is blind. For one thread without a deadline.
 class InputStatus {
  public:
-  /// Shows `input` in `figures`, as of figures.taken_ns. Returns a sentence for people if the link
+  /// Writes `input` to `figures`, as of figures.taken_ns. Returns a sentence for people if the link
   /// has changed (LinkNews), else an empty text.
   [[nodiscard]] std::string show(const InputState& input, MonitorSnapshot& figures);
 

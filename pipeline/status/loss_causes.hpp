@@ -23,15 +23,15 @@ namespace terracut::status {
 /// kernel_drops is among the other losses.
 [[nodiscard]] std::vector<NamedCount> causes_of(const net::ReceiveCounters& counters);
 
-/// True if a cause counts what a viewing client missed (of the page, Foxglove or /metrics): then
-/// nothing is lost between sensor and label, in recordings or in outputs.
+/// True if a cause counts what a viewing client missed (of the page, Foxglove or /metrics): in that
+/// case nothing is lost between sensor and label, in recordings or in other outputs.
 [[nodiscard]] bool is_of_onlookers(std::string_view cause) noexcept;
 
 /// Returns where the datagrams of a live run went. The sum of these outcomes and of the datagrams
 /// in doubt is all that was received.
 [[nodiscard]] std::vector<NamedCount> outcomes_of(const net::DatagramAccount& account);
 
-/// Adds causes to the published figures. Throws std::length_error if there is no room.
+/// Adds causes of loss to the published figures. Throws std::length_error if there is no room.
 void show_losses(std::span<const NamedCount> causes, MonitorSnapshot& figures);
 
 /// Shows how many datagrams were received and where they went. Throws std::length_error if there is

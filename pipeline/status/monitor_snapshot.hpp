@@ -43,10 +43,10 @@ struct ThreadStatus {
   std::uint64_t minor_faults = 0, major_faults = 0;  ///< Page faults since the thread's start-up.
 };
 
-/// All that a watcher can know of a running process, in one piece without pointers: it is copied
-/// whole into the status page, and all displays (terracut top, /metrics, the final summary) read
-/// only this. Counts come with their names, so that another build can read them. About 350 KiB,
-/// mostly histogram buckets.
+/// All that can be known of a running process from outside, in one piece without pointers. It is
+/// copied whole into the status page, and all displays (terracut top, /metrics, the final summary)
+/// read nothing else. Counts come with their names, so that another build can read them. About 350
+/// KiB, mostly histogram buckets.
 ///
 /// A plain value. If it comes from another process it may have any bytes; the accessors below and
 /// to_string are safe even then.
@@ -93,7 +93,7 @@ struct MonitorSnapshot {
   /// `received`.
   std::uint64_t before_labelling = 0;
   std::uint64_t received = 0;       ///< Datagrams from the kernel: `in_doubt` and all `outcomes`.
-  std::uint64_t in_doubt = 0;       ///< Received, but place in the stream not known yet.
+  std::uint64_t in_doubt = 0;       ///< Received, but not yet known to belong to the stream.
   std::uint32_t outcome_count = 0;  ///< The number of `outcomes` in use.
   std::array<NamedCount, kMaxOutcomes> outcomes{};
 

@@ -9,11 +9,11 @@
 
 namespace terracut::status {
 
-/// Measures the time that the hypervisor took from this machine while a frame was on its way, for
-/// the thread that judges frames. Threads with a deadline do not ask, because the kernel may take a
-/// millisecond to answer (rt/measure/stolen_time.hpp). The time is read a few times a second and
-/// after a missed deadline, so a frame may be charged with time taken up to a quarter of a second
-/// around it. One thread; reads no clock.
+/// Measures the time that the hypervisor took from this machine while a frame was processed, for
+/// the thread that judges frames. Threads with a deadline do not ask for it, because the kernel may
+/// take a millisecond to answer (rt/measure/stolen_time.hpp). The time is read a few times a second
+/// and after a missed deadline, so a frame may be charged with time taken up to a quarter of a
+/// second before or after it. One thread; reads no clock.
 ///
 /// `Stolen` is like measure::StolenTime.
 template <class Stolen>

@@ -13,8 +13,8 @@ namespace terracut::status {
 /// watchdog's time, and at least a few frames apart.
 ///
 /// The watchdog is fed if, since the last call, at least as many frames met their deadline as
-/// missed it; or if no packet came at all, or the sensor's head stands: restarting the program does
-/// not mend a sensor that is off.
+/// missed it. It is also fed if no packet came at all or the sensor's head stands still, because
+/// restarting the program does not mend a sensor that is off.
 class WatchdogRule {
  public:
   [[nodiscard]] bool may_feed(const MonitorSnapshot& figures) noexcept {
@@ -26,7 +26,7 @@ class WatchdogRule {
     const std::uint64_t missed = now.missed - before.missed;
     if (now.packets == before.packets && missed == 0) return true;
     if (figures.head_stands) return true;
-    // A skipped frame without a stamp counts as missed and as unjudged.
+    // A skipped frame without a stamp is counted both as missed and as unjudged.
     const std::uint64_t not_in_time = missed + (now.unjudged - before.unjudged);
     const std::uint64_t frames = now.frames - before.frames;
     return frames > not_in_time && frames - not_in_time >= missed;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMostPeers = 64;
 constexpr std::uint64_t kListenerEvent = kMostPeers;
-/// Keeps a flood of connections from delaying frames.
+/// Limits the connections accepted in one round, so that a flood of them does not delay frames.
 constexpr int kAcceptsAtOnce = 32;
 constexpr std::int64_t kPauseAfterFailure_ns = 1'000'000'000;
 
@@ -92,7 +92,7 @@ FrameStreamServer::FrameStreamServer(const FrameStreamConfig& config, ListeningS
   const files::OwnedDescriptor trial(
       ::socket(is_unix ? AF_UNIX : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   send_buffer_ = send_buffer_grant(wanted, request_send_buffer(trial.get(), wanted));
-  // Where no size is granted, TCP chooses its buffer size itself, up to net.ipv4.tcp_wmem.
+  // If the kernel has granted no size, TCP chooses its buffer size itself, up to net.ipv4.tcp_wmem.
   if (is_unix || send_buffer_.granted) send_buffer_bytes_ = wanted;
 }
 
@@ -116,7 +116,7 @@ bool FrameStreamServer::serve(const LabelledFrame& frame) noexcept {
       std::transform(frame.points.begin(), frame.points.end(), slots_[slot].room.begin(),
                      wire_point);
       slots_[slot].points = frame.points.size();
-      ++slots_[slot].holders;  // held until the last reader has been looked at
+      ++slots_[slot].holders;  // held here until all readers have been served
     }
     begin(peer, slot, frame);
   }
@@ -155,7 +155,8 @@ void FrameStreamServer::handle_events() noexcept {
       give(peer);
     }
   }
-  // New readers are let in last: an event above must not mean a new reader in an old one's place.
+  // New readers are accepted last: otherwise one could get the place of an old reader that an event
+  // above is about.
   if (somebody_knocks) let_in();
 }
 
@@ -169,7 +170,8 @@ void FrameStreamServer::let_in() noexcept {
     }
     if (errno == EAGAIN || errno == EWOULDBLOCK) return;
     if (errno == EINTR || errno == ECONNABORTED || errno == EPROTO) continue;
-    // Descriptors or memory are used up: the pending connection would keep waking the caller.
+    // Descriptors or memory are used up. Stops listening for a while, as the pending connection
+    // would keep waking the caller.
     figures_.accept_error = errno;
     ++figures_.accept_failures;
     watch_listener(false);
@@ -246,7 +248,7 @@ void FrameStreamServer::give(Peer& peer) noexcept {
     ::msghdr message{};
     message.msg_iov = parts.data();
     message.msg_iovlen = parts.size();
-    // MSG_NOSIGNAL: a reader that closes its connection must not end this process by SIGPIPE.
+    // Without MSG_NOSIGNAL a reader that closes its connection would end this process by SIGPIPE.
     const ::ssize_t given = ::sendmsg(peer.socket.get(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (given < 0) {
       if (errno == EINTR) continue;
@@ -275,7 +277,7 @@ void FrameStreamServer::part_with(Peer& peer, std::uint64_t& counter) noexcept {
     ++figures_.cut_short;
     release(peer);
   }
-  // Ends both the registration and the connection: a child process may hold copies of the
+  // Ends both the registration and the connection itself: a child process may hold copies of the
   // descriptor.
   watch(peer, EPOLL_CTL_DEL, false);
   ::shutdown(peer.socket.get(), SHUT_RDWR);
@@ -284,7 +286,7 @@ void FrameStreamServer::part_with(Peer& peer, std::uint64_t& counter) noexcept {
   peer.figures.connected = false;
 }
 
-/// Watches a connection. What a reader sends is ignored; the end of its sending is still an event.
+/// Watches a connection. Data from a reader is ignored, but the end of it is an event.
 void FrameStreamServer::watch(Peer& peer, int operation, bool for_room) noexcept {
   ::epoll_event event{};
   event.events = EPOLLRDHUP | (for_room ? EPOLLOUT : 0U);

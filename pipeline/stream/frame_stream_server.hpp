@@ -63,15 +63,16 @@ struct PeerFigures {
 };
 
 /// Hands labelled frames to other processes over TCP or a Unix socket
-/// (docs/reference/labelled_stream.md). A reader gets whole frames, always the newest one when it
-/// is free; while it is busy with a frame it misses others. Nothing queues up, no reader delays
-/// another or the caller, and whatever happens to a reader is counted, never an error.
+/// (docs/reference/labelled_stream.md). A reader gets whole frames, and always the newest one when
+/// it is free; frames that come while it is busy with another are missed. Nothing queues up, no
+/// reader delays another or the caller, and whatever happens to a reader is counted, never an
+/// error.
 ///
-/// There is memory for as many frames as readers. A frame is copied once however many readers take
-/// it, and kept until the last reader has it; a free reader holds no frame, so there is always
+/// There is memory for as many frames as readers. A frame is copied once, however many readers take
+/// it, and kept until the last of them has it; a free reader holds no frame, so there is always
 /// memory for the next frame that it takes.
 ///
-/// For one thread of normal priority: it makes system calls that cost up to a few milliseconds with
+/// For one thread of normal priority: it makes system calls that take up to a few milliseconds for
 /// a frame's bytes, but never waits. Allocates nothing after open().
 class FrameStreamServer {
  public:
@@ -101,7 +102,7 @@ class FrameStreamServer {
   [[nodiscard]] const threads::Grant& send_buffer() const noexcept { return send_buffer_; }
   [[nodiscard]] const FrameStreamFigures& figures() const noexcept { return figures_; }
   [[nodiscard]] std::size_t peers() const noexcept;
-  /// Returns the figures of the present or last reader with this index, [0, max_peers).
+  /// Returns the figures of the present or last reader at this place, [0, max_peers).
   [[nodiscard]] const PeerFigures& peer(std::size_t place) const noexcept {
     return peers_[place].figures;
   }
@@ -118,7 +119,7 @@ class FrameStreamServer {
     files::OwnedDescriptor socket;
     PeerFigures figures;
     FrameWireHeader header;      ///< Header of the frame being sent.
-    std::size_t slot = kNoSlot;  ///< Slot of its points until all are in the kernel.
+    std::size_t slot = kNoSlot;  ///< Slot of the frame's points until all are in the kernel.
     std::size_t given_bytes = 0;
     std::size_t backlog_bytes = 0;  ///< Bytes not yet sent when last checked.
     std::int64_t progress_ns = 0;   ///< Monotonic time when the backlog began or last shrank.

@@ -49,12 +49,12 @@ inline constexpr std::uint32_t kFrameComplete = 1U << 0;  ///< Every firing was 
 inline constexpr std::uint32_t kFrameLate = 1U << 1;      ///< Labelled after its deadline.
 /// Deskewed: each point lies where it was at one common instant of the frame.
 inline constexpr std::uint32_t kFrameDeskewed = 1U << 2;
-/// Deskewing was asked for but not done, for lack of motion: points lie where they were seen.
+/// Deskewing was asked for but not done for lack of motion: points lie where they were seen.
 inline constexpr std::uint32_t kFrameNoEgoMotion = 1U << 3;
 
 inline constexpr std::array<char, 4> kFrameMagic{'T', 'C', 'L', 'T'};
-/// Increases only if readers of the last version could no longer read. New fields are added at the
-/// end of the header or point; readers skip them by header_bytes and point_bytes.
+/// The version increases only if readers of the last version could no longer read. New fields are
+/// added at the end of the header or point; readers skip them by header_bytes and point_bytes.
 inline constexpr std::uint16_t kFrameWireVersion = 1;
 /// The most points of a frame: six times a Ruby128's dual-return frame.
 inline constexpr std::uint32_t kMostFramePoints = 4'194'304;

@@ -29,9 +29,9 @@ tl::unexpected<Error> refused(const StreamAddress& address) {
                           std::strerror(reason), advice));
 }
 
-/// True if the file is a Unix socket whose process is gone.
+/// True if the path is a Unix socket that no process listens to any more.
 Expected<bool> left_behind(const StreamAddress& address) {
-  struct ::stat status {};
+  struct ::stat status{};
   if (::lstat(address.unix_path.c_str(), &status) != 0) {
     if (errno == ENOENT) return false;
     return refused(address);
@@ -71,7 +71,7 @@ Expected<ListeningSocket> ListeningSocket::open(const StreamAddress& address, ::
       ::socket(family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!descriptor) return refused(address);
   if (!address.is_unix()) {
-    // Connections of an earlier run that the system still remembers must not block the address.
+    // Connections of an earlier run that the system still remembers do not block the address then.
     const int on = 1;
     ::setsockopt(descriptor.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   }
@@ -79,8 +79,8 @@ Expected<ListeningSocket> ListeningSocket::open(const StreamAddress& address, ::
   if (::bind(descriptor.get(), wanted.get(), wanted.size) != 0) return refused(address);
   ListeningSocket listening(std::move(descriptor), address);
   if (address.is_unix()) {
-    struct ::stat status {};
-    // Nobody can connect in between: the socket does not listen yet.
+    struct ::stat status{};
+    // Nobody can connect before the rights are set, because the socket does not listen yet.
     if (::lstat(address.unix_path.c_str(), &status) != 0 ||
         ::chmod(address.unix_path.c_str(), unix_mode) != 0) {
       return refused(address);
@@ -119,7 +119,7 @@ ListeningSocket& ListeningSocket::operator=(ListeningSocket&& other) noexcept {
 void ListeningSocket::close() noexcept {
   socket_.close();
   if (inode_ == 0) return;
-  struct ::stat status {};
+  struct ::stat status{};
   const bool still_ours = ::lstat(address_.unix_path.c_str(), &status) == 0 &&
                           status.st_dev == device_ && status.st_ino == inode_;
   if (still_ours) ::unlink(address_.unix_path.c_str());

@@ -13,10 +13,11 @@ namespace terracut::stream {
 /// A non-blocking stream socket that listens. Its destructor removes the file of a Unix socket.
 class ListeningSocket {
  public:
-  /// Replaces a Unix socket's file on which nobody listens, as kill -9 leaves one, but nothing else
-  /// at that path. Fails with kNotFound if this machine has no such address or folder, kUnreadable
-  /// if address or path is in use or the system refuses for another reason. `unix_mode` gives the
-  /// rights of a Unix socket's file, whatever the umask; whoever may write to the file may connect.
+  /// Opens the socket. Replaces a Unix socket's file on which nobody listens, as kill -9 leaves
+  /// one, but no other file at that path. Fails with kNotFound if this machine has no such address
+  /// or folder, kUnreadable if address or path is in use or the system refuses for another reason.
+  /// `unix_mode` gives the rights of a Unix socket's file, whatever the umask; whoever may write to
+  /// the file may connect.
   [[nodiscard]] static Expected<ListeningSocket> open(const StreamAddress& address,
                                                       ::mode_t unix_mode = kOwnerAndGroup);
   static constexpr ::mode_t kOwnerAndGroup = 0660;

@@ -8,8 +8,9 @@
 
 namespace terracut::stream {
 
-/// Gives `socket` a send buffer that takes `bytes` at once: beyond net.core.wmem_max if the process
-/// may (CAP_NET_ADMIN), else up to that limit. Returns the bytes granted. Allocates nothing.
+/// Requests a send buffer for `socket` that takes `bytes` at once: beyond net.core.wmem_max if the
+/// process may (CAP_NET_ADMIN), else up to that limit. Returns the bytes granted. Allocates
+/// nothing.
 std::size_t request_send_buffer(int socket, std::size_t bytes) noexcept;
 
 /// Describes for people that `granted_bytes` of `bytes` were granted, and how to get the missing

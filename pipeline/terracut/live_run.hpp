@@ -14,10 +14,10 @@
 
 namespace terracut {
 
-/// Labels a live sensor's frames before a deadline. It starts two threads, which receive and
-/// segment; they allocate nothing, lock nothing, and when late give up parts of the method, never
-/// the deadline. The thread that calls run() calls on_frame, without a deadline: if on_frame is too
-/// slow, frames are left out and counted.
+/// Labels a live sensor's frames before a deadline. It starts two threads, one that receives and
+/// one that segments. They allocate nothing and lock nothing; when late, they give up parts of the
+/// method, never the deadline. The thread that calls run() calls on_frame, without a deadline: if
+/// on_frame is too slow, frames are left out and counted.
 class LiveRun {
  public:
   struct Config {
@@ -25,22 +25,22 @@ class LiveRun {
     std::string address = "0.0.0.0";
     std::optional<Calibration> calibration;  ///< If empty, the sensor's own table is used.
     Mount mount;
-    /// Finds the mount from the ground seen in the first second, instead of using `mount`; if the
-    /// first second does not show it, from the following seconds, for ten seconds.
+    /// Finds the mount from the ground seen in the first second, instead of using `mount`. If that
+    /// second does not show it, later seconds are tried, up to ten.
     bool find_mount = false;
     /// With find_mount: if the ground did not show the mount, continues with `mount` instead of
     /// failing; found_mount() is then empty.
     bool guess_mount = false;
     double deadline_ms = 50;  ///< Time from a frame's last packet to its labels, [1, 10000].
-    /// How long packets may wait to be fetched together, [0, 20], but never past a frame's end; 0:
-    /// each packet is fetched as it comes, with more wake-ups.
+    /// How long packets may wait to be fetched together, [0, 20], but never past a frame's end.
+    /// With 0 each packet is fetched as it comes, with more wake-ups.
     double gather_ms = 20;
     int receive_priority = 80;  ///< SCHED_FIFO priority, [1, 99]; 0: shared scheduling.
     int segment_priority = 70;
     bool lock_memory = true;
     std::optional<double> patience_s;  ///< Time to wait for the sensor; empty: no limit.
   };
-  /// Counts what was received, by what became of it.
+  /// Counts datagrams and frames by what became of them.
   struct Figures {
     std::uint64_t datagrams = 0;        ///< Datagrams received.
     std::uint64_t decoded = 0;          ///< Data packets that are in frames.

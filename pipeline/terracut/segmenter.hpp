@@ -80,9 +80,9 @@ class Segmenter {
     Mount mount{};
     Profile profile = Profile::kTerracut;
     /// Finds the mount from the near ground of the first clouds, x ahead, instead of using `mount`:
-    /// from the first cloud that shows the mount, or, from the tenth cloud on, from ten clouds
-    /// together, which allocates. Until then label() fails with kMountNotFound, for example if no
-    /// ground is seen 3 to 30 m before or behind the vehicle.
+    /// from the first cloud that shows the mount or, from the tenth cloud on, from ten clouds
+    /// together, which allocates. Until it is found, label() fails with kMountNotFound, for example
+    /// if no ground is seen 3 to 30 m before or behind the vehicle.
     bool find_mount = false;
     /// With find_mount: as long as no cloud shows the mount, labels by `mount` instead of failing;
     /// found_mount() is then empty.
@@ -98,10 +98,10 @@ class Segmenter {
   Segmenter& operator=(Segmenter&&) noexcept;
   ~Segmenter();
 
-  /// Returns one label per point, in the cloud's order, valid until the next call; kNone for points
-  /// that are no return (not finite, null, beyond 10 km); kObstacle, for safety, for points of a
-  /// laser that the first cloud did not have. Errors leave the segmenter unchanged: kMountNotFound
-  /// with Config::find_mount, when the next cloud may show the mount; kUnsupported or kMalformed if
+  /// Returns one label per point, in the cloud's order, valid until the next call. Points that are
+  /// no return (not finite, null, beyond 10 km) get kNone; points of a laser that the first cloud
+  /// did not have get kObstacle, for safety. Errors leave the segmenter unchanged: kMountNotFound
+  /// with Config::find_mount (the next cloud may show the mount); kUnsupported or kMalformed if
   /// nothing tells the lasers apart, or not as in the first cloud; kCapacityExceeded for a cloud of
   /// more than twice the first cloud's points and more than two per direction of each laser.
   [[nodiscard]] Expected<std::span<const Label>> label(const Cloud& cloud);

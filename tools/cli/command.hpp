@@ -82,8 +82,7 @@ inline constexpr std::array kCommands{
   return kCommands[static_cast<std::size_t>(command)].name;
 }
 
-/// A set of commands, written as kReplay
-/// kLive.
+/// A set of commands, written as `kReplay | kLive`.
 class CommandSet {
  public:
   constexpr CommandSet() noexcept = default;

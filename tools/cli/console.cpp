@@ -33,7 +33,7 @@ void note_output_error(int error_number) {
   output_error.compare_exchange_strong(none, error_number);
 }
 
-/// A message that cannot be written (disk full, reader gone) must not end anything.
+/// A message that cannot be written (disk full, reader gone) is dropped: it must not end anything.
 void write_message(std::string_view text) {
   if (MessageThread* const thread = background) {
     return thread->put(STDERR_FILENO, std::string(text));
@@ -82,7 +82,7 @@ bool flush_output() {
 ExitCode end_output(ExitCode code) {
   MessageThread* const thread = background;
   if (thread != nullptr && !thread->finish(kPatience)) {
-    std::_Exit(code);  // a thread that hangs on a reader cannot be ended otherwise
+    std::_Exit(code);  // the only way to end with a thread that hangs on a reader
   }
   if (flush_output()) return code;
   // A reader that closes early (`| head`) is no error.

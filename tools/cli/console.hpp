@@ -16,12 +16,12 @@
 /// Output for people: results go to stdout, all other messages to stderr.
 namespace terracut::cli {
 
-/// Prints one line on stderr, filtered by for_terminal(), after clearing any progress line. For any
-/// thread. A line that cannot be written is lost: messages never end the program.
+/// Prints one line on stderr, made safe by for_terminal(), after clearing any progress line. For
+/// any thread. A line that cannot be written is lost: messages never end the program.
 void say(std::string_view line);
 void warn(std::string_view line);
 
-/// Lets a thread of its own (MessageThread) write messages and results from now on, so that no
+/// From now on writes messages and results on a thread of its own (MessageThread), so that no
 /// caller waits for a reader; for runs that do not end by themselves. Call it once.
 void write_in_background();
 /// Returns how many messages were lost because nobody read them.
@@ -35,12 +35,12 @@ void print_out(fmt::format_string<Values...> format, Values&&... values) {
 }
 /// Flushes results that somebody may be watching; returns false if they cannot be written.
 [[nodiscard]] bool flush_output();
-/// Ends a program's output: returns `code`, but kOutputFailed instead of kOk if a result could not
-/// be written. Ends the process at once if waiting texts are not taken within three seconds.
+/// Ends a program's output and returns `code`, or kOutputFailed instead of kOk if a result could
+/// not be written. Ends the process at once if waiting texts are not taken within three seconds.
 [[nodiscard]] ExitCode end_output(ExitCode code);
 
-/// While this object lives, collects what its thread says and warns of, instead of writing it to
-/// stderr: for programs that report to users in their own way. One object per thread.
+/// While this object lives, collects what its thread would print by say() and warn(), for programs
+/// that report to users in their own way. One object per thread.
 class HeardLines {
  public:
   HeardLines();
@@ -57,7 +57,8 @@ class HeardLines {
 /// Returns kOk, or prints the error and returns its exit code.
 [[nodiscard]] ExitCode done_or_refused(const Status& status);
 
-/// The progress of long work: `done` of `total` (0 if unknown) after `lasts_s` seconds.
+/// The progress of long work: `done` of `total` (0 if unknown), after running for `lasts_s`
+/// seconds.
 struct ProgressState {
   std::string_view task, unit;
   double done = 0, total = 0, lasts_s = 0;

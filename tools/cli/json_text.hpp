@@ -43,8 +43,8 @@ namespace terracut::cli {
   }
 }
 
-/// True if each of these members of an object is missing or a whole number, since other numbers
-/// would be cast to arbitrary ones.
+/// True if each of these members of an object is missing or a whole number. Other values would be
+/// cast to arbitrary numbers.
 [[nodiscard]] inline bool are_counts(const nlohmann::ordered_json& object,
                                      std::initializer_list<const char*> names) {
   return object.is_object() && std::ranges::all_of(names, [&](const char* name) {

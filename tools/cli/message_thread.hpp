@@ -15,8 +15,8 @@
 namespace terracut::cli {
 
 /// Writes texts to descriptors on a thread of its own, so that no caller waits for an unread pipe
-/// or a slow disk. A text is lost and counted if kMostWaiting others wait; when texts are taken
-/// again, the number of lost texts is written. For any thread without a deadline.
+/// or a slow disk. A text is lost and counted if kMostWaiting others wait; later, when texts are
+/// taken again, the number of lost ones is written. For any thread without a deadline.
 class MessageThread {
  public:
   static constexpr std::size_t kMostWaiting = 256;
@@ -26,7 +26,7 @@ class MessageThread {
   explicit MessageThread(OnError on_error);
   MessageThread(const MessageThread&) = delete;
   MessageThread& operator=(const MessageThread&) = delete;
-  /// Blocks on a stalled reader unless finish() has returned true.
+  /// Waits for a stalled reader unless finish() has returned true.
   ~MessageThread();
 
   void put(int descriptor, std::string text);

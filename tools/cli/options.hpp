@@ -38,7 +38,7 @@ struct CaptureOptions {
   bool nominal_calibration = false;
   std::optional<int> columns;  ///< If empty, chosen by the spin rate.
   frame::CellOwner cell_owner = frame::CellOwner::kStrongest;
-  std::optional<ruby128::RubyTimestamp> timestamp;  ///< If empty, detected.
+  std::optional<ruby128::RubyTimestamp> timestamp;  ///< If empty, found out.
   double clock_offset_s = 0;
   hdl64e::GeometryModel geometry = hdl64e::GeometryModel::kManual;
   std::optional<int> reorder_packets;  ///< If empty, 2, or 0 in live runs.

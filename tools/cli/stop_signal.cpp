@@ -11,7 +11,7 @@
 namespace terracut::cli {
 namespace {
 
-/// The thread that takes the signal sets this flag; all threads that work read it.
+/// Set by the thread on which the signal arrives, read by all threads that work.
 std::atomic<bool> wanted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not lock");
 void (*also_called)() noexcept = nullptr;

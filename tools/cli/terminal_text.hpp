@@ -5,13 +5,13 @@
 #include <string>
 #include <string_view>
 
-/// Makes foreign texts, above all file names, safe for a terminal or a shell.
+/// Makes texts from elsewhere, above all file names, safe for a terminal or a shell.
 namespace terracut::cli {
 
-/// Replaces control characters except line ends, and invalid UTF-8, by '?': a text cannot move the
-/// cursor, set a title or clear a line.
+/// Replaces control characters except line ends, and invalid UTF-8, by '?', so that a text cannot
+/// move the cursor, set a title or clear a line.
 [[nodiscard]] std::string for_terminal(std::string_view text);
-/// Does what for_terminal() does and replaces line ends as well, so that the text stays one line.
+/// Replaces line ends as well, so that the text stays on one line; otherwise like for_terminal().
 [[nodiscard]] std::string line_for_terminal(std::string_view text);
 
 /// Returns one word of a POSIX shell, quoted. A text with control characters or invalid UTF-8 is

@@ -44,7 +44,7 @@ class Assembly {
     return fail(ErrorCode::kInvalidArgument, std::move(message));
   }
 
-  /// Takes the file's options for this command. A typed --setup is not changed by the file's mount.
+  /// Takes the file's options for this command. The file's mount does not change a typed --setup.
   Status take(const Options& of_file) {
     for (const Setting& setting : settings()) {
       const bool is_its = command_ == Command::kConfig || setting.commands.contains(command_);
@@ -80,7 +80,7 @@ class Assembly {
       }
     }
     // The configuration file may hold parameters of methods that do not run; a typed parameter must
-    // have an effect.
+    // belong to a method that runs.
     const std::span<const std::string> settings = options_.method.settings;
     if (const Status used = check_used(settings.subspan(of_file), kinds()); !used) {
       return wrong("--set: " + used.error().message);
@@ -88,7 +88,8 @@ class Assembly {
     return {};
   }
 
-  /// Returns the kinds of method that these options run; an unknown name is refused elsewhere.
+  /// Returns the kinds of method that these options run; unknown names, which are refused
+  /// elsewhere, are left out.
   [[nodiscard]] std::vector<baselines::MethodKind> kinds() const {
     std::vector<baselines::MethodKind> kinds;
     for (const std::string& name : options_.eval.methods) {

@@ -23,14 +23,14 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = RunFiles::Kind;
 
-/// Adds the files that a folder of scans contributes. Of a sequence folder only some parts are
-/// read, so results may be written into it; a plain folder is read as a whole.
+/// Adds the files of a folder of scans. Only some parts of a sequence folder are read, so results
+/// may be written into it; a plain folder is read as a whole.
 void add_scans(RunFiles& files, const fs::path& scans) {
   constexpr const char* kPoints = "velodyne";
   std::error_code none;
   const bool is_sequence = fs::is_directory(scans / kPoints, none);
   files.read("SCANS_DIR", is_sequence ? scans / kPoints : scans, "the folder of scans");
-  // A sequence's other parts are not read, but they must not be overwritten either.
+  // A sequence's other parts are not read, but must not be overwritten either.
   const fs::path place = files::FilePlace(scans).path();
   if (!is_sequence && place.filename() != kPoints) return;
   const fs::path sequence = is_sequence ? scans : place.parent_path();

@@ -9,8 +9,9 @@
 
 namespace terracut::cli {
 
-/// Returns the files that a command reads and writes, by absolute path: those of the options marked
-/// so in the table of settings, related files beside or below them, and the inputs of the outputs.
+/// Returns the files that a command reads and writes, by absolute path: those of options marked so
+/// in the table of settings, related files beside or below them, and the inputs that its outputs
+/// are made of.
 [[nodiscard]] RunFiles files_of(Command command, const Options& options);
 
 /// Returns the files of a command, including the configuration file.

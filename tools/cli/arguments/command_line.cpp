@@ -40,7 +40,7 @@ bool is_a(const Setting& setting) {
 using List = std::vector<std::string>*;
 using Switch = bool*;
 
-/// Returns the placeholder for the value in help: "m", "auto|hdl64e|ruby128", "PATH".
+/// Returns the placeholder that help shows for the value: "m", "auto|hdl64e|ruby128", "PATH".
 std::string value_name(const Setting& setting) {
   Options scratch;
   const SettingField field = setting.field(scratch);
@@ -107,7 +107,7 @@ void add_option(CLI::App& sub, const Setting& setting, Command command, const Op
   if (!setting.bare.empty()) option->expected(0, 1);
 }
 
-/// Returns the first required argument or option that was not given.
+/// Returns the first required argument or option that was not given; empty if none is missing.
 std::string what_is_missing(const CommandLine& line) {
   for (const Setting& setting : settings()) {
     const bool is_required = line.command && setting.required_by.contains(*line.command);
@@ -123,7 +123,8 @@ tl::unexpected<Error> wrong(const CommandLine& line, std::string_view what) {
               fmt::format("{}: {}", line.command ? name_of(*line.command) : "terracut", what));
 }
 
-/// Adds --config for help and checks only: configuration_named_in() has read the file before.
+/// Adds --config only for help and checks: the file that it names was read before, by
+/// configuration_named_in().
 void add_config_option(CLI::App& app) {
   app.add_option_function<std::string>(
          "--config", [](const std::string&) {},

@@ -11,7 +11,8 @@
 
 namespace terracut::cli {
 
-/// A setting with the texts typed for it; an option typed without a value has its `bare` text.
+/// A setting with the texts typed for it. An option typed without a value has the setting's `bare`
+/// text.
 struct TypedOption {
   const Setting* setting = nullptr;
   std::vector<std::string> texts;
@@ -24,8 +25,8 @@ struct CommandLine {
   std::string text;
 };
 
-/// Parses words that passed check_names(). Help shows the values of `in_force` as defaults. Fails
-/// with kInvalidArgument if an option is given twice or there are too many arguments.
+/// Parses words that have passed check_names(). Help shows the values of `in_force` as defaults.
+/// Fails with kInvalidArgument if an option is given twice or there are too many arguments.
 [[nodiscard]] Expected<CommandLine> read_command_line(const std::vector<std::string>& words,
                                                       const Options& in_force);
 

@@ -21,7 +21,7 @@ tl::unexpected<Error> wrong(std::string message) {
   return fail(ErrorCode::kInvalidArgument, std::move(message));
 }
 
-/// False for a negative number.
+/// True for an option; false for anything else, such as a negative number.
 bool is_option(std::string_view word) {
   return word.size() > 1 && word[0] == '-' && (word[1] < '0' || word[1] > '9') && word[1] != '.';
 }
@@ -46,7 +46,7 @@ Expected<Command> command_named(std::string_view name) {
                            did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-/// Returns why the command does not have the option, if there is a reason to tell.
+/// Returns why the command does not have the option, if the table of settings states a reason.
 std::string_view denial_of(Command command, std::string_view option) {
   for (const Setting& setting : settings()) {
     if (setting.name() == option && setting.denied_to.contains(command)) return setting.denial;

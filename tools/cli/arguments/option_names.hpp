@@ -11,7 +11,7 @@
 namespace terracut::cli {
 
 /// Checks that a command is named, that it has every option given, and that these options have the
-/// values they need. Fails with kInvalidArgument and the likely correction. Words after --help, and
+/// values they need. Fails with kInvalidArgument, suggesting a correction. Words after --help, and
 /// after --version before a command, are not checked.
 [[nodiscard]] Status check_names(const std::vector<std::string>& words);
 

@@ -74,10 +74,10 @@ Expected<Packets> load(CapturePart& part) {
 }
 
 struct BenchResult {
-  TimeSummary times;                             ///< Over whole frames.
-  measure::LogLinearHistogram decode_column_ns;  ///< Mean of each pass.
+  TimeSummary times;                             ///< Over all frames.
+  measure::LogLinearHistogram decode_column_ns;  ///< The mean of each pass.
   std::uint64_t returns = 0, unlabelled = 0;
-  std::vector<status::FrameRecord> each;  ///< In order, pass after pass.
+  std::vector<status::FrameRecord> each;  ///< In the order of passes and frames.
 };
 
 /// Runs one pass over the packets: decoding and labelling, timed frame by frame.
@@ -101,7 +101,7 @@ void run_frames(run::PacketPipeline& pipeline, const Packets& packets, BenchResu
   take_frames();
 }
 
-/// Runs one pass of decoding only; returns nanoseconds a column of 64 lasers.
+/// Runs one pass of decoding only. Returns nanoseconds per column of 64 lasers.
 double run_decoding(decode::Decoder& decoder, const Packets& packets) {
   const std::uint64_t columns_before = decoder.columns_decoded();
   const std::int64_t start_ns = measure::thread_cpu_ns();
@@ -118,7 +118,7 @@ double run_decoding(decode::Decoder& decoder, const Packets& packets) {
   return columns == 0 ? 0 : static_cast<double>(spent_ns) / static_cast<double>(columns);
 }
 
-/// Returns the data of the summary: [{"decode", "segment", "after_frame"}, ..].
+/// Returns the data from which the summary is made: [{"decode", "segment", "after_frame"}, ..].
 nlohmann::ordered_json frames_json(const std::vector<status::FrameRecord>& frames) {
   auto list = nlohmann::ordered_json::array();
   for (const status::FrameRecord& frame : frames) {
@@ -129,7 +129,7 @@ nlohmann::ordered_json frames_json(const std::vector<status::FrameRecord>& frame
   return list;
 }
 
-/// Returns figures that refer to `result`.
+/// Returns the figures, which refer to `result`.
 std::vector<status::Figure> figures_of(const Options& options, const CapturePart& part,
                                        const BenchResult& result, int core) {
   const double returns_per_frame =

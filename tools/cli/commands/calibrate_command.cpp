@@ -24,7 +24,7 @@ namespace {
 /// The most frames used to find the mount, and to measure the rings.
 constexpr std::size_t kMountFrames = 100, kRingFrames = 100'000;
 
-/// Measures the mean distance of each ring's ground returns, labelled by the method itself.
+/// Measures the mean distance of each ring's ground returns, using the method's own labels.
 Expected<mount::RingProfileEstimate> measure_rings(RecordedFrames& frames, const Options& options,
                                                    const mount::RingProfile& geometry) {
   memory::FixedMemory memory;
@@ -53,12 +53,12 @@ Expected<mount::RingProfileEstimate> measure_rings(RecordedFrames& frames, const
   return rings;
 }
 
-/// Returns the mount that the frames show, but with the figures that the user stated. With
+/// Returns the mount that the frames show, except for figures that the user stated. With
 /// --keep-mount, returns the stated mount.
 Expected<mount::Mount> measured_mount(RecordedFrames& frames, const Options& options) {
   MountOptions stated = options.mount;
   if (!options.keep_mount) {
-    stated.setup.clear();  // its file is to be measured again
+    stated.setup.clear();  // measured anew, so not read from the setup's file
     mount::MountFinder finder;
     if (const Status shown = frames.look_for_mount(kMountFrames, finder); !shown) {
       return tl::unexpected(shown.error());

@@ -7,8 +7,8 @@
 
 namespace terracut::cli {
 
-/// Prints the configuration in force, or a file to start from. The values were checked when they
-/// were read; the files that the configuration names are checked here.
+/// Prints the configuration in force, or a file to start from. Values were checked when they were
+/// read; the files that they name are checked here.
 ExitCode run_config(const Options& options) {
   if (options.print_table) {
     print_text(configuration_table());

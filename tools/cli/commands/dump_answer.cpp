@@ -20,7 +20,7 @@ std::filesystem::path answer_path(const std::filesystem::path& folder, const std
   return folder / (name + ".terracut-dump");
 }
 
-/// Returns an absolute path: the asking process may be in another folder.
+/// Returns an absolute path, because the asking process may be in another folder.
 std::string place_for_others(const std::filesystem::path& path) {
   std::error_code unknown;
   const auto absolute = std::filesystem::absolute(path, unknown);
@@ -63,7 +63,7 @@ Status DumpAnswers::publish(
     json["refusal"] = to_string(outcome.error().refusal);
     json["message"] = outcome.error().message;
   }
-  // A path may hold any bytes, but JSON only UTF-8; other bytes are replaced.
+  // JSON allows only UTF-8, but a path may have any bytes: other bytes are replaced.
   constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
   return files::write_whole_file(path_, json.dump(1, ' ', false, kReplace) + "\n");
 }
@@ -83,7 +83,7 @@ std::optional<DumpAnswer> read_dump_answer(const std::filesystem::path& folder,
                       .refusal = json.value("refusal", ""),
                       .message = json.value("message", "")};
   } catch (const nlohmann::json::exception&) {
-    return {};  // not our file
+    return {};  // not written by this program
   }
 }
 

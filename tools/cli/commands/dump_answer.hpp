@@ -13,7 +13,7 @@
 
 namespace terracut::cli {
 
-/// What became of a dump that a running process was asked for.
+/// The outcome of a dump requested from a running process.
 struct DumpAnswer {
   int pid = 0;
   std::uint64_t serial = 0;  ///< Sequence number of the process's answer, from 1.

@@ -15,9 +15,9 @@
 namespace terracut::cli {
 namespace {
 
-/// Heights farther off than this cause a warning, because such errors hide kerbs. Over the 18 scans
-/// of the tuning set, heights are off by at most 2 cm if the motion is put back. If it is left in,
-/// they are off by 6 cm on slow drives and by 10 cm on fast ones.
+/// A larger error of heights causes a warning, because it hides kerbs. Over the 18 scans of the
+/// tuning set, heights are off by at most 2 cm if the sensor's motion is restored; if not, by 6 cm
+/// on slow drives and 10 cm on fast ones.
 constexpr double kTooFarOff_m = 0.08;
 
 std::string motion_line(const std::string& why_as_recorded) {
@@ -26,7 +26,7 @@ std::string motion_line(const std::string& why_as_recorded) {
                              : "as recorded: " + why_as_recorded);
 }
 
-/// Tells how to mend heights that are too far off.
+/// Returns advice on how to correct heights that are too far off.
 std::string cure_of_heights(const Options& options, const encode::ScanDriveReport& report) {
   if (options.encode.keep_compensation) {
     return "the scans are compensated for the sensor's motion; leave --keep-compensation away";

@@ -40,7 +40,7 @@ namespace {
 using eval::EvaluationConfig;
 using eval::FrameRange;
 
-/// Parses "7", "0-99", "0-99:10"; empty means all.
+/// Parses "7", "0-99" or "0-99:10" (every 10th frame); an empty text means all frames.
 Expected<FrameRange> frame_range_of(const std::string& text) {
   FrameRange range;
   if (text.empty()) return range;
@@ -83,7 +83,7 @@ bool is_any_given(const Options& options, std::initializer_list<const char*> nam
   });
 }
 
-/// Refuses options that hazards do not use, and options that only hazards use.
+/// Refuses options that `eval hazards` does not use, and options that only it uses.
 Status check_fit_of_hazards(const Options& options, const EvalSubject& subject) {
   const std::initializer_list<const char*> of_hazards{"MORE", "--kinds", "--trials", "--write"};
   const std::initializer_list<const char*> of_others{"--report", "--changes", "--predictions"};
@@ -96,7 +96,7 @@ Status check_fit_of_hazards(const Options& options, const EvalSubject& subject) 
   return {};
 }
 
-/// Checks that no option was given which this kind of dataset does not use.
+/// Refuses options that this kind of dataset does not use.
 Status check_fit(const Options& options, const EvalSubject& subject) {
   if (const Status fits = check_fit_of_hazards(options, subject); !fits) return fits;
   const auto refuse = [&](std::string_view what) {
@@ -132,10 +132,11 @@ Status check_fit(const Options& options, const EvalSubject& subject) {
   return {};
 }
 
-/// Returns the same name for a folder however it is named; for a missing one the given name.
+/// Returns the same name for a folder by whatever path it is given; for a missing folder the given
+/// name.
 std::filesystem::path canonical_path(const std::filesystem::path& path) {
   std::error_code error;
-  // Made absolute first: a missing path would keep its relative name.
+  // Makes the path absolute first, because weakly_canonical() would leave a missing path relative.
   const auto absolute = std::filesystem::absolute(path, error);
   auto canonical = std::filesystem::weakly_canonical(absolute, error);
   return error ? path : std::move(canonical);
@@ -147,7 +148,8 @@ std::vector<std::string> methods_of(const Options& options) {
   return {std::string(word_of(kProfileWords, options.method.profile))};
 }
 
-/// Makes the configuration for any dataset; for simulated drives `root` is their scenes.
+/// Makes the configuration for any dataset; for simulated drives `root` has the names of the
+/// scenes.
 Expected<EvaluationConfig> config_of(const Options& options, const datasets::ClassTable& classes) {
   EvaluationConfig config;
   if (classes.layout()) config.layout = *classes.layout();
@@ -221,8 +223,8 @@ Expected<datasets::ClassTable> classes_of(const Options& all) {
 }
 
 /// Returns a number that two builds share only if they are identical byte for byte, so that one
-/// does not continue the other's journal. "unknown" if the system does not show a program its own
-/// file.
+/// does not continue the other's journal; "unknown" if the system does not let a program read its
+/// own file.
 std::string identity_of_this_build() {
   std::ifstream file("/proc/self/exe", std::ios::binary);
   const std::string program(std::istreambuf_iterator<char>(file), {});
@@ -230,7 +232,8 @@ std::string identity_of_this_build() {
   return fmt::format("{:016x}", std::hash<std::string>()(program));
 }
 
-/// Returns all that a frame's counts depend on: a journal with other settings is not continued.
+/// Returns everything that a frame's counts depend on, because a journal with other settings must
+/// not be continued.
 std::string settings_line(const Options& options, const EvaluationConfig& config) {
   std::string line =
       fmt::format("{} build={} dataset={} layout={} root={} through_packets={} mount={},{},{}",
@@ -305,7 +308,8 @@ Expected<eval::EvaluationOutcome> evaluate_scans(const EvaluationConfig& config,
       stop_wanted);
 }
 
-/// Evaluates one root after the other. Of frames with the same sequence and name the first counts.
+/// Evaluates one root after the other. If several frames have the same sequence and name, the first
+/// counts.
 Expected<eval::EvaluationOutcome> evaluate_datasets(EvaluationConfig config,
                                                     const EvalSubject& subject,
                                                     std::optional<eval::Journal>& journal) {
@@ -424,7 +428,8 @@ ExitCode run_eval(const Options& given) {
     config->on_labelled = [&](const eval::LabelledByAll& frame) { trials->look(frame); };
   }
   std::optional<eval::Journal> journal;
-  // Frames in a journal are not labelled again, and the journal does not have their labels.
+  // No journal is kept where labels are needed: frames in a journal are not labelled again, and it
+  // does not hold their labels.
   if (!options.output.json.empty() && !config->on_labelled) {
     auto opened = eval::Journal::open(journal_path(options), settings_line(options, *config));
     if (!opened) return refuse(opened.error());

@@ -39,7 +39,7 @@ std::string endpoint(std::uint32_t address, std::uint16_t port) {
                      address & 0xFFU, port);
 }
 
-/// Returns where a stream goes, its VLAN included.
+/// Returns the destination of a stream, including its VLAN.
 std::string destination(const UdpStream& stream) {
   const std::string text = endpoint(stream.destination_address, stream.destination_port);
   return stream.vlan == 0 ? text : text + " VLAN " + streams::vlan_text(stream.vlan);
@@ -276,7 +276,7 @@ Json json_of(const CaptureSurvey& survey) {
   return json;
 }
 
-/// Lists how to choose each of several sensors.
+/// Lists how to choose each of the sensors.
 std::string text_of(const std::vector<streams::StreamName>& sensors) {
   if (sensors.empty()) return {};
   std::string text = "\nseveral sensors; choose one:\n";
@@ -295,7 +295,7 @@ std::vector<streams::StreamName> several_sensors_of(const CaptureOptions& option
                             : names_of(sensors, streams::HeardIn::kCapture);
 }
 
-/// Notes that a calibration lies beside a capture whose packets hold none.
+/// Returns a note if a calibration lies beside the capture and its packets hold none.
 std::string note_of_calibration(const CaptureSurvey& survey, const CaptureOptions& options) {
   const auto lacks_one = [](const UdpStream& stream) {
     return stream.hdl64e && !stream.hdl64e->table;

@@ -26,8 +26,8 @@ constexpr std::array kRun{run_replay,  run_view,       run_segment,   run_manife
                           run_config,  run_doctor};
 static_assert(kRun.size() == kCommands.size());
 
-/// Opens closed standard descriptors: otherwise the next opened file would get one of their
-/// numbers, and messages would be written into it.
+/// Opens those of the standard descriptors that are closed: otherwise the next opened file would
+/// get such a number, and messages would be written into it.
 void hold_standard_descriptors() {
   int opened = ::open("/dev/null", O_RDWR);
   while (opened >= 0 && opened <= STDERR_FILENO) opened = ::dup(opened);
@@ -45,7 +45,7 @@ ExitCode run_command(const std::vector<std::string>& words) {
     print_text(arguments->text);
     return kOk;
   }
-  std::vector<Error> unwritable;  // outputs that a live run goes on without
+  std::vector<Error> unwritable;  // outputs without which a live run goes on
   const bool goes_on = arguments->command == Command::kLive;
   const RunFiles files = files_of(*arguments);
   const auto claims = claim_outputs(files, goes_on ? &unwritable : nullptr);

@@ -15,7 +15,7 @@
 namespace terracut::cli {
 namespace {
 
-/// Prints one line for each kind of file left out.
+/// Prints one line for each kind of path left out.
 void warn_of(const std::vector<LeftOut>& left_out) {
   std::map<std::string, std::pair<std::size_t, std::string>> kinds;  // count, first path
   for (const auto& [path, why] : left_out) {

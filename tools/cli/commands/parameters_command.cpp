@@ -18,7 +18,7 @@ ExitCode run_parameters(const Options&) {
     print_out("| `{}` | {} | {} | {} | {} | {} |\n", parameter.key, parameter.unit,
               range_text(parameter), terracut, paper, parameter.help);
   };
-  // A profile shows what it reads.
+  // Shows only the parameters that a profile reads.
   const auto value_in = [](const ground::Parameter& parameter,
                            const ground::SegmenterConfig& profile) {
     return ground::is_read(parameter, profile) ? shown_value(parameter, parameter.get(profile))

@@ -19,7 +19,7 @@
 namespace terracut::cli {
 namespace {
 
-/// Returns this process's resident bytes; 0 if the system does not tell.
+/// Returns the resident memory of this process in bytes; 0 if the system does not tell.
 std::size_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
   std::size_t pages = 0, resident = 0;
@@ -27,8 +27,8 @@ std::size_t resident_bytes() {
   return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Returns the memory with which a process of `relabel` writes a drive's labels if all frames are
-/// as large as possible.
+/// Returns the memory that a process of `relabel` needs to write a drive's labels, if all frames
+/// are as large as possible.
 std::size_t output_bytes(FleetFormat format, std::size_t returns) {
   switch (format) {
     case FleetFormat::kLabels:
@@ -81,7 +81,7 @@ ExitCode run_plan(const Options& options) {
             to_mib(memory.total_bytes()));
   json["total_bytes"] = memory.total_bytes();
 
-  // This much holds the report's sums, a capture's reading buffer, and code that only a run needs.
+  // Enough for the report's sums, a capture's reading buffer, and code that only a run loads.
   constexpr std::size_t kRest_bytes = std::size_t{4} << 20;
   const std::size_t beside_bytes =
       program_bytes + kRest_bytes + output_bytes(options.fleet.format, returns);

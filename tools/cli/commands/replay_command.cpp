@@ -25,8 +25,8 @@ namespace {
 using frame::FrameInfo;
 
 /// Sleeps so that datagrams come at `rate` times the capture's speed; with rate 0 it never sleeps.
-/// Soon ends a sleep when the run is to stop. Skips pauses longer than kLongestPause_ns: they mean
-/// that the capture's clock was set.
+/// A sleep ends soon if the run is to stop. Pauses longer than kLongestPause_ns are skipped: they
+/// mean that the capture's clock was set.
 class Pace {
  public:
   explicit Pace(double rate) : rate_(rate) {}
@@ -114,7 +114,7 @@ class Replay {
       const std::uint64_t offered_before = capture_.offered();
       while (const run::Frame* frame = sinks_ ? capture_.next() : nullptr) take(*frame);
       const bool is_over = report.interrupted || !report.input_warning.empty();
-      // Ctrl-C does not interrupt an endless replay: it is its normal end.
+      // An endless replay normally ends by Ctrl-C, so it does not count as interrupted.
       if (options_.replay.loops == 0) report.interrupted = false;
       // If this pass had no packets, later passes have none either.
       if (!sinks_ || is_over || capture_.offered() == offered_before) break;
@@ -123,7 +123,7 @@ class Replay {
   }
 
  private:
-  /// Hands on a frame. The first error of a sink is kept and ends the replay.
+  /// Hands on a frame. The first error of an output is kept and ends the replay.
   void take(const run::Frame& frame) {
     const FrameInfo& info = frame.record.info;
     const frame::RangeImage& image = *frame.image;

@@ -23,7 +23,8 @@
 namespace terracut::cli {
 namespace {
 
-/// The files of a folder that could not be used: reported at once and again at the end.
+/// Collects the files of a folder that could not be used: reports each at once, and all again at
+/// the end.
 class UnusedFiles {
  public:
   void add(const Error& fault) {
@@ -41,8 +42,8 @@ class UnusedFiles {
   std::string first_;
 };
 
-/// Warns if the mount found is higher than 4.5 m. Few mounts are, but the height of a car's, 1.4 m,
-/// is 4.6 in feet.
+/// Warns if the mount found is higher than 4.5 m, where few sensors are: clouds in feet show 4.6
+/// for a car's 1.4 m.
 std::string doubt_of_height(const MountOptions& stated, const MountChoice& mount) {
   constexpr double kRarelyHigher_m = 4.5;
   if (stated.height_m || !mount.found || mount.found->mount.height_m < kRarelyHigher_m) return {};
@@ -122,7 +123,7 @@ ExitCode run_segment(const Options& options) {
                                     pipeline.truth_of_returns(truth));
     }
     if (written) {
-      // Stamps must increase for players of recordings, and files have none.
+      // Makes up stamps, which files do not have: players of recordings expect increasing stamps.
       constexpr std::int64_t kFramePeriod_ns = 100'000'000;
       record.info.first_packet_ns = record.info.number * kFramePeriod_ns;
       record.info.last_packet_ns = record.info.first_packet_ns;

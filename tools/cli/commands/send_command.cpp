@@ -34,10 +34,10 @@ using send::PacketPacer;
 using send::UdpSender;
 using Json = nlohmann::ordered_json;
 
-/// The pacer that Ctrl-C interrupts while it waits.
+/// The pacer whose waits Ctrl-C ends.
 PacketPacer* interruptible = nullptr;
 
-/// Everything that the command line names, already opened.
+/// The opened files and sockets that the command line names.
 struct Parts {
   PcapSource source;
   send::FaultScript faults;
@@ -75,7 +75,7 @@ std::string amount_of(const FaultOutcome& outcome) {
                             first.first, several ? " on, not all in a row" : "");
 }
 
-/// Plays a capture out of a socket, on one thread.
+/// Sends a capture from a socket, on one thread.
 class Send {
  public:
   Send(const Options& options, Parts parts, memory::FixedMemory& memory)
@@ -104,7 +104,8 @@ class Send {
         stamps_.next_pass();
       }
       const bool go_on = play_once();
-      if (!go_on || stamps_.packets() == 0) break;  // a pass without packets will stay without
+      // a pass without packets: later ones have none either
+      if (!go_on || stamps_.packets() == 0) break;
     }
     injector_.finish();
     pacer_.flush();
@@ -113,8 +114,8 @@ class Send {
   }
 
  private:
-  /// Plays the capture once. Returns false if sending must end: on Ctrl-C, or if the capture breaks
-  /// off.
+  /// Plays the capture once. Returns false if sending must end: after Ctrl-C, or if the capture
+  /// breaks off.
   bool play_once() {
     while (!pacer_.stopped()) {
       const auto next = parts_.source.next();

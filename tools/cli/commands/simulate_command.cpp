@@ -37,7 +37,7 @@ Ruby128EncoderTraits::Config sensor_config(const Options& options, Ruby128Encode
   config.returns = options.simulate.returns;
   config.timestamp = options.simulate.timestamp;
   config.unit.rpm = static_cast<std::uint16_t>(std::lround(60 * options.simulate.spin_hz));
-  config.unit.serial = {'S', 'I', 'M', 'U', 'L', 'A'};  // so that nobody takes it for a real unit's
+  config.unit.serial = {'S', 'I', 'M', 'U', 'L', 'A'};  // obviously not a real unit's serial number
   return config;
 }
 template <class Model>
@@ -112,9 +112,9 @@ ExitCode simulate_and_say(const Options& options, const std::filesystem::path& o
   return kOk;
 }
 
-/// Returns how long a beginning of the drive is computed first. It is sent repeatedly while the
-/// whole drive is computed, so that the sensor is heard within seconds; tracing rays takes longer
-/// than real time. The beginning contains the unit's whole table (1.2 s for an HDL-64E).
+/// Returns the length of the first part of the drive, which is computed first and sent repeatedly
+/// while the rest is computed, so that the sensor is heard within seconds: ray casting takes longer
+/// than real time. This part contains the unit's whole table (1.2 s for an HDL-64E).
 double beginning_s(const Options& options) {
   return options.capture.sensor.value_or(sensor::SensorModel::kHdl64e) ==
                  sensor::SensorModel::kHdl64e
@@ -136,7 +136,7 @@ ExitCode simulate_sending_the_beginning(const Options& options, const std::files
   std::atomic<bool> is_computed{false};
   ExitCode simulated = kOk;
   std::jthread computing([&] {
-    (void)::setpriority(PRIO_PROCESS, 0, 10);  // of this thread: packets must go out on time
+    (void)::setpriority(PRIO_PROCESS, 0, 10);  // this thread only: packets must go out on time
     simulated = simulate_and_say(options, drive);
     is_computed = true;
   });

@@ -35,8 +35,8 @@ status::LineStyle style_of_stdout() {
   return style;
 }
 
-/// Overwrites the screen instead of clearing it, which would flicker. Clears what is left of each
-/// line, and the screen below the text.
+/// Overwrites the screen instead of clearing it, which would flicker: clears the rest of each line,
+/// and the screen below the text.
 std::string redrawn(const std::string& text) {
   std::string result = "\x1b[H";
   for (const char c : text) {
@@ -46,7 +46,7 @@ std::string redrawn(const std::string& text) {
   return result + "\x1b[J";
 }
 
-/// Refuses a page whose figures are impossible.
+/// Ends the command because the page's figures are impossible.
 ExitCode refuse_figures(const Reader& page, const std::string& name) {
   return refuse(kInputRefused,
                 fmt::format("the status page '{}' (process {}) holds figures that cannot be: it is "
@@ -54,8 +54,8 @@ ExitCode refuse_figures(const Reader& page, const std::string& name) {
                             name, page.publisher_pid()));
 }
 
-/// Reads the figures. Waits a while for a publisher that is held up while it writes, as happens on
-/// a busy machine.
+/// Reads the figures. Waits a while if the publisher is held up in the middle of writing, as
+/// happens on a busy machine.
 std::optional<status::MonitorSnapshot> read_patiently(const Reader& page) {
   constexpr int kLooks = 100;
   constexpr std::chrono::milliseconds kPause{10};
@@ -93,7 +93,8 @@ ExitCode watch(const Reader& page, const std::string& name, double interval_s) {
   const bool terminal = ::isatty(STDOUT_FILENO) == 1;
   if (terminal) print_out("\x1b[2J");
   for (;;) {
-    const bool lives = page.publisher_lives();  // asked first, so that the last figures are shown
+    // asked before reading, so that a process's last figures are shown
+    const bool lives = page.publisher_lives();
     if (const auto figures = page.read()) {
       if (!status::are_possible(*figures)) return refuse_figures(page, name);
       const std::string text = dashboard(*figures, measure::realtime_ns(), style_of_stdout());

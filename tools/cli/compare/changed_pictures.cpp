@@ -40,7 +40,7 @@ constexpr Colour kToObstacleColour{255, 86, 70}, kToGroundColour{70, 205, 255},
     kOtherChangeColour{255, 221, 0}, kGroundBefore{66, 60, 48}, kObstacleBefore{84, 92, 112};
 
 using Visit = std::function<Status(const FrameChange&, const frame::RangeImage&)>;
-/// The frames of one drive, by name.
+/// The wanted frames of one drive, by name.
 using Wanted = std::map<std::string, const FrameChange*>;
 
 /// Visits the frames of a capture until all wanted ones have come.
@@ -82,7 +82,7 @@ Status visit_capture(const Options& options, Wanted wanted, const Visit& visit) 
 }
 
 /// Visits clouds as images of one row with one cell a point, so that the n-th return is the n-th
-/// point. Such images are only good for pictures from above.
+/// point. Such images can only be drawn from above.
 Status visit_clouds(const Options& options, const Wanted& wanted, const Visit& visit) {
   const auto folder = scan::list_scan_folder(options.scans, cloud::kCloudFiles);
   if (!folder) return tl::unexpected(folder.error());

@@ -11,11 +11,11 @@
 
 namespace terracut::cli {
 
-/// Draws, from above, frames whose labels differ between two labellings, to
+/// Draws the frames whose labels differ between two labellings, from above, to
 /// "DRIVE.NNNNNN.changes.png" in output.png (slashes of the drive's name become underscores).
 /// Returns that became obstacle, became ground or changed otherwise have colours; unchanged returns
-/// are dim. Reads points from the recordings again, as `after` did; from a capture it reads up to
-/// the frame. Fails with kInvalidArgument if `after` has no job, so that its recordings are
+/// are dim. Reads points from the recordings again, as the job of `after` did, from a capture only
+/// up to the frame. Fails with kInvalidArgument if `after` has no job, so that its recordings are
 /// unknown, or if reading or writing fails.
 [[nodiscard]] Status draw_changes(const Labelling& before, const Labelling& after,
                                   std::span<const FrameChange> frames, const OutputOptions& output);

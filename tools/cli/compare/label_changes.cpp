@@ -46,7 +46,7 @@ std::set<std::string> label_files_in(const fs::path& folder) {
   return names;
 }
 
-/// Returns the sums in SHA256SUMS of files that were not written since.
+/// Returns those sums in SHA256SUMS whose files have not been written since.
 std::map<std::string, std::string> sums_still_true(const fs::path& folder) {
   std::map<std::string, std::string> sums = listed_sums(folder);
   std::error_code error;
@@ -127,7 +127,7 @@ class DriveComparison {
     return {};
   }
 
-  /// Returns the size of a file that has the same sum in both folders.
+  /// Returns the size of a file whose sum is the same in both folders; nothing if the sums differ.
   [[nodiscard]] std::optional<std::uint64_t> bytes_by_sum(const std::string& name) const {
     const auto sum = sums_before_.find(name), other = sums_after_.find(name);
     if (sum == sums_before_.end() || other == sums_after_.end() || sum->second != other->second) {

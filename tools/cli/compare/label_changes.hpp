@@ -52,11 +52,11 @@ struct LabelChanges {
   [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
-/// Compares labels: ground is 40 and 49, obstacle 99; the upper 16 bits do not count. With
-/// `trust_sums`, files with equal sums in both SHA256SUMS are not read if their sizes are equal and
-/// they were not written since; otherwise all are read, as a sum may be out of date. `most` is the
-/// number of frames to name. Fails with the errors of reading label files, kNotFound if no drive is
-/// in both, kNothingCameOut when stop_wanted().
+/// Compares labels: 40 and 49 count as ground, 99 as obstacle; the upper 16 bits are ignored. With
+/// `trust_sums`, a file is not read if its sums in both SHA256SUMS and its sizes are equal and
+/// neither copy was written since; otherwise all files are read, as a sum may be out of date.
+/// `most` is the number of frames to name. Fails with the errors of reading label files, kNotFound
+/// if no drive is in both, kNothingCameOut when stop_wanted().
 [[nodiscard]] Expected<LabelChanges> compare_labels(const Labelling& before, const Labelling& after,
                                                     std::size_t most, bool trust_sums);
 

@@ -35,8 +35,8 @@ Expected<Labelling> plain_labelling(const fs::path& folder) {
     const fs::path place = path.parent_path();
     labelling.drives[place.lexically_relative(folder).string()] = place;
   }
-  // This must be an error: files in a folder that cannot be listed would be left out of the
-  // comparison without a word.
+  // Without this error, a folder that cannot be listed would silently be left out of the
+  // comparison.
   if (error && fs::exists(folder, none)) {
     return fail(ErrorCode::kUnreadable,
                 folder.string() + ": a folder in it cannot be listed: " + error.message());

@@ -10,7 +10,7 @@
 
 namespace terracut::cli {
 
-/// The label files of several drives, made in one way.
+/// The label files of several drives, made by one job or program.
 struct Labelling {
   std::map<std::string, std::filesystem::path> drives;  ///< Where the label files of each are.
   std::filesystem::path state;  ///< State of their job (RelabelJob::state()), or empty.

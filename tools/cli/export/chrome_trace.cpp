@@ -82,7 +82,7 @@ class Trace {
     if (frame.segment_begin_ns <= 0) return;
     std::int64_t begin_ns = frame.segment_begin_ns;
     for (std::size_t i = frame.stages_ahead; i < figures_.stages(); ++i) {
-      if (frame.stages.stage_ns[i] <= 0) continue;  // not run on this level
+      if (frame.stages.stage_ns[i] <= 0) continue;  // the stage did not run at this frame's level
       const std::int64_t end_ns = std::min(begin_ns + frame.stages.stage_ns[i], frame.labels_ns);
       slice(kSegment, std::string(figures_.stage_names[i].view()), begin_ns, end_ns,
             {{"cpu_ms", milliseconds(frame.stages.stage_ns[i])}});
@@ -90,7 +90,8 @@ class Trace {
     }
   }
 
-  /// Marks the deadline of a missed frame, or the moment when a frame was given up before it.
+  /// Marks the missed deadline of a labelled frame, or the time at which a skipped frame was given
+  /// up.
   void add_miss(const status::FrameRecord& frame) {
     if (frame.labels_ns <= 0) return;
     const std::int64_t when_ns =

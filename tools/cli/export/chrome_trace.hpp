@@ -10,16 +10,17 @@
 namespace terracut::cli {
 
 /// Returns the path of frames through the threads in Chrome's trace event format, which Perfetto's
-/// UI and chrome://tracing open: a track each for receive, segment and publish, slices for frames
+/// UI and chrome://tracing open: one track each for receive, segment and publish, slices for frames
 /// and their stages, an instant event for each missed deadline. Times are microseconds since the
 /// earliest stamp, whose time of day is otherData.origin_ns.
 ///
 /// Stages are measured in processor time, so their slices follow one another from the start of the
-/// frame, each as wide as that time; where the frame's slice has no stage, its thread was off the
-/// core. A frame's slice begins at its first packet, but not before the previous frame was handed
-/// over, because two frames are open at once around the seam.
+/// frame, each as wide as that time; where the frame's slice shows no stage, its thread was off the
+/// core. Around the seam two frames are open at once, so a frame's slice begins at its first
+/// packet, but not before the previous frame was handed over.
 ///
-/// `figures` gives the stages' names and the deadline; `frames` are in the order of judging.
+/// `figures` gives the stages' names and the deadline; `frames` are in the order in which they were
+/// judged.
 [[nodiscard]] nlohmann::ordered_json chrome_trace(const status::MonitorSnapshot& figures,
                                                   std::span<const status::FrameRecord> frames);
 

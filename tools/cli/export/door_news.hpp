@@ -11,7 +11,8 @@
 
 namespace terracut::cli {
 
-/// Prints that something has become unavailable or available again (publish::Reopened).
+/// Prints that an output or server (`what`) has become unavailable or available again
+/// (publish::Reopened).
 inline void tell_of_door(std::string_view what, const Status& now) {
   if (now) return say(fmt::format("{} again", what));
   warn(fmt::format("no {}, which is tried again every 10 s: {}", what, now.error().message));

@@ -48,8 +48,8 @@ bool still_runs(const std::filesystem::path& folder, const StatusPageEntry& proc
 }
 
 /// True if the process belongs to the user of its page and blocks or catches SIGUSR1, as the
-/// hexadecimal masks in /proc/PID/status tell. False if these cannot be read: no signal is sent on
-/// a guess.
+/// hexadecimal masks in /proc/PID/status tell. False if these cannot be read: without certainty no
+/// signal is sent.
 bool listens_for_dumps(const StatusPageEntry& process) {
   constexpr std::uint64_t kSignal = std::uint64_t{1} << (SIGUSR1 - 1);
   std::ifstream status(fmt::format("/proc/{}/status", process.pid));
@@ -104,7 +104,7 @@ Expected<StatusPageEntry> find_live_process(const std::filesystem::path& folder,
 }
 
 Status ask_for_dump(const std::filesystem::path& folder, const StatusPageEntry& process) {
-  // The descriptor stands for this very process: after the check the signal cannot reach a later
+  // The descriptor identifies this very process: after the check the signal cannot reach a later
   // process of the same number.
   const files::OwnedDescriptor held(static_cast<int>(::syscall(SYS_pidfd_open, process.pid, 0)));
   if (!held) return tl::unexpected(system_refusal(process, errno));

@@ -15,9 +15,10 @@ namespace terracut::cli {
 [[nodiscard]] Expected<page::StatusPageEntry> find_live_process(const std::filesystem::path& folder,
                                                                 const std::string& name);
 
-/// Sends a process SIGUSR1, unless the signal could end it: the process must hold its status page,
-/// belong to the page's user, and be prepared for the signal (live/dump_signal.hpp). Fails with
-/// kNotFound if it has ended, kUnsupported if it does not listen, kUnreadable if not permitted.
+/// Sends SIGUSR1 to a process, but only if the signal cannot end it: the process must hold its
+/// status page, belong to the page's user, and be prepared for the signal (live/dump_signal.hpp).
+/// Fails with kNotFound if it has ended, kUnsupported if it is not prepared, kUnreadable if not
+/// permitted.
 [[nodiscard]] Status ask_for_dump(const std::filesystem::path& folder,
                                   const page::StatusPageEntry& process);
 

@@ -10,7 +10,8 @@
 
 namespace terracut::cli {
 
-/// Copies the newest figures. Called on the server's thread, never after the server's end.
+/// A function that copies the newest figures. Called on the server's thread, never after the
+/// server's end.
 using FiguresSource = std::function<void(status::MonitorSnapshot&)>;
 
 /// Answers GET /metrics with the figures for Prometheus (metrics_text.hpp), within HttpBounds.

@@ -18,7 +18,7 @@ namespace {
 
 using Labels = std::vector<std::pair<std::string_view, std::string>>;
 
-/// Buckets from well below a fast stage to well above a deadline of one frame.
+/// Limits from well below a fast stage to well above a deadline of one frame.
 constexpr std::array<std::int64_t, 19> kLimits_us{
     100,    250,    500,    1'000,  2'000,  3'000,  5'000,   7'500,   10'000,   15'000,
     20'000, 25'000, 30'000, 40'000, 50'000, 75'000, 100'000, 200'000, 1'000'000};
@@ -33,7 +33,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-/// The samples of one metric, which must stand together.
+/// The samples of one metric, which the format wants next to each other.
 class Family {
  public:
   explicit Family(const status::Metric& metric, bool is_histogram)

@@ -9,8 +9,8 @@
 namespace terracut::cli {
 
 /// Returns the figures in Prometheus' text exposition format 0.0.4. Every counter counts since the
-/// start of the process; times are seconds. A value within 1/128 below a bucket's limit may be
-/// counted in the next bucket, but no value above the limit is counted in this bucket
+/// start of the process; times are seconds. A value up to 1/128 below a bucket's limit may be
+/// counted in the next bucket, but a value above the limit never in this one
 /// (measure::LogLinearHistogram::count_not_above).
 [[nodiscard]] std::string metrics_text(const status::MonitorSnapshot& figures);
 

@@ -17,7 +17,8 @@ namespace {
 using measure::milliseconds;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::int64_t kStale_ns = 3 * kSecond_ns;  // a page is written many times a second
+// a running process writes its page many times a second
+constexpr std::int64_t kStale_ns = 3 * kSecond_ns;
 
 /// Returns "2 d 03:04:05".
 std::string duration(std::int64_t ns) {
@@ -41,7 +42,7 @@ std::string title(const status::MonitorSnapshot& figures, std::int64_t now_ns,
   return text + '\n';
 }
 
-/// Draws a bar for each stage: '#' up to its median, '-' up to its p99, all on the scale of the
+/// Draws a bar for each stage: '#' up to its median, '-' up to its p99, all relative to the
 /// longest.
 std::string bars_of_stages(const status::MonitorSnapshot& figures, const status::LineStyle& style) {
   constexpr int kBesideBar = 18 + 10 + 10 + 2;

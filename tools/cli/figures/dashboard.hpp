@@ -11,9 +11,9 @@
 namespace terracut::cli {
 
 /// Returns the screen of `terracut top`: the figures for people as lines that end with '\n'.
-/// `now_ns` is the time of day, which shows if the process hangs. Output is printable ASCII (and
-/// escape sequences of colours), whatever the snapshot's texts hold, as another process wrote them
-/// and they go to a terminal.
+/// `now_ns` is the time of day, which shows if the process hangs. The output is printable ASCII
+/// (and escape sequences of colours), whatever the snapshot's texts hold: another process wrote
+/// them, and they go to a terminal.
 [[nodiscard]] std::string dashboard(const status::MonitorSnapshot& figures, std::int64_t now_ns,
                                     const status::LineStyle& style);
 

@@ -44,7 +44,8 @@ Json json_of(const status::Value& value) {
       value);
 }
 
-/// Returns the group "mount.seen" or "threads.0"; the whole for "".
+/// Returns the member of `whole` for a group such as "mount.seen" or "threads.0"; `whole` itself
+/// for "".
 Json& group_in(Json& whole, std::string_view group) {
   if (group.empty()) return whole;
   const std::size_t dot = std::min(group.find('.'), group.size());

@@ -15,8 +15,8 @@ namespace terracut::cli {
 void add_figures(std::span<const status::Figure> figures, nlohmann::ordered_json& json);
 
 /// Returns all figures of a live run for programs, as `terracut top --print-json` prints them and a
-/// run's end writes them: those of status::figures_of(), under their keys. `motion` and `health`
-/// are present if used; `blind` is null if no blind sector is known.
+/// run writes them at its end: those of status::figures_of(), under their keys. `motion` and
+/// `health` are present if used; `blind` is null if no blind sector is known.
 [[nodiscard]] nlohmann::ordered_json live_summary(const status::MonitorSnapshot& figures);
 
 }  // namespace terracut::cli

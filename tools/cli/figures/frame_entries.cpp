@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kPiece_bytes = 1 << 16;
 constexpr std::string_view kNoFrames =
-    "\n \"frames\": []";  // unique: newlines in texts are escaped
+    "\n \"frames\": []";  // occurs once: newlines in texts are escaped
 
 Error cannot_keep(const std::filesystem::path& path, int error_number) {
   return {ErrorCode::kWriteFailed,

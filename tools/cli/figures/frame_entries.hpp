@@ -16,13 +16,14 @@ namespace terracut::cli {
 /// of memory. The file has no name, so it vanishes with the process. One thread.
 class FrameEntries {
  public:
-  /// Keeps the entries on the disk of `report`, their final file. Errors are reported by write().
+  /// Keeps the entries on the disk on which the file `report` will be. Errors are reported by
+  /// write().
   explicit FrameEntries(const std::filesystem::path& report);
 
   void add(const nlohmann::ordered_json& entry);
 
-  /// Writes `report`, whose "frames" must be an empty list, with these entries in the list; whole
-  /// or not at all. Fails with kWriteFailed.
+  /// Writes `report`, with these entries in its list "frames", which must be empty; whole or not at
+  /// all. Fails with kWriteFailed.
   [[nodiscard]] Status write(const std::filesystem::path& path,
                              const nlohmann::ordered_json& report);
 

@@ -27,13 +27,13 @@ bool is_deskewed(const FrameRecord& frame) {
   return frame.info.deskew.state == frame::DeskewState::kDone;
 }
 
-/// False for a cloud, which comes at once, so that no work is done while it arrives.
+/// True for frames from packets. A cloud comes at once, so that no work is done while it arrives.
 bool arrived_in_packets(const FrameRecord& frame) {
   return frame.decode_cpu_ns > 0;
 }
 
-/// Returns the figures that the report states for every frame. Of the frame's min-cut these are the
-/// cells to decide, the cells that the budget left to the coarse stages, and the operations.
+/// Returns the figures that the report states for every frame. For its min-cut these are: the cells
+/// to decide, the cells that the budget left to the coarse stages, and the operations.
 std::vector<Figure> frame_figures(const FrameRecord& frame) {
   const min_cut::CutReport& cut = frame.segmentation.cut;
   const auto count = [](std::uint64_t of) { return status::Value(of); };
@@ -62,7 +62,7 @@ std::vector<Figure> frame_figures(const FrameRecord& frame) {
   return figures;
 }
 
-/// Returns where each record of a capture went.
+/// Returns the number of records of a capture by what became of them.
 std::vector<Figure> datagram_figures(const capture::CaptureAccount& account) {
   std::vector<Figure> figures = outside_figures(account.before_start, account.behind_end);
   const auto add = [&](std::string_view key, std::uint64_t count) {
@@ -79,7 +79,7 @@ std::vector<Figure> datagram_figures(const capture::CaptureAccount& account) {
   return figures;
 }
 
-/// Returns how the vehicle's motion and the frames match in time.
+/// Returns how well the vehicle's motion and the frames match in time.
 std::vector<Figure> motion_figures(std::uint64_t samples, const FrameTotals& totals) {
   const std::uint64_t deskewed = totals.deskewed;
   std::vector<std::int64_t> newest_ns = totals.newest_motion_ns;

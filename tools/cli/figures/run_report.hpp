@@ -26,14 +26,14 @@
 
 namespace terracut::cli {
 
-/// Times over all frames: of each stage, of decoding, their sum, the part after the end of the
-/// frame, and wall time.
+/// Times over all frames: of each stage, of decoding, of their sum, of the part after the end of
+/// the frame, and wall time.
 struct TimeSummary {
   std::array<measure::LogLinearHistogram, stage::kStages> stages;
   measure::LogLinearHistogram decode, total, after_frame, wall;
 
   void add(const status::FrameRecord& frame) noexcept;
-  /// Returns figures that refer to this object.
+  /// Returns the figures, which refer to this object.
   [[nodiscard]] std::vector<status::Figure> figures() const;
 };
 
@@ -71,7 +71,7 @@ struct Report {
   quality::Quality scores{};  ///< Filled by score().
   std::uint64_t scored = 0;   ///< Number of frames that had fitting truth.
 
-  /// All losses of the run, if there are more than the frames' sum (after the last frame).
+  /// All losses of the run; set if losses after the last frame make them more than the frames' sum.
   std::optional<frame::LossCounters> losses{};
   std::optional<capture::CaptureAccount> datagrams{};  ///< For a capture.
   frame::BlindAzimuths blind{};  ///< Where the sensor sends nothing, as known at the end.
@@ -101,7 +101,8 @@ struct Report {
   ///   interrupted     the run was ended before all of its input was read
   ///   sensor_warning  why clouds may not be one sensor's in its own frame
   ///   input_warning   where the input broke off, if it did; of clouds what could not be used
-  ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled, returns_below,
+  ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
+  ///   returns_below,
   ///                   losses{cause: count}, ms{stage: processor time; decode, total, and
   ///                   after_frame: of it, after the frame's last packet}, segment_wall_ms,
   ///                   min_cut{unknown, coarse, ops}; with a CAN recording deskewed

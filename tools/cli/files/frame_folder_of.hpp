@@ -14,7 +14,7 @@
 
 namespace terracut::cli {
 
-/// Returns a folder for --labels, --pcd or --png that reports how many older files it removes.
+/// Returns a folder for --labels, --pcd or --png. It reports how many older files it removes.
 [[nodiscard]] inline output::FrameFolder frame_folder_of(const OutputOptions& options,
                                                          const std::filesystem::path& folder,
                                                          const std::string& ending) {

@@ -30,7 +30,7 @@ tl::unexpected<Error> refuse(std::string message) {
   return fail(ErrorCode::kInvalidArgument, std::move(message));
 }
 
-/// Checks that an existing path is of the kind that the option names.
+/// Checks that an existing path is of the kind that the option needs.
 Status check_kind(const Output& output) {
   if (output.path == "-") {
     return refuse(name_of(output) +
@@ -100,7 +100,7 @@ Expected<files::OutputClaim> claim(const Output& output) {
   return claimed;
 }
 
-/// Removes incomplete files that killed runs left in the output's place.
+/// Removes incomplete files that killed runs left beside the output.
 void tidy_up(const Output& output) {
   const fs::path place = FilePlace(output.path).path();
   if (output.kind == Kind::kFile || output.kind == Kind::kReplacedFolder) {

@@ -38,18 +38,18 @@ struct RunFiles {
   std::string made_of{};         ///< Input from which outputs are made; empty: unknown.
   bool replaces_others = false;  ///< kFrames: also replaces files made from another input.
 
-  /// read() and write() add a path; they ignore empty paths, which mean an option not given.
+  /// read() and write() add a path; an empty path (option not given) is ignored.
   void read(std::string option, const std::filesystem::path& path, std::string what);
   void write(std::string option, const std::filesystem::path& path, Kind kind = Kind::kFile,
              std::string ending = {});
 };
 
-/// Checks the files of a command before any work: no output is, lies in or replaces an input, no
-/// two outputs are the same, and each can be of its kind. Files are compared by identity, not by
-/// name (files::FilePlace). Then each output is reserved against other runs as long as its claim
-/// lives. Errors, which name options and files, are those of files::OutputClaim and
-/// FrameFolder::check(). Outputs that cannot be written now (kWriteFailed, errors of
-/// FrameFolder::check()) are put into `unwritable` instead, if given.
+/// Checks the files of a command before any work: no output is the same as, lies in or replaces an
+/// input, no two outputs are the same, and each path suits its kind. Files are compared by
+/// identity, not by name (files::FilePlace). Then each output is reserved against other runs as
+/// long as its claim lives. Errors, which name options and files, are those of files::OutputClaim
+/// and FrameFolder::check(). If `unwritable` is given, outputs that cannot be written now
+/// (kWriteFailed, errors of FrameFolder::check()) are put there instead.
 [[nodiscard]] Expected<std::vector<files::OutputClaim>> claim_outputs(
     const RunFiles& files, std::vector<Error>* unwritable = nullptr);
 

@@ -10,7 +10,8 @@
 
 namespace terracut::cli {
 
-/// A folder that the destructor removes with its content; removes those of killed processes, too.
+/// A folder that the destructor removes with its content. Folders that killed processes left are
+/// removed, too.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

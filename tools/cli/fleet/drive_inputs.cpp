@@ -17,7 +17,7 @@ namespace terracut::cli {
 namespace {
 
 Expected<std::string> stamp_of_file(const std::filesystem::path& path) {
-  struct stat file {};
+  struct stat file{};
   if (::stat(path.c_str(), &file) != 0) {
     return fail(errno == ENOENT ? ErrorCode::kNotFound : ErrorCode::kUnreadable,
                 fmt::format("{}: {}", path.string(), std::generic_category().message(errno)));
@@ -27,7 +27,7 @@ Expected<std::string> stamp_of_file(const std::filesystem::path& path) {
                      file.st_ctim.tv_nsec);
 }
 
-/// Collects one figure of each cloud in a folder.
+/// Returns a hash of the names of the clouds in a folder and of what `of_file` returns for each.
 template <class OfFile>
 Expected<std::string> of_clouds(const std::filesystem::path& folder, OfFile&& of_file) {
   const auto listed = scan::list_scan_folder(folder, cloud::kCloudFiles);
@@ -49,7 +49,8 @@ std::vector<DriveInput> inputs_of(const FleetDrive& drive) {
       {"setup", drive.setup},     {"can", drive.can},     {"dbc", drive.dbc}};
   std::erase_if(inputs, [](const DriveInput& input) { return input.path.empty(); });
   if (drive.capture.empty() || !drive.calibration.empty()) return inputs;
-  // A run uses the calibration beside the capture if the packets hold none.
+  // If the packets hold no calibration, a run uses the one beside the capture, so it is an input,
+  // too.
   const auto beside = calibration_beside(drive.capture);
   if (beside && !beside->empty()) inputs.push_back({"calibration", *beside});
   return inputs;

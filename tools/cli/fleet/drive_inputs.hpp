@@ -19,16 +19,17 @@ struct DriveInput {
   std::filesystem::path path;
 };
 
-/// Returns the inputs that the manifest names for a drive, and a calibration beside a capture.
+/// Returns the inputs that the manifest names for a drive, and a calibration that lies beside its
+/// capture.
 [[nodiscard]] std::vector<DriveInput> inputs_of(const FleetDrive& drive);
 
-/// Returns sizes and change times of a drive's inputs by role: an input with equal stamps was not
-/// written, replaced or renamed in between, whatever its modification time says. A folder's stamps
-/// are those of all its clouds. Fails with kNotFound or kUnreadable.
+/// Returns sizes and change times of a drive's inputs by role. If they stay equal, the input was
+/// not written, replaced or renamed in between, whatever its modification time says. For a folder
+/// they cover all its clouds. Fails with kNotFound or kUnreadable.
 [[nodiscard]] Expected<nlohmann::ordered_json> stamps_of(const FleetDrive& drive);
 
-/// Returns the SHA-256 of an input's content, for a folder of its clouds' names and contents; path
-/// and times do not count. Fails with kNotFound, kUnreadable, or kNothingCameOut when
+/// Returns the SHA-256 of an input's content, for a folder that of its clouds' names and contents;
+/// paths and times do not matter. Fails with kNotFound, kUnreadable, or kNothingCameOut when
 /// stop_wanted().
 [[nodiscard]] Expected<std::string> content_of(const DriveInput& input);
 

@@ -60,8 +60,8 @@ class LabellingFolder {
   }
 
   [[nodiscard]] bool made() const { return static_cast<bool>(part_.lock); }
-  /// Returns the folder that later becomes the drive's. It has the user's normal rights for new
-  /// folders.
+  /// Returns the part of this folder that later becomes the drive's folder. It gets the user's
+  /// normal rights for new folders.
   [[nodiscard]] fs::path labels() const { return part_.path / "labels"; }
   [[nodiscard]] fs::path settings() const { return labels() / kJobSettings; }
   [[nodiscard]] fs::path report() const { return part_.path / "report.json"; }
@@ -99,7 +99,7 @@ Json report_without_frames(const fs::path& path) {
       false);
 }
 
-/// Returns the log's last error, else its last line.
+/// Returns the last error in the log; if there is none, its last line.
 std::string last_words(const fs::path& log) {
   std::ifstream file(log);
   std::string error, last;
@@ -130,7 +130,7 @@ ExitCode not_placed(const Error& error, RelabelRecord& record) {
   return failed(kOutputFailed, kNoPlace, error.message, record);
 }
 
-/// Records why the run's labels cannot be used, if so.
+/// Records why the run's labels cannot be used, if they cannot.
 ExitCode judge(const ProgramRun& run, const Json& report, const LabellingFolder& folder,
                RelabelRecord& record) {
   if (run.signal != 0) {
@@ -139,7 +139,7 @@ ExitCode judge(const ProgramRun& run, const Json& report, const LabellingFolder&
   }
   if (run.exit_code != kOk) {
     const auto code = static_cast<ExitCode>(run.exit_code);
-    record.ends_shard = code == kOutputFailed;  // it writes where all other drives are written
+    record.ends_shard = code == kOutputFailed;  // all other drives are written to the same disk
     return failed(code, cause_of(code), last_words(folder.log()), record);
   }
   if (!report.is_object() || !report.contains("summary")) {
@@ -191,8 +191,7 @@ ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive, const Json&
     if (summary.contains(key)) facts[key] = summary[key];
   }
   std::error_code error;
-  // This list is removed: with it, a later `--labels` into this folder would treat the files as its
-  // own.
+  // Without this list, a later `--labels` into this folder cannot mistake the files for its own.
   fs::remove(folder.labels() / ".label.terracut", error);
   if (const Status sealed = seal(folder.labels(), facts); !sealed) {
     return failed(sealed.error(), record);

@@ -12,9 +12,9 @@ namespace terracut::cli {
 
 /// Labels a drive in a folder of its own among the job's parts, by `terracut replay` or `segment`,
 /// and moves the result to its place, "job.folder/record.output". Completes `record`: done, or the
-/// cause of the failure. Nothing incomplete ever gets that name, nor does a result whose inputs
-/// have changed since `record.stamps`, taken before the inputs were hashed. Returns the failure's
-/// exit code; kInterrupted leaves the record unchanged.
+/// cause of the failure. That place never gets anything incomplete, nor a result whose inputs have
+/// changed since `record.stamps`, which were taken before the inputs were hashed. Returns the
+/// failure's exit code; kInterrupted leaves the record unchanged.
 [[nodiscard]] ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive,
                                    const nlohmann::ordered_json& recipe, RelabelRecord& record);
 

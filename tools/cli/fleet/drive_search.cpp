@@ -41,7 +41,7 @@ Status add_companions(const Beside& beside, FleetDrive& drive) {
                           drive.can.string(), beside.stem));
 }
 
-/// Counts the captures in each folder that have the same name without ending.
+/// Counts for each path without ending how many captures have it.
 std::map<fs::path, int> count_stems(const std::set<fs::path>& captures) {
   std::map<fs::path, int> counts;
   for (const fs::path& capture : captures) ++counts[capture.parent_path() / stem_of(capture)];
@@ -59,7 +59,7 @@ std::string some_of(const std::vector<LeftOut>& left_out) {
   return text;
 }
 
-/// Returns a name that relabel accepts for outputs: without leading dots.
+/// Returns a root's name without leading dots, which relabel accepts for outputs.
 std::string name_of_root(const fs::path& root) {
   const std::string name = root.filename().string();
   const std::size_t begin = name.find_first_not_of('.');

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Returns number and total size of a folder's files, except those seal() writes.
+/// Returns the number and total size of a folder's files, except those that seal() writes.
 std::pair<std::uint64_t, std::uint64_t> extent_of(const fs::path& folder) {
   std::pair<std::uint64_t, std::uint64_t> extent{0, 0};
   std::error_code error;
@@ -42,8 +42,8 @@ std::pair<std::uint64_t, std::uint64_t> extent_of(const fs::path& folder) {
   return extent;
 }
 
-/// Returns a line as sha256sum writes it: a name with a line break is escaped and marked by a
-/// backslash at the line's beginning.
+/// Returns a line as sha256sum writes it: a line break in the name is escaped, and a backslash at
+/// the line's beginning shows this.
 std::string sum_line(const std::string& sum, const std::string& name) {
   if (name.find('\n') == std::string::npos) return fmt::format("{}  {}\n", sum, name);
   std::string escaped;
@@ -79,7 +79,7 @@ Expected<std::string> sums_of(const fs::path& folder) {
   return sums;
 }
 
-/// True for errors that every other file on the disk would get, too.
+/// True for errors that would also affect every other file on the disk.
 bool is_of_the_disk(int error_number) {
   return error_number == ENOSPC || error_number == EDQUOT || error_number == EROFS ||
          error_number == EIO;
@@ -151,7 +151,8 @@ Status seal(const fs::path& folder, Json facts) {
   if (Status written = files::write_whole_file(folder / kDriveSums, *sums); !written) {
     return written;
   }
-  // One call for all files: a rename may reach the disk before the renamed data.
+  // Makes one call for all files, before the rename: otherwise the rename may reach the disk before
+  // the data.
   const files::OwnedDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!opened || ::syncfs(opened.get()) != 0) return write_failed(folder, errno);
   return {};
@@ -176,7 +177,7 @@ Status check_place(const fs::path& place) {
 Expected<fs::path> put_in_place(const fs::path& folder, const fs::path& place,
                                 const fs::path& broken) {
   fs::path kept;
-  constexpr int kTries = 1000;  // others may rename to the same places at the same time
+  constexpr int kTries = 1000;  // other processes may rename to the same places
   for (int i = 1; i <= kTries; ++i) {
     if (Status free = check_place(place); !free) return tl::unexpected(free.error());
     if (rename_folder(folder, place)) return kept;

@@ -25,27 +25,27 @@ namespace terracut::cli {
 inline constexpr std::string_view kDriveFacts = "terracut.json";
 inline constexpr std::string_view kDriveSums = "SHA256SUMS";
 
-/// Returns the facts in terracut.json if the files in SHA256SUMS are present and match its number
-/// and sizes, else null. Figures in the facts are then whole numbers. Does not read labels:
-/// `sha256sum -c` finds changes that keep the length.
+/// Returns the facts in terracut.json, or null unless the files in SHA256SUMS are present and have
+/// the number and sizes stated there. Figures in the facts are then whole numbers. Does not read
+/// labels: `sha256sum -c` finds changes that keep the length.
 [[nodiscard]] nlohmann::ordered_json facts_of_whole(const std::filesystem::path& folder);
 
 /// Completes a folder of finished files: writes `facts` with the number and size of the files, and
-/// their sums, and waits until all is on the disk. Fails with kWriteFailed or kUnreadable.
+/// SHA256SUMS, and waits until all is on the disk. Fails with kWriteFailed or kUnreadable.
 [[nodiscard]] Status seal(const std::filesystem::path& folder, nlohmann::ordered_json facts);
 
 /// Returns the files listed in a folder's SHA256SUMS with their sums, in order of names; none if
 /// SHA256SUMS is missing or invalid.
 [[nodiscard]] std::map<std::string, std::string> listed_sums(const std::filesystem::path& folder);
 
-/// Checks before the work that a folder can be put at `place`, and makes the folders above it.
-/// Fails with kWriteFailed if nothing can be written there (disk full, read-only or broken),
+/// Checks before labelling that a folder can later be put at `place`, and makes the folders above
+/// it. Fails with kWriteFailed if nothing can be written there (disk full, read-only or broken),
 /// kInvalidArgument if only this path is impossible.
 [[nodiscard]] Status check_place(const std::filesystem::path& place);
 
-/// Renames a sealed folder to its place. A complete folder that has appeared there meanwhile stays;
-/// an incomplete one is kept as `broken`.N, whose path is returned (otherwise empty). Fails with
-/// the errors of check_place().
+/// Renames a sealed folder to its place. If a complete folder has appeared there meanwhile, that
+/// one stays; an incomplete one is moved to `broken`.N, whose path is returned (otherwise empty).
+/// Fails with the errors of check_place().
 [[nodiscard]] Expected<std::filesystem::path> put_in_place(const std::filesystem::path& folder,
                                                            const std::filesystem::path& place,
                                                            const std::filesystem::path& broken);

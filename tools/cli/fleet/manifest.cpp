@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 
-/// Calls `use` with each path of a drive and its name in the file.
+/// Calls `use` with each path of a drive and the path's name in the manifest.
 template <class Drive>
 auto paths_in(Drive& drive) {
   return std::array{std::pair{"capture", &drive.capture},
@@ -45,7 +45,7 @@ bool is_name(const std::string& name) {
                               [](const fs::path& part) { return part.native().starts_with('.'); });
 }
 
-/// Throws nlohmann::json::exception if a member has another type.
+/// Reads a drive. Throws nlohmann::json::exception if a member has the wrong type.
 FleetDrive drive_in(const Json& json, const fs::path& root) {
   FleetDrive drive;
   drive.name = json.value("name", "");
@@ -150,7 +150,7 @@ std::vector<FleetDrive> drives_of(const Manifest& manifest, const Shard& shard) 
   });
   using Load = std::pair<std::uint64_t, std::size_t>;  // bytes, number of the shard
   std::set<Load> loads;
-  // A drive is never divided, so if there are more shards than drives, some shards stay empty.
+  // A drive is never divided, so with more shards than drives some shards are empty.
   const std::size_t filled = std::min(shard.of, drives.size());
   for (std::size_t i = 1; i <= filled; ++i) loads.emplace(0, i);
   std::vector<FleetDrive> its_own;

@@ -45,7 +45,7 @@ struct Manifest {
 /// message names the file and the fault.
 [[nodiscard]] Expected<Manifest> read_manifest(const std::filesystem::path& path);
 
-/// Writes a manifest, whole or not at all; paths below the root become relative to the root.
+/// Writes a manifest, whole or not at all; paths below the root are written relative to it.
 [[nodiscard]] Status write_manifest(const std::filesystem::path& path, const Manifest& manifest);
 
 /// One of the parts into which a manifest is divided.
@@ -56,8 +56,8 @@ struct Shard {
 /// Parses a shard such as "3/12". Fails with kInvalidArgument.
 [[nodiscard]] Expected<Shard> parse_shard(std::string_view text);
 
-/// Returns the shard's drives, the largest first. Every drive is in one shard, shards are balanced
-/// by bytes (the largest drive goes to the emptiest shard), and the same manifest always gives the
+/// Returns the shard's drives, the largest first. Every drive is in one shard; shards are balanced
+/// by bytes (the largest drive left goes to the emptiest shard); the same manifest always gives the
 /// same shards.
 [[nodiscard]] std::vector<FleetDrive> drives_of(const Manifest& manifest, const Shard& shard);
 

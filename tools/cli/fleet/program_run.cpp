@@ -28,7 +28,7 @@ double seconds_of(const ::timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// Runs between fork and exec, so it must not allocate memory or take locks.
+/// Becomes the program. Runs between fork and exec, so it must not allocate memory or take locks.
 [[noreturn]] void become(const std::vector<char*>& words, int log, ::pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);  // the parent has died already
@@ -63,9 +63,9 @@ Expected<ProgramRun> run_program(const std::vector<std::string>& words,
   if (child < 0) return failed("no process for a drive", errno);
   if (child == 0) become(pointers, file.get(), parent);
   running = child;
-  if (stop_wanted()) stop_program();  // the signal may have come before the program existed
+  if (stop_wanted()) stop_program();  // a stop signal before the fork found no child
   int status = 0;
-  struct rusage used {};
+  struct rusage used{};
   while (::wait4(child, &status, 0, &used) < 0 && errno == EINTR) {
   }
   running = 0;

@@ -20,9 +20,10 @@ struct ProgramRun {
 };
 
 /// Runs this very program, even if its file was replaced meanwhile, with other arguments, and waits
-/// for it. The child's standard error goes to the file `log`, its standard output nowhere. It dies
-/// with this process, however that ends; catch_stop_signals() with stop_program() also asks it to
-/// stop. Fails with kWriteFailed if it cannot be started. For one thread at a time.
+/// for it. The child's standard error goes to the file `log`, its standard output nowhere. The
+/// child is killed when this process ends, however that happens; catch_stop_signals() with
+/// stop_program() also asks it to stop. Fails with kWriteFailed if it cannot be started. For one
+/// thread at a time.
 [[nodiscard]] Expected<ProgramRun> run_program(const std::vector<std::string>& words,
                                                const std::filesystem::path& log);
 

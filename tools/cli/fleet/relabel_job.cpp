@@ -39,8 +39,8 @@ std::string host_name() {
   return text;
 }
 
-/// Returns the stated mount as arguments, like "--mount-height 1.9": a drive's setup file overrides
-/// a mount in the settings file, but not these arguments.
+/// Returns the stated mount as arguments, like "--mount-height 1.9": a drive's setup file would
+/// override a mount in the settings file, but does not override arguments.
 std::vector<std::string> mount_words_of(const Options& options) {
   std::vector<std::string> words;
   for (const Setting& setting : settings()) {
@@ -68,9 +68,9 @@ Command command_for(const FleetDrive& drive) {
   return drive.capture.empty() ? Command::kSegment : Command::kReplay;
 }
 
-/// True if a drive's own arguments may contain the setting. It must affect how the drive is read
-/// and labelled. It must do so by its value alone, because a recipe does not hold the content of
-/// files. A manifest must not choose outputs, because others may have written it.
+/// True if the arguments of a drive in a manifest may contain the setting. It must be about how the
+/// drive is read and labelled. Its value alone must decide, because a recipe does not hold the
+/// content of files. It must not choose outputs, because others may have written the manifest.
 bool is_of_drive(const Setting& setting) {
   constexpr std::array kSections{"sensor.", "input.", "mount.", "motion.", "method."};
   constexpr std::array kWithoutKey{"--set", "--method"};
@@ -95,7 +95,7 @@ tl::unexpected<Error> not_of_drive(const FleetDrive& drive, std::string_view fou
 }
 
 /// Returns a drive's own arguments, each option and its value as one word, so that no value can be
-/// taken for another option.
+/// mistaken for another option.
 Expected<std::vector<std::string>> argument_words(const FleetDrive& drive) {
   std::vector<std::string> words;
   for (auto word = drive.arguments.begin(); word != drive.arguments.end(); ++word) {
@@ -139,7 +139,7 @@ Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest)
     return fail(ErrorCode::kWriteFailed,
                 fmt::format("{}: {}", job.parts().string(), error.message()));
   }
-  if (read_job(job.state())) return job;  // an invalid file put there by others is replaced
+  if (read_job(job.state())) return job;  // an invalid file, perhaps written by others, is replaced
   Status written = files::write_whole_file(job.state() / kJobSettings, job.settings);
   if (written) written = write_json(job.state() / kJobFile, json_of(job, manifest));
   if (!written) return tl::unexpected(written.error());

@@ -59,18 +59,18 @@ struct KnownJob {
 };
 /// Reads a job. Fails with kNotFound, kUnreadable, or kMalformed for an invalid job.json.
 [[nodiscard]] Expected<KnownJob> read_job(const std::filesystem::path& state);
-/// Returns the jobs in a folder for drives, ordered by start; invalid jobs are left out. Fails with
-/// kNotFound if there is no job.
+/// Returns the jobs that have labelled into a folder, in order of their start; invalid ones are
+/// left out. Fails with kNotFound if there is no job.
 [[nodiscard]] Expected<std::vector<KnownJob>> jobs_in(const std::filesystem::path& folder);
 
 /// Returns the arguments with which `terracut replay` or `segment` labels a drive by the settings
-/// in that file, without outputs. Fails with kMalformed if an argument in the manifest is not about
-/// reading and labelling, or with the errors of the settings.
+/// in that file, without outputs. Fails with kMalformed if an argument in the manifest concerns
+/// anything but reading and labelling, or with the errors of the settings.
 [[nodiscard]] Expected<std::vector<std::string>> words_for(const FleetDrive& drive,
                                                            const std::filesystem::path& settings);
 
-/// Returns all that a drive's labels depend on; the hash of this is in the name of the drive's
-/// folder. Fails with the errors of content_of().
+/// Returns everything that a drive's labels depend on; the name of the drive's folder contains its
+/// hash. Fails with the errors of content_of().
 [[nodiscard]] Expected<nlohmann::ordered_json> recipe_of(const RelabelJob& job,
                                                          const FleetDrive& drive);
 

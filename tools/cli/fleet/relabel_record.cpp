@@ -17,22 +17,23 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 
-/// Returns a record's path: the last part of the drive's name, for people, and a hash of the whole
-/// name, so that all drives have different files.
+/// Returns the path of a drive's record: the last part of the drive's name, for people, and a hash
+/// of the whole name, so that no two drives share a file.
 fs::path place_of(const fs::path& state, const std::string& drive) {
   constexpr std::size_t kLongestName = 100;
   const std::string name = fs::path(drive).filename().string().substr(0, kLongestName);
   return state / "records" / fmt::format("{}-{}.json", name, short_hash(drive));
 }
 
-/// True if a drive's labels can have this name; any other path must not be read as labels.
+/// True if `output` is a possible name of the drive's folder; any other path must not be read as
+/// labels.
 bool is_output_of(const std::string& output, const std::string& drive) {
   const std::string before = drive + "-";
   return output.starts_with(before) && output.size() == before.size() + kShortHashDigits &&
          output.find_first_not_of("0123456789abcdef", before.size()) == std::string::npos;
 }
 
-/// Throws nlohmann::json::exception if a member has another type.
+/// Reads a record. Throws nlohmann::json::exception if a member has the wrong type.
 RelabelRecord record_in(const Json& json) {
   RelabelRecord record;
   record.drive = json.at("drive").get<std::string>();
@@ -62,7 +63,7 @@ RelabelRecord read_record(const fs::path& state, const std::string& drive) {
     if (record.drive == drive && (!record.done || is_output_of(record.output, drive))) {
       return record;
     }
-  } catch (const nlohmann::json::exception&) {  // not our file: as if there were none
+  } catch (const nlohmann::json::exception&) {  // another program's file: as if there were none
   }
   return {};
 }

@@ -26,11 +26,11 @@ struct RelabelRecord {
   std::uint64_t frames = 0, returns = 0, label_bytes = 0;
   nlohmann::ordered_json losses = nlohmann::ordered_json::object();  ///< {cause: count}
   nlohmann::ordered_json stamps = nlohmann::ordered_json::object();  ///< stamps_of() of inputs.
-  bool ends_shard = false;  ///< Not stored; every other drive would fail likewise.
+  bool ends_shard = false;  ///< Not stored; the failure would affect every other drive, too.
 };
 
-/// Returns a drive's newest record; an empty record if there is none, or if it belongs to another
-/// drive or has impossible values.
+/// Returns a drive's newest record. Returns an empty record if there is none, it belongs to another
+/// drive, or it has impossible values.
 [[nodiscard]] RelabelRecord read_record(const std::filesystem::path& state,
                                         const std::string& drive);
 

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kHour_ns = 3'600'000'000'000;
 
-/// The number of drives of one kind, and how much they hold.
+/// The number and size of the drives in one state.
 struct Sum {
   std::uint64_t drives = 0, bytes = 0, frames = 0, label_bytes = 0;
 };
@@ -56,8 +56,8 @@ Tally tally_of(const fs::path& folder, const KnownJob& job, std::int64_t now_ns)
           line_for_terminal(record.drive + ": " + record.message));
       continue;
     }
-    // Only the drive's facts are looked for; the next run checks all files. A fleet has millions of
-    // them.
+    // Looks only for the file of the drive's facts, because a fleet has millions of label files;
+    // the next run checks all of them.
     if (!fs::exists(folder / record.output / kDriveFacts, vanished)) {
       tally.missing_bytes += bytes;
       continue;
@@ -90,7 +90,7 @@ std::string when(std::int64_t ns) {
   return fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(seconds));
 }
 
-/// Returns speed and expected end, if there is any speed.
+/// Returns the speed and the expected end; empty if there is no speed yet.
 std::string pace_text(const Tally& tally, std::int64_t now_ns) {
   const double span_s = static_cast<double>(now_ns - tally.lately_since_ns) * 1e-9;
   if (tally.lately.drives == 0 || span_s <= 0) return {};
@@ -103,7 +103,7 @@ std::string pace_text(const Tally& tally, std::int64_t now_ns) {
       tally.lately_process_s / span_s);
   if (tally.missing_bytes == 0 || bytes_per_s <= 0) return text;
   const double left_s = static_cast<double>(tally.missing_bytes) / bytes_per_s;
-  constexpr double kYears_s = 3e9;  // others may write records, so the speed may be absurd
+  constexpr double kYears_s = 3e9;  // records may be another program's, so the speed may be absurd
   if (left_s > kYears_s) return text + "end       not within a hundred years at that speed\n";
   return text + fmt::format("end       in {:.1f} h at that speed, {}\n", left_s / 3600,
                             when(now_ns + static_cast<std::int64_t>(left_s * 1e9)));

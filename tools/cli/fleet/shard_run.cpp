@@ -110,11 +110,11 @@ void ShardRun::failed(const RelabelRecord& record, ExitCode code) {
 void ShardRun::note(const RelabelRecord& record) {
   RelabelRecord ended = record;
   ended.ended_ns = measure::realtime_ns();
-  // Another process's success must not be overwritten by this one's failure.
+  // This process's failure must not overwrite another one's success.
   const RelabelRecord before = read_record(job_.state(), record.drive);
   if (!record.done && is_there(before, record)) return;
-  // A full disk ends the shard when the next drive's labels are written. If only this file cannot
-  // be written, only the record is lost.
+  // If the disk is full, the next drive's labels end the shard. If only this file cannot be
+  // written, only the record is lost.
   if (const Status written = write_record(job_, ended); !written) worst_ = refuse(written.error());
 }
 

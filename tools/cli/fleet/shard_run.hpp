@@ -13,24 +13,24 @@
 namespace terracut::cli {
 
 /// Labels the drives of a shard whose labels do not exist yet. Drives that other processes are
-/// labelling come last; processes of this host are waited for. Drives that other hosts have not
-/// finished by then are labelled again, as these hosts may be gone: the process that finishes
-/// second drops its result. One thread.
+/// labelling come last; processes of this host are waited for. A drive that another host has not
+/// finished by then is labelled again, because that host may be gone; if both finish, the second
+/// drops its result. One thread.
 class ShardRun {
  public:
   /// `shard` is a text such as "3/12", for records.
   ShardRun(const RelabelJob& job, std::string shard);
 
-  /// Labels the drives and prints what was done. Returns kInterrupted; kOutputFailed at the first
-  /// output error that would also hit every other drive, such as a full disk; else the exit code of
-  /// the last drive that failed, or kOk.
+  /// Labels the drives and prints what was done. Returns kInterrupted; or kOutputFailed at the
+  /// first output error that would also affect every other drive, such as a full disk; else the
+  /// exit code of the last drive that failed, or kOk.
   [[nodiscard]] ExitCode run(const std::vector<FleetDrive>& drives);
 
  private:
   enum class Attention : unsigned char { kIfFree, kFinally };
-  /// Attends to one drive. Returns false if another process seems to be labelling that drive.
+  /// Handles one drive. Returns false if another process seems to be labelling it.
   bool attend(const FleetDrive& drive, Attention attention);
-  /// True if `before` has the same inputs as `now` and its labels still exist.
+  /// True if the labels of `before` still exist and its inputs are those of `now`.
   [[nodiscard]] bool is_there(const RelabelRecord& before, const RelabelRecord& now) const;
   void label(const FleetDrive& drive, RelabelRecord record);
   void failed(const RelabelRecord& record, ExitCode code);

@@ -14,7 +14,7 @@ constexpr std::uint8_t kPlaybackControlRequest = 3, kPlaybackState = 5;  // oper
 constexpr std::uint8_t kPlay = 0, kPause = 1;
 constexpr std::uint8_t kIsPlaying = 0, kIsPaused = 1, kHasEnded = 3;
 
-/// Bytes before the id: code, command, speed, seek flag, seek time, the id's length.
+/// The bytes before the id: code, command, speed, seek flag, seek time, length of the id.
 constexpr std::size_t kRequestBytes = 1 + 1 + 4 + 1 + 8 + 4;
 
 template <class Number>

@@ -23,7 +23,7 @@ struct PlaybackRequest {
 [[nodiscard]] Expected<PlaybackRequest> parse_playback_request(std::string_view bytes,
                                                                std::int64_t begin_ns);
 
-/// Returns a message with the state of the capture. `did_seek` makes viewers forget what they have
+/// Returns a message with the state of the player. `did_seek` makes viewers forget what they have
 /// shown; `request_id` is the id of the request being answered, or empty.
 [[nodiscard]] std::string playback_state_message(const PlayerState& state, bool did_seek,
                                                  std::string_view request_id);

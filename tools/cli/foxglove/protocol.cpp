@@ -21,7 +21,7 @@ tl::unexpected<Error> malformed(const std::string& what) {
   return fail(ErrorCode::kMalformed, "not understood: " + what);
 }
 
-/// Returns an id of the protocol; nothing if `value` is anything else.
+/// Returns `value` as an id of the protocol; nothing if it is none.
 std::optional<std::uint32_t> id_in(const Json& value) {
   if (!value.is_number_unsigned()) return std::nullopt;
   const auto id = value.get<std::uint64_t>();
@@ -136,7 +136,8 @@ bool is_allowed_origin(std::string_view origin, std::string_view user_agent,
     if (!origin.starts_with(scheme)) continue;
     const std::string_view host = origin.substr(scheme.size());
     if (host.empty()) return false;
-    // Only loopback addresses: a page from another machine's address is foreign.
+    // Only numeric loopback addresses are accepted: a page from another machine's address is
+    // foreign.
     return host.starts_with("127.") || host.starts_with("[::1]")
                ? names_this_machine(host, {})
                : host.find_first_not_of("0123456789.:[]") != std::string_view::npos &&

@@ -24,7 +24,7 @@ inline constexpr std::uint32_t kFirstChannelId = 1;
 [[nodiscard]] std::string_view foxglove_sub_protocol(std::string_view offered);
 
 /// Returns the greeting for a client. `name` is for people. `capture` is the state of the capture
-/// that clients may play (playback.hpp), null if there is no such capture.
+/// that clients may play (playback.hpp); null if there is none.
 [[nodiscard]] std::string server_info_text(const std::string& name, const PlayerState* capture);
 /// Returns an announcement of the topics of ros_messages::kTopics for which `wanted` is true.
 [[nodiscard]] std::string advertise_text(const std::vector<bool>& wanted);
@@ -48,9 +48,9 @@ struct FoxgloveRequest {
                                                             std::uint64_t log_time_ns) noexcept;
 
 /// True if a browser's page of this origin may connect: there is no origin, it is this machine's
-/// own, or it equals one of `allowed`. A page from elsewhere could read the sensor through its
-/// viewer's browser. "file://" is the origin both of a desktop program's own pages and of any
-/// downloaded page in a browser; `user_agent`, which pages cannot change, tells which of them asks.
+/// own, or it equals one of `allowed`. A page from elsewhere could read the sensor's data through
+/// its viewer's browser. "file://" is the origin both of a desktop program's own pages and of any
+/// downloaded page in a browser; `user_agent`, which pages cannot change, tells the two apart.
 [[nodiscard]] bool is_allowed_origin(std::string_view origin, std::string_view user_agent,
                                      std::string_view own_name,
                                      const std::vector<std::string>& allowed);

@@ -28,11 +28,11 @@ using boost::system::error_code;
 
 constexpr std::size_t kMostTextBytes = 16 << 10;
 constexpr std::size_t kMostWaitingTexts = 32;
-/// A client that neither answers a ping nor takes a message for so long is gone.
+/// A client that for this long neither answers a ping nor takes a message counts as gone.
 constexpr std::chrono::seconds kMostSilence{60};
 constexpr std::size_t kTopics = ros_messages::kTopics.size();
 
-/// A message with its time, to be sent to later subscribers.
+/// A message with its time, kept for later subscribers.
 struct Kept {
   std::uint64_t time_ns = 0;
   FoxgloveServer::Message message;
@@ -65,8 +65,8 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
       response.set(http::field::sec_websocket_protocol, {protocol.data(), protocol.size()});
     }));
     stream_.read_message_max(kMostTextBytes);
-    // Sends each message as one WebSocket frame: in pieces of 4 KiB a cloud would be a thousand
-    // writes.
+    // Sends each message as one WebSocket frame: in fragments of 4 KiB a cloud would take a
+    // thousand writes.
     stream_.auto_fragment(false);
     stream_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (error) {
@@ -81,7 +81,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
 
   [[nodiscard]] HttpStream& stream() noexcept override { return stream_.next_layer(); }
 
-  /// Sends the capture's state if another client, a browser, or the capture's end has changed it.
+  /// Sends the player's state if another client, a browser or the capture's end has changed it.
   void work_round() override {
     if (!speaks_playback_) return;
     const PlayerState state = shared_.config.capture->state();
@@ -91,7 +91,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
     tell_state(state, false, {});
   }
 
-  /// Sends the capture's state.
+  /// Sends the player's state.
   void tell_state(const PlayerState& state, bool did_seek, std::string_view request_id) {
     if (!speaks_playback_ || outgoing_.size() >= kMostWaitingTexts) return;
     enqueue({.text = playback_state_message(state, did_seek, request_id), .is_binary = true});
@@ -163,7 +163,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
     capture->obey(request->command);
     state = capture->state();
     const bool seeks = request->command.seek_s.has_value();
-    if (seeks) {  // the state after the seek
+    if (seeks) {  // answer with the state after the seek
       state.position_s = *request->command.seek_s;
       state.at_end = false;
     }
@@ -171,9 +171,10 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
   }
 
   void subscribe(const FoxgloveRequest::Subscription& wish) {
-    const std::size_t topic = wish.channel_id - kFirstChannelId;  // wraps to a large number for 0
+    // a number of 0 wraps to a large one
+    const std::size_t topic = wish.channel_id - kFirstChannelId;
     if (topic >= kTopics || !shared_.config.topics[topic]) return complain("no such channel");
-    // The protocol allows one subscription per topic: so a client that stops reading keeps one
+    // One subscription per topic is allowed, so that a client that stops reading keeps at most one
     // message of each topic in memory.
     const auto has = [&](const auto& each) {
       return each.first == wish.id || each.second == topic;
@@ -188,7 +189,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
 
   void complain(const std::string& what) {
     ++shared_.figures.bad_requests;
-    // A client that does not read answers gets no more answers.
+    // A client that does not read its answers gets no more of them.
     if (outgoing_.size() < kMostWaitingTexts) say(warning_text(what));
   }
 
@@ -232,7 +233,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
   Shared& shared_;
   PlayerState seen_;  ///< State that was sent last.
   beast::flat_buffer buffer_{kMostTextBytes};
-  std::map<std::uint32_t, std::size_t> topics_;  ///< Keyed by the subscription's id.
+  std::map<std::uint32_t, std::size_t> topics_;  ///< The key is the subscription's id.
   std::deque<Outgoing> outgoing_;                ///< The first one is being sent.
   bool speaks_playback_ = false;
 };

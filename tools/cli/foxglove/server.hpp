@@ -16,12 +16,11 @@
 
 namespace terracut::cli {
 
-/// Serves ROS 2 messages to Foxglove, Lichtblick and others with their WebSocket protocol
-/// (protocol.hpp), on a thread of its own. A client that has not taken a channel's last message
-/// misses the next: at most one message per channel waits for a slow client, which delays nobody.
+/// Serves ROS 2 messages to Foxglove, Lichtblick and others by their WebSocket protocol
+/// (protocol.hpp), on a thread of its own. At most one message per channel waits for a slow client;
+/// a client that has not taken it misses the next ones, and delays nobody.
 ///
-/// Input is bounded by HttpBounds, by texts of 16 KiB and by one subscription per channel. For a
-/// client that stops reading, one message per channel is held until it is disconnected. Host and
+/// Input is bounded by HttpBounds, by texts of 16 KiB and by one subscription per channel. Host and
 /// Origin of a request are checked; there is neither encryption nor a password.
 class FoxgloveServer {
  public:

@@ -16,7 +16,8 @@
 
 namespace terracut::cli {
 
-/// Limits how fast a client is read and notes since when it takes nothing; a RatePolicy of Beast.
+/// Limits how fast a client's data is read, and notes since when the client takes no data; a
+/// RatePolicy of Beast.
 class HttpPace {
  public:
   using Clock = std::chrono::steady_clock;
@@ -24,7 +25,8 @@ class HttpPace {
   explicit HttpPace(std::size_t read_bytes_a_second) noexcept
       : read_limit_(read_bytes_a_second), readable_(read_bytes_a_second) {}
 
-  /// Returns since when the present write has not progressed; nothing if no write is under way.
+  /// Returns the time since which the present write has not progressed; nothing if no write is
+  /// under way.
   [[nodiscard]] std::optional<Clock::time_point> stands_since() const noexcept {
     return stands_since_;
   }
@@ -50,7 +52,7 @@ using HttpStream =
     boost::beast::basic_stream<boost::asio::ip::tcp, boost::asio::ip::tcp::socket::executor_type,
                                HttpPace>;
 
-/// A connection and the request read from it, for the connection's new owner.
+/// A connection with the request read from it, to be taken over by a guest.
 struct HttpConnection {
   HttpStream stream;
   boost::beast::http::request<boost::beast::http::string_body> request;

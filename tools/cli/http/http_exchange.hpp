@@ -29,7 +29,7 @@ struct HttpAnswer {
   std::string_view type = "text/plain; charset=utf-8";
 };
 
-/// Makes a guest from a connection, which then stays open after the request.
+/// Makes a guest of a connection, which then stays open after the request.
 using HttpTakeover = std::function<std::shared_ptr<HttpGuest>(HttpConnection&&)>;
 using HttpReply = std::variant<HttpAnswer, HttpTakeover>;
 /// Answers a request on the server's thread. If it throws, only this client gets no answer.

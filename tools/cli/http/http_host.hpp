@@ -11,8 +11,8 @@ namespace terracut::cli {
 
 /// True if a request's Host header names this machine in a way that no foreign web page can: by a
 /// numeric address, as localhost, or as `own_name`, with or without a port. A foreign page whose
-/// name was made to lead here (DNS rebinding) sends its own name. An empty header is accepted,
-/// because browsers always send one.
+/// name was made to lead here (DNS rebinding) sends its own name. An empty header is accepted:
+/// browsers always send one.
 [[nodiscard]] bool names_this_machine(std::string_view host_header, std::string_view own_name);
 
 /// Returns the system's host name; empty if unknown.
@@ -23,12 +23,12 @@ namespace terracut::cli {
 [[nodiscard]] bool is_own_origin(std::string_view origin, std::string_view host);
 
 /// True if a page of another server made the browser send the request. A followed link does not
-/// count, as it shows a page of this server.
+/// count, because it shows a page of this server.
 [[nodiscard]] bool is_asked_by_foreign_page(const HttpRequest& request);
 
-/// True for this server's own page, or a program without pages. Browsers name a request's source
-/// only to trusted addresses, and not every request has an Origin; but no foreign page can send the
-/// header X-Terracut-Page.
+/// True if the request comes from this server's own page, or from a program without pages. Browsers
+/// state a request's source only to trusted addresses, and not every request has an Origin; but no
+/// foreign page can send the header X-Terracut-Page.
 [[nodiscard]] bool is_asked_by_own_page_or_program(const HttpRequest& request);
 
 }  // namespace terracut::cli

@@ -31,7 +31,7 @@ using Clock = HttpPace::Clock;
 
 constexpr std::chrono::milliseconds kRound{100};
 constexpr int kBacklog = 64;
-/// The connections allowed in this many seconds may also come all at once.
+/// The connections allowed in this many seconds may all come at once.
 constexpr int kBurst_s = 1;
 
 std::string_view field(const http::fields& fields, std::string_view name) {
@@ -40,7 +40,7 @@ std::string_view field(const http::fields& fields, std::string_view name) {
   return {found->value().data(), found->value().size()};
 }
 
-/// Headers that decide about a request, so each may occur only once.
+/// Headers on which the check of a request depends, so each may occur only once.
 constexpr std::array<std::string_view, 5> kSaidOnce{"Host", "Origin", "Sec-Fetch-Site",
                                                     "Sec-Fetch-Mode", "X-Terracut-Page"};
 
@@ -74,7 +74,7 @@ struct Shared {
   std::vector<std::weak_ptr<HttpGuest>> guests{};
 };
 
-/// A connection from its first byte to its answer.
+/// Handles a connection from its first byte to its answer.
 class Visit : public std::enable_shared_from_this<Visit> {
  public:
   Visit(tcp::socket socket, Shared& shared)
@@ -115,7 +115,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
     if (error == http::error::header_limit || error == http::error::buffer_overflow) {
       return answer(http_refusal(431, "the headers are too long"));
     }
-    // A client that sends nothing only checked whether somebody listens.
+    // A client that sends nothing only wanted to know whether somebody listens.
     if (error == http::error::end_of_stream) is_accounted_ = true;
     if (error.category() == make_error_code(http::error::bad_method).category() &&
         error != http::error::end_of_stream && error != http::error::partial_message) {
@@ -156,7 +156,7 @@ class Visit : public std::enable_shared_from_this<Visit> {
 
   void answer(HttpAnswer answer) {
     is_accounted_ = true;
-    // A 404 is no refusal: browsers ask by themselves for files that may be missing.
+    // A 404 does not count as a refusal: browsers ask by themselves for files that may be missing.
     if (answer.status >= 400 && answer.status != 404) ++shared_.figures.refused;
     response_.result(static_cast<unsigned>(answer.status));
     response_.version(11);
@@ -176,8 +176,8 @@ class Visit : public std::enable_shared_from_this<Visit> {
                       });
   }
 
-  /// Reads what is left of the request: closing at once could discard the answer before the client
-  /// reads it.
+  /// Reads the rest of the request: closing at once could discard the answer before the client has
+  /// read it.
   void take_leave() {
     error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
@@ -242,7 +242,7 @@ struct HttpServer::State {
 
   void work_round() {
     const auto now = Clock::now();
-    // An exception may have ended a round early, so this check keeps the rounds apart.
+    // After an exception the loop begins anew, so this check keeps rounds from following too soon.
     if (now - last_round < kRound / 2) return;
     last_round = now;
     const HttpBounds& bounds = shared.config.bounds;
@@ -266,8 +266,8 @@ struct HttpServer::State {
     }
   }
 
-  /// Accepts connections. Waits for the next round if no more are allowed, or if accepting fails:
-  /// the pending connection would otherwise keep this thread busy.
+  /// Accepts connections. If no more are allowed, or accepting fails, waits for the next round: the
+  /// pending connection would keep this thread busy.
   void accept() {
     if (is_accepting || admissions == 0) return;
     acceptor.async_accept([this](error_code error, tcp::socket socket) {

@@ -18,14 +18,14 @@ namespace terracut::cli {
 
 /// Limits of what all clients of a server together may use.
 struct HttpBounds {
-  /// Most unanswered connections at once. One more connection ends the oldest: clients that send a
-  /// request are answered before that, so only silent ones make room.
+  /// The most unanswered connections at once. One more ends the oldest. Clients that send a request
+  /// are answered before that happens, so only silent ones are ended.
   std::size_t visits = 32;
   /// Longest time from a client's connecting to its having received the answer.
   std::chrono::milliseconds visit_time{5'000};
   /// Most lasting connections at once: streams of frames and viewers.
   std::size_t guests = 8;
-  /// A guest that takes nothing for this long while something is written to it is disconnected.
+  /// A guest that takes no data for this long while something is written to it is disconnected.
   std::chrono::milliseconds stall_time{10'000};
   /// Most new connections per second; others wait in the system's queue of 64 or beyond it.
   int connections_a_second = 250;
@@ -40,8 +40,9 @@ struct HttpBounds {
 ///
 /// Clients use no more than HttpBounds, whatever they send: a request has headers of at most 8 KiB
 /// and a body of at most 4 KiB with a stated length. Requests for another machine's name
-/// (http_host.hpp) get 403; a repeated header that decides something (Host, Origin and the like)
-/// gets 400. An exception on the thread (no memory, say) costs only the connection being served.
+/// (http_host.hpp) get 403; a repeated header on which a check depends (Host, Origin and the like)
+/// gets 400. An exception on the thread (such as lack of memory) costs only the connection being
+/// served.
 class HttpServer {
  public:
   struct Config {
@@ -70,7 +71,7 @@ class HttpServer {
   [[nodiscard]] std::uint16_t port() const noexcept;
   [[nodiscard]] const Figures& figures() const noexcept;
 
-  // For any thread; the work is done on the server's thread, soon and in order.
+  // For any thread; the server's thread does the work soon, and in order.
 
   void post(std::function<void()> work);
   void for_each_guest(std::function<void(HttpGuest&)> work);

@@ -42,7 +42,8 @@ Expected<cloud::SensorRows> learn_rows(CloudReader& clouds) {
       cloud::find_sensor_pose(clouds.size(), [&](std::size_t index) { return clouds.read(index); });
   if (!pose) return rows;
   clouds.take_sensor_at(*pose);
-  // Of two sensors in one cloud, one may have the cones.
+  // If points lie farther than this from the cones, the cloud may be of two sensors, and only one
+  // has these cones.
   constexpr double kOfOneSensor_m = 0.4;
   if (auto by_pose = learn();
       is_beyond_doubt(by_pose) && by_pose->rings.residual.p95_m < kOfOneSensor_m) {

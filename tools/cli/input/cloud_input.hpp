@@ -29,9 +29,9 @@ class CloudReader {
   [[nodiscard]] std::size_t size() const { return files_.size(); }
   [[nodiscard]] const scan::ScanFile& file(std::size_t index) const { return files_[index]; }
 
-  /// Sets where the sensor stands relative to the points of clouds that are read from now on.
+  /// Sets the sensor's position among the points of the clouds read from now on.
   void take_sensor_at(cloud::SensorPlace place);
-  /// Sets the transform from the sensor frame to that of the points.
+  /// Sets the transform from the sensor frame to the frame of the points.
   void take_sensor_at(const mount::RigidTransform& T_points_sensor);
   /// True if a file read so far states a VIEWPOINT.
   [[nodiscard]] bool has_viewpoint() const { return has_viewpoint_; }
@@ -57,12 +57,12 @@ class CloudReader {
 /// Tells clouds from captures by name: true for a folder or a file with a cloud's name.
 [[nodiscard]] bool holds_clouds(const std::filesystem::path& input);
 
-/// Returns how the clouds tell their lasers apart, and the lasers' elevations: those of
-/// `calibration`, whose unit's scans are in KITTI's order, or, if it is empty, learnt from the
-/// clouds. Prints the result, with a warning if it is doubtful (cloud::doubt_of()). If the points
-/// fit only, or better, with the files' VIEWPOINT as the sensor's place, or else with one that the
-/// cones of its lasers show (cloud::find_sensor_pose()), that place is used from then on. Errors
-/// name the file or the folder.
+/// Returns how the clouds tell their lasers apart, and the lasers' elevations. With a
+/// `calibration`, both are that unit's, and the scans must be in KITTI's order; otherwise they are
+/// learnt from the clouds. Prints the result, with a warning if it is doubtful (cloud::doubt_of()).
+/// If the points fit only, or better, with the files' VIEWPOINT as the sensor's position, or with
+/// one that the cones of the lasers show (cloud::find_sensor_pose()), that position is used from
+/// then on. Errors name the file or the folder.
 [[nodiscard]] Expected<cloud::SensorRows> rows_of(CloudReader& clouds,
                                                   const std::filesystem::path& calibration);
 

@@ -9,7 +9,7 @@
 
 namespace terracut::cli {
 
-/// Compares an RS-Ruby128's clock with the capture's clock, for a message at the end of a run.
+/// Compares an RS-Ruby128's clock with the clock of the capture, for a message at the end of a run.
 class DeviceClock {
  public:
   /// `offset_s` is added to the device's stamps (--clock-offset).
@@ -29,7 +29,8 @@ class DeviceClock {
   [[nodiscard]] bool noted() const noexcept { return noted_; }
   /// Returns "UTC seconds and microseconds (proven), 0.3 ms behind the capture".
   [[nodiscard]] std::string text() const;
-  /// Returns what to do about a clock that is 37 s off, as sensors under PTP may be; else empty.
+  /// Returns advice if the clock is 37 s off, as those of sensors under PTP may be; else an empty
+  /// text.
   [[nodiscard]] std::string warning() const;
 
  private:

@@ -7,9 +7,9 @@
 
 namespace terracut::cli {
 
-/// Checks that the files of a live run can be read before it waits for its sensor: calibration,
-/// setup and DBC file. If the model is unknown, one model must accept the calibration. Errors name
-/// the file.
+/// Checks that the files of a live run (calibration, setup, DBC file) can be read, before it waits
+/// for its sensor. If the model is unknown, the calibration must fit some model. Errors name the
+/// file.
 [[nodiscard]] Status check_inputs(const Options& options);
 
 }  // namespace terracut::cli

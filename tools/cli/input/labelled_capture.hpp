@@ -24,34 +24,34 @@
 
 namespace terracut::cli {
 
-/// Labels a capture on one thread, a frame at a time. It holds the source, the vehicle's motion,
-/// decoder and method by the options, the mount (found unless stated), and the report.
+/// Labels a capture on one thread, frame by frame. Made from the options, it holds the source, the
+/// vehicle's motion, decoder and method, the mount (found unless stated), and the report.
 class LabelledCapture {
  public:
-  /// Finds sensor, calibration and mount, for which the capture's beginning is read. Fails with the
-  /// errors of open_capture(), choose_mount(), ring_profile_of() and RecordedMotion::open().
+  /// Opens the capture and reads its beginning to find sensor, calibration and mount. Fails with
+  /// the errors of open_capture(), choose_mount(), ring_profile_of() and RecordedMotion::open().
   [[nodiscard]] static Expected<std::unique_ptr<LabelledCapture>> open(const Options& options,
                                                                        FramesAreFor purpose);
   LabelledCapture(const LabelledCapture&) = delete;
   LabelledCapture& operator=(const LabelledCapture&) = delete;
 
-  /// Returns the next labelled frame, valid until the next call; null at the end, where the capture
-  /// breaks off (as report().input_warning then says), and when stop_wanted().
+  /// Returns the next labelled frame, valid until the next call. Returns null at the end, when
+  /// stop_wanted(), and where the capture breaks off (report().input_warning then says so).
   [[nodiscard]] const run::Frame* next();
   /// Returns the labels of the frame returned last, by return index.
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
     return pipeline_->labels();
   }
-  /// Returns when the returns of `frame` were measured.
+  /// Returns the measuring times of the returns of `frame`.
   [[nodiscard]] points::FrameTiming timing(const run::Frame& frame) const noexcept {
     return points::FrameTiming::of(frame.record.info, decoder().beam_turns());
   }
 
-  /// Goes back to the beginning, or to `start_s` seconds after it, where the first frame lacks its
-  /// earlier packets. Fails with the errors of the sources.
+  /// Goes back to the beginning, or to `start_s` seconds after it, where the first frame is cut off
+  /// at its beginning. Fails with the errors of the sources.
   [[nodiscard]] Status rewind(std::optional<double> start_s = {});
-  /// Sets a function that is called with the stamp of each datagram before it is decoded, so that
-  /// it can wait.
+  /// Sets a function that is called with the stamp of each datagram before it is decoded; it may
+  /// wait.
   void before_each(std::function<void(std::int64_t stamp_ns)> wait) { wait_ = std::move(wait); }
 
   /// Ends the run after the last frame: completes the report and prints warnings. Fails with
@@ -60,9 +60,10 @@ class LabelledCapture {
   [[nodiscard]] Report& report() noexcept { return report_; }
   /// Returns the number of datagrams given to the decoder.
   [[nodiscard]] std::uint64_t offered() const noexcept { return offered_; }
-  /// Returns what became of all datagrams read in all passes; complete once next() returned null.
+  /// Returns the number of datagrams read in all passes by what became of them; complete once
+  /// next() has returned null.
   [[nodiscard]] capture::CaptureAccount account() const;
-  /// Returns the running time of the capture at a stamp near that of the newest datagram.
+  /// Returns the running time of the capture for a stamp near that of the newest datagram.
   [[nodiscard]] std::int64_t since_begin_ns(std::int64_t stamp_ns) const noexcept {
     return part_->clock().since_begin_ns(stamp_ns);
   }
@@ -94,9 +95,10 @@ class LabelledCapture {
   std::optional<MountWatch> mount_;
   Report report_;
   std::function<void(std::int64_t)> wait_;
-  const packet::Datagram* pushed_ = nullptr;  ///< The datagram whose frames are being handed out.
+  /// The datagram that completed the frames being handed out.
+  const packet::Datagram* pushed_ = nullptr;
   std::uint64_t offered_ = 0;
-  capture::CaptureAccount account_;  ///< Kept counts of earlier passes.
+  capture::CaptureAccount account_;  ///< The counts of earlier passes.
   bool gives_frames_ = false;        ///< True if the last datagram may give more frames.
   bool ended_ = false;
   bool warned_of_part_ = false;

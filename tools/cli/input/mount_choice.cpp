@@ -21,7 +21,7 @@ constexpr const char* kHowToState =
     "state how the sensor stands (--mount-height, --mount-roll, --mount-pitch; --setup with what "
     "`terracut calibrate` measured where more of the ground is seen)";
 
-/// One figure of the mount: where the user states it (metres or degrees), and where it is found.
+/// A figure of the mount: its member among the options (metres or degrees), and in a Mount.
 struct MountFigure {
   std::optional<double> MountOptions::* stated;
   double Mount::* found;
@@ -46,8 +46,8 @@ bool is_certain(const FoundMount& found, const MountFigure& figure) {
   return alone.is_certain();
 }
 
-/// Returns a mount of stated figures, of those figures of `found` that are certain by themselves,
-/// and of default figures.
+/// Returns a mount of the stated figures, those figures of `found` that are certain by themselves,
+/// and default figures.
 MountChoice guessed(const MountOptions& stated, const std::optional<FoundMount>& found) {
   MountChoice choice{.options = stated, .is_guess = true};
   for (const MountFigure& figure : kMountFigures) {

@@ -11,7 +11,7 @@
 
 namespace terracut::cli {
 
-/// True if any figure of the mount is not stated and must be found.
+/// True if a figure of the mount is not stated, so that it must be found.
 [[nodiscard]] bool is_mount_open(const MountOptions& stated) noexcept;
 
 /// The mount of a run.
@@ -23,20 +23,20 @@ struct MountChoice {
   bool is_guess = false;  ///< True if the ground did not show the figures that were not stated.
 };
 
-/// Returns the stated figures, with those not stated taken from the mount found.
+/// Returns the stated figures, completed by those of the mount found.
 [[nodiscard]] MountChoice filled_in(const MountOptions& stated, const mount::FoundMount& found);
 
 /// Takes figures that were not stated from `finder`, and prints them. If they are too uncertain for
-/// labels, fails with kMountNotFound. With MountOptions::may_guess it warns instead, and figures
-/// that are too uncertain become those of a level mount at 1.73 m.
+/// labels, fails with kMountNotFound; with MountOptions::may_guess, warns instead and uses those of
+/// a level mount at 1.73 m.
 [[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
                                                  const mount::MountFinder& finder);
-/// If a figure is not stated, finds the mount in frames of the recording. May also fail with the
-/// errors of each_frame().
+/// Finds the figures that are not stated from frames of the recording. Fails as the function above
+/// does, and with the errors of each_frame().
 [[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
                                                  RecordedFrames& frames);
 
-/// Returns `stated` with guessing allowed, for a command whose labels nobody relies on or that
+/// Returns `stated` with guessing allowed, for commands whose labels nobody relies on, or that
 /// cannot wait.
 [[nodiscard]] MountOptions guessing(MountOptions stated);
 

@@ -40,7 +40,7 @@ std::string describe(const calib::SensorCalibration& calibration) {
   return text;
 }
 
-/// Opens one unit only: packets of another would get into the same frames.
+/// Opens the datagrams of one unit only: those of another would get into the same frames.
 Expected<PcapSource> open_unit(const CaptureOptions& options, const streams::SensorStream& unit) {
   capture::PcapFilter its_own = filter_of(options);
   its_own.source_address = unit.source_address;
@@ -50,7 +50,8 @@ Expected<PcapSource> open_unit(const CaptureOptions& options, const streams::Sen
   return PcapSource::open(options.file, std::move(its_own));
 }
 
-/// Calls sensor::unit_calibration(), and if the packets hold none, uses a file beside the capture.
+/// Calls sensor::unit_calibration(). If the packets hold no calibration, uses a file beside the
+/// capture.
 Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
                                                   sensor::SensorModel model, PcapSource& unit) {
   sensor::CalibrationChoice choice{.file = options.calibration};
@@ -111,7 +112,7 @@ void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounte
                     "out; `terracut info` lists who sends, --from chooses",
                     others, unit));
   }
-  // Options that choose a part of the source's data leave out other datagrams on purpose.
+  // Some options leave out datagrams on purpose.
   const bool is_asked_for = options.from.find(':') != std::string::npos || !options.to.empty() ||
                             !options.vlan.empty() || !options.mac.empty();
   if (const std::uint64_t others = pass.other_stream; others > 0 && !is_asked_for) {

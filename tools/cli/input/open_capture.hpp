@@ -37,13 +37,13 @@ void say_what_is_read(const OpenCapture& capture);
                                                        const CaptureOptions& options);
 
 /// Reports how many datagrams of a pass were left out because of their sender or destination,
-/// unless an option asked for that.
+/// except if an option asked for that.
 void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounters& pass,
                            const CaptureOptions& options);
 
 /// The datagrams of a capture between --start and --duration, by the capture's running time
 /// (CaptureClock). Without these options all datagrams belong to the part, whatever their stamps.
-/// Datagrams outside are counted, but reading stops soon after the part's end.
+/// Datagrams outside the part are counted; reading stops soon after its end.
 class CapturePart {
  public:
   /// Reads `source`, which must be at its beginning and outlive this object.
@@ -64,7 +64,8 @@ class CapturePart {
   void warn_of_oddities() const;
 
  private:
-  /// The part has ended after this many successive datagrams beyond it: a few may have odd stamps.
+  /// The part ends only after this many successive datagrams beyond it, because a few may have odd
+  /// stamps.
   static constexpr int kSurelyPast_packets = 32;
 
   [[nodiscard]] bool is_inside(std::int64_t since_begin_ns) noexcept;
@@ -80,8 +81,8 @@ class CapturePart {
   bool stopped_ = false;
 };
 
-/// Returns kNothingCameOut for a part of `source` that gave no frame, naming the checks that its
-/// packets failed. `offered` is the number of datagrams given to the decoder.
+/// Returns kNothingCameOut for a part of `source` without a frame; the message names the checks
+/// that its packets failed. `offered` is the number of datagrams given to the decoder.
 [[nodiscard]] Error nothing_came_out(const capture::PcapSource& source, const CapturePart& part,
                                      std::uint64_t offered, const decode::Decoder& decoder);
 

@@ -17,7 +17,7 @@
 
 namespace terracut::cli {
 
-/// The frames of any recording, for work that examines frames before the run.
+/// The frames of a recording, for work that looks at frames before the run.
 class RecordedFrames {
  public:
   RecordedFrames() = default;
@@ -33,7 +33,7 @@ class RecordedFrames {
                                           const OnFrame& on_frame) = 0;
   [[nodiscard]] virtual mount::RingProfile ring_profile(const mount::Mount& mount) const = 0;
 
-  /// Shows `finder` the near ground of at most `most` frames. Fails as each_frame() does.
+  /// Gives `finder` the near ground of at most `most` frames. Fails as each_frame() does.
   [[nodiscard]] virtual Status look_for_mount(std::size_t most, mount::MountFinder& finder);
 };
 
@@ -48,8 +48,9 @@ class CaptureFrames : public RecordedFrames {
   [[nodiscard]] Status each_frame(const mount::Mount& mount, std::size_t most,
                                   const OnFrame& on_frame) override;
   [[nodiscard]] mount::RingProfile ring_profile(const mount::Mount& mount) const override;
-  /// First uses the objects that label the capture, so that it takes no more memory than the run.
-  /// Only a sensor that is not upright needs frames with points, which are three times as large.
+  /// Tries first with the objects that label the capture, so that it takes no more memory than the
+  /// run. Only a sensor that is not upright needs frames with points, which are three times as
+  /// large.
   [[nodiscard]] Status look_for_mount(std::size_t most, mount::MountFinder& finder) override;
 
   /// Returns the counters of the last pass.
@@ -59,8 +60,8 @@ class CaptureFrames : public RecordedFrames {
 
  private:
   [[nodiscard]] Status look_for_standing_mount(std::size_t most, mount::MountFinder& finder);
-  /// Pushes the capture's datagrams into `frames`, a Decoder or the like, until `take` has had the
-  /// wanted number of frames.
+  /// Pushes the capture's datagrams into `frames`, such as a Decoder, until `take` has had `most`
+  /// frames.
   template <class Frames, class Take>
   Status pass(Frames& frames, std::size_t most, Take take);
 
@@ -70,8 +71,8 @@ class CaptureFrames : public RecordedFrames {
   std::string fault_;
 };
 
-/// Evenly spaced clouds of a folder. Skips clouds that cannot be read or have no point with a valid
-/// position because the sensor is covered.
+/// Evenly spaced clouds of a folder. Leaves out clouds that cannot be read, and clouds without a
+/// valid position, as of a covered sensor.
 class CloudFrames : public RecordedFrames {
  public:
   /// Both arguments must outlive this object.

@@ -13,11 +13,11 @@
 namespace terracut::cli {
 namespace {
 
-/// If the stamps of one recording step back, those of the other belong to the same step if they
-/// step back at most this much later.
+/// If the stamps of one recording step back, the other may step back up to this much later: then
+/// both show the same step of the clock.
 constexpr std::int64_t kTogether_ns = 1'000'000'000;
 
-/// Checks that the recording has a frame with one of the signals; says why not.
+/// Fails if no frame of the recording has any of the signals; the message says what was found.
 Status find_signals(const std::filesystem::path& path, std::span<const can::CanId> ids) {
   auto recording = can::CanRecording::open(path);
   if (!recording) return tl::unexpected(recording.error());
@@ -90,7 +90,7 @@ void RecordedMotion::hear_until(std::int64_t stamp_ns) {
   packets_.note(stamp_ns);
   for (; next_ && next_is_due(); read_on()) {
     if (const auto sample = signals_.take(*next_)) (void)motion_->add(*sample);
-    motion_->take_new();  // writer and reader are one thread here, so nothing ever waits
+    motion_->take_new();  // reader and writer are one thread here, so the queue never fills
   }
 }
 

@@ -21,10 +21,10 @@ namespace terracut::cli {
 /// Reads the vehicle's motion from a recording of its CAN bus along with the packets of a capture,
 /// as if live: by their stamps, on one clock.
 ///
-/// If that clock was set back, both recordings step back at one time. The first recording to do so
-/// waits for the other, so that frames and packets from before the step stay together, as do those
-/// from after it; but it waits at most for a second of stamps, because only one clock may have
-/// stepped. One thread.
+/// If that clock was set back, the stamps of both recordings step back. The recording that does so
+/// first waits for the other, so that frames and packets from before the step stay together, as do
+/// those from after it. It waits at most for a second of stamps, because maybe only one of the
+/// recordings steps back. One thread.
 class RecordedMotion {
  public:
   /// Opens the recording. Fails with the errors of CanRecording::open() and motion_signals_of(), or
@@ -40,15 +40,16 @@ class RecordedMotion {
 
   [[nodiscard]] vehicle::EgoMotion& motion() noexcept { return *motion_; }
   [[nodiscard]] std::uint64_t samples() const noexcept { return motion_->counters().accepted; }
-  /// Lists what in the recording was not understood, one line per kind; empty if there is nothing.
+  /// Lists the parts of the recording that were not understood, one line per kind; empty if there
+  /// are none.
   [[nodiscard]] std::string warnings() const;
 
  private:
   RecordedMotion(std::filesystem::path path, can::CanRecording recording,
                  vehicle::MotionSignals signals, const vehicle::EgoMotion::Config& config,
                  memory::FixedMemory& memory);
-  /// For one of the two recordings: how often its stamps stepped back, and the stamp from which
-  /// they last did.
+  /// How often the stamps of one of the two recordings stepped back; its newest stamp, and the one
+  /// before the last step.
   struct Steps {
     std::uint64_t count = 0;
     std::int64_t newest_ns = kNone, left_off_ns = kNone;

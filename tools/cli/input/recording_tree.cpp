@@ -22,12 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders that file servers and desktops keep for themselves: thumbnails, trash, snapshots.
+/// Folders that file servers and desktops keep for their own use: thumbnails, trash, snapshots.
 constexpr std::array kOthersFolders{"@eaDir",       "@Recycle",   "@Recently-Snapshot",
                                     "#recycle",     "#snapshot",  "System Volume Information",
                                     "$RECYCLE.BIN", "lost+found", "__MACOSX"};
 
-/// Endings of files that are not opened. Millions of them may lie beside recordings.
+/// Files with these endings are not opened: millions of them may lie beside recordings.
 constexpr std::array kNoRecordings{".label", ".txt", ".json", ".yaml", ".yml", ".xml",
                                    ".csv",   ".md",  ".log",  ".dbc",  ".png", ".jpg",
                                    ".jpeg",  ".svg", ".html", ".py",   ".sh",  ".parquet"};
@@ -66,7 +66,7 @@ class TreeSearch {
 
  private:
   bool is_first_visit(const fs::path& folder) {
-    struct stat status {};
+    struct stat status{};
     if (::stat(folder.c_str(), &status) != 0) return true;  // listing the folder reports the reason
     return visited_.emplace(status.st_dev, status.st_ino).second;
   }

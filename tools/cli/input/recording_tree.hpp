@@ -11,7 +11,7 @@
 
 namespace terracut::cli {
 
-/// A path that looks like a recording, or might hold recordings, but is not to be labelled.
+/// A path that looks like a recording, or might contain some, but is not to be labelled.
 struct LeftOut {
   std::filesystem::path path;
   std::string why;  ///< Reason and remedy; same text for all of a kind.

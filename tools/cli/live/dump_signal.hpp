@@ -6,11 +6,11 @@
 
 namespace terracut::cli {
 
-/// Takes SIGUSR1, which asks a running process for a dump, without a handler: the signal is blocked
-/// and read from a descriptor, so it interrupts no thread and no system call.
+/// Receives SIGUSR1, which asks a running process for a dump, without a handler: the signal is
+/// blocked and read from a descriptor, so it interrupts no thread and no system call.
 ///
-/// Construct it in main() before any other thread starts: threads inherit the block, and a thread
-/// without the block would let the signal end the process.
+/// Construct it in main() before any other thread starts: threads inherit the block, and in a
+/// thread without it the signal would end the process.
 class DumpSignal {
  public:
   /// Throws std::system_error if the system has no descriptor left.

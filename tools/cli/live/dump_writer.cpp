@@ -20,7 +20,7 @@ using recorder::DumpReason;
 
 namespace {
 
-/// The encoder traits of the sensor that has this type of calibration.
+/// The encoder traits of the sensor whose calibration has this type.
 template <class Calibration>
 using EncoderTraitsOf =
     std::conditional_t<std::is_same_v<Calibration, hdl64e::Hdl64eCalibration>,
@@ -85,7 +85,7 @@ void DumpWriter::add_table(recorder::DumpReport& dump) const {
   const Status written = std::visit(
       [&]<class Calibration>(const Calibration& unit) -> Status {
         if constexpr (std::is_same_v<Calibration, velodyne::VelodyneCalibration>) {
-          return {};  // the table is built in
+          return {};  // nothing to write: the table is built in
         } else {
           using EncoderTraits = EncoderTraitsOf<Calibration>;
           dump.calibration =

@@ -20,7 +20,7 @@
 
 namespace terracut::cli {
 
-/// Returns the folder and limits for a run's dumps, which bear the run's name.
+/// Returns folder and limits for a run's dumps, whose names begin with the run's name.
 [[nodiscard]] recorder::DumpFolderLimits dump_folder_of(const Options& options);
 
 /// Writes the flight recorder's dumps on a thread of its own, so that no other thread waits for the
@@ -34,7 +34,7 @@ class DumpWriter {
              DumpAnswers& answers);
   ~DumpWriter() { begin_to_finish(); }
 
-  /// Requests a dump; `frames` are the times of the newest frames.
+  /// Requests a dump; `frames` are the records of the newest frames, for their times.
   void want(recorder::DumpReason reason, std::vector<status::FrameRecord> frames);
 
   /// False if the disk does not answer; the process must then end without destroying this object.

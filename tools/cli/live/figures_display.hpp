@@ -19,7 +19,8 @@ namespace terracut::cli {
 /// waits for its sensor is visible too. One thread; touches no disk.
 class FiguresDisplay {
  public:
-  /// Warns of an output that cannot be opened and tries it again; the run goes on without it.
+  /// Opens the outputs. Warns of one that cannot be opened and tries it again; the run goes on
+  /// without it.
   explicit FiguresDisplay(const WatchOptions& options);
 
   void show(const status::MonitorSnapshot& figures);

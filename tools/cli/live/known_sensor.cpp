@@ -23,7 +23,7 @@ namespace {
 std::filesystem::path folder() {
   const char* const of_service = std::getenv("STATE_DIRECTORY");
   const std::string_view folders = of_service == nullptr ? "" : of_service;
-  // A systemd unit may have several folders; the first one is used.
+  // $STATE_DIRECTORY of a systemd unit may list several folders; the first one is used.
   return folders.empty() ? page::status_page_folder() : folders.substr(0, folders.find(':'));
 }
 

@@ -9,11 +9,11 @@
 
 namespace terracut::cli {
 
-/// Remembers the sensor that runs of a name heard last, so that another sensor at the port does not
-/// keep the next run from starting. The file NAME.terracut-sensor has the sensor's numeric address
-/// and lies in the state folder of the systemd service ($STATE_DIRECTORY), which survives a restart
-/// of the machine, otherwise beside the status page, which does not. Files that others could have
-/// written are ignored (files::check_trusted).
+/// Remembers the sensor that the last run of a name heard, so that another sensor at the port does
+/// not keep the next run from starting. The file NAME.terracut-sensor has the sensor's numeric
+/// address. It lies in the state folder of the systemd service ($STATE_DIRECTORY), which survives a
+/// restart of the machine; without a service, beside the status page, which does not. Files that
+/// others could have written are ignored (files::check_trusted).
 class KnownSensor {
  public:
   explicit KnownSensor(std::string name);

@@ -31,7 +31,7 @@ class LabelWriter {
   /// Writes the remaining frames; call it after LiveThreads::stop(). Returns false if the disk does
   /// not answer; the process must then end without destroying this object.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
-  /// Returns the error of the first file that could not be written, after finish().
+  /// Returns, after finish(), the error of the first file that could not be written.
   [[nodiscard]] const Status& outcome() const noexcept { return outcome_; }
 
  private:

@@ -15,7 +15,7 @@
 namespace terracut::cli {
 namespace {
 
-/// Opens the device port shared, so that other listeners keep receiving.
+/// Opens the device port so that other programs that share it keep receiving.
 std::optional<net::LiveSource> open_device_port(const Options& options,
                                                 memory::FixedMemory& memory) {
   net::ListenConfig listen = listen_config_of(options);

@@ -69,7 +69,7 @@ std::string describe(const streams::SensorOnAir& sensor) {
                      sensor.dual_return ? "dual" : "single");
 }
 
-/// Returns the answer to dump requests when no packets are kept.
+/// Returns the answer to requests for a dump in a run that keeps no packets.
 recorder::RefusedDump nothing_to_dump(const Options& options) {
   if (keeps_packets(options)) {
     return {recorder::DumpRefusal::kNothingHeld,
@@ -109,8 +109,8 @@ class Waiting {
     show(what);
     service_.work_round(*figures_, measure::monotonic_ns());
     if (dump_wanted_.take()) refuse_dump(options_, answers_);
-    // A short wait is not printed, and text is not repeated too often: counts in it change all the
-    // time.
+    // A short wait is not printed, and text is not repeated too often, as counts in it change all
+    // the time.
     const std::int64_t now_ns = measure::monotonic_ns();
     if (now_ns < say_at_ns_ || what == said_) return;
     say(what + " (Ctrl-C ends it)");
@@ -184,10 +184,10 @@ live::LiveConfig live_config_of(const Options& options, const streams::SensorOnA
 /// The outputs of a run, on threads that no other thread waits for.
 class Writers {
  public:
-  /// `answers` tells those who asked for a dump what became of it.
+  /// `answers` publishes the outcomes of dumps for those who asked for one.
   explicit Writers(DumpAnswers& answers) noexcept : answers_(answers) {}
 
-  /// Opens the outputs. Those that fail are tried again as long as the run goes on.
+  /// Opens the outputs. An output that fails is tried again as long as the run goes on.
   void open(const Options& options, const streams::SensorOnAir& sensor, const mount::Mount& mount,
             live::LiveParts& parts) {
     const auto deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6);
@@ -259,7 +259,8 @@ class Writers {
   }
 
   DumpAnswers& answers_;
-  /// Used by the outlet's thread; not locked, as no thread with a deadline touches it.
+  /// Used only by the outlet's thread, so it is not locked into memory: that thread has no
+  /// deadline.
   memory::FixedMemory stream_memory_;
   std::optional<publish::Publisher> publisher_;
   std::optional<live::FrameOutlet> outlet_;
@@ -341,7 +342,7 @@ ExitCode run_live(const Options& options) {
   const auto profile = ring_profile_of(sensor->calibration, mount.options);
   if (!profile) return refuse(profile.error());
 
-  // The bus is opened after the wait for the sensor, so that frames received meanwhile do not
+  // Opens the bus only after the wait for the sensor; frames received during the wait would
   // overflow the socket.
   std::optional<VehicleBus> bus;
   if (signals) {
@@ -377,7 +378,7 @@ ExitCode run_live(const Options& options) {
   if (!ran) code = refuse(ran.error());
   if (disk_answers) return writers.wrote_all() ? code : kOutputFailed;
   warn("the disk does not answer: what was not written by now is lost");
-  // Threads that wait for the disk cannot be ended otherwise.
+  // Ends the process at once: threads that wait for the disk cannot be ended otherwise.
   std::_Exit(end_output(kOutputFailed));
 }
 

@@ -10,9 +10,9 @@
 
 namespace terracut::cli {
 
-/// Returns the mount of a sensor on air, with the missing figures estimated from the first frames.
-/// Listens for a second, for ten if frames do not show enough ground (three with --mount-guess), or
-/// until stop_wanted(). Prints the mount, or that the run goes on with a guess.
+/// Returns the mount of a live sensor; figures not stated are estimated from the first frames.
+/// Listens for a second; if its frames do not show enough ground, for up to ten (three with
+/// --mount-guess), or until stop_wanted(). Prints the mount, or that the run goes on with a guess.
 [[nodiscard]] MountChoice mount_on_air(net::LiveSource& source, const streams::SensorOnAir& sensor,
                                        const Options& options, const OnWaiting& on_waiting);
 

@@ -19,12 +19,12 @@ class LiveService {
   [[nodiscard]] static LiveService from_environment();
   explicit LiveService(ServiceNotify notify) noexcept;
 
-  /// Call it once when listening. `now_ns` is measure::monotonic_ns(), here and below.
+  /// Call this once the run is listening. `now_ns` is measure::monotonic_ns(), here and below.
   void ready(const status::MonitorSnapshot& figures, std::int64_t now_ns);
   /// Call it at any rate: it examines the figures four times within the watchdog's time, or every
   /// five seconds without a watchdog.
   void work_round(const status::MonitorSnapshot& figures, std::int64_t now_ns);
-  /// Call it once before the threads end.
+  /// Call this once, before the threads end.
   void stopping() const noexcept { notify_.stopping(); }
 
  private:

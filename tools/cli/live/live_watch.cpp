@@ -23,8 +23,8 @@ void show_thread(status::MonitorSnapshot& figures, std::string_view name,
   shown.major_faults = static_cast<std::uint64_t>(state.major_faults.load());
 }
 
-/// Returns the name for the count of frames that the outlet did not take. It names no loss if only
-/// viewers get frames.
+/// Returns the name under which frames that the outlet did not take are counted. If only viewers
+/// get frames, the name is not that of a loss.
 std::string unpublished_name(const Options& options) {
   const OutputOptions& output = options.output;
   const bool are_kept =

@@ -20,18 +20,18 @@
 
 namespace terracut::cli {
 
-/// Judges the frames of a live run and shows its figures on the display and, briefly, on a CAN bus.
-/// Reports when the sensor falls silent and when it is back. One thread, the main one; touches no
-/// disk.
+/// Judges the frames of a live run and shows its figures on the display and, in short form, on a
+/// CAN bus. Reports when the sensor falls silent and when it is back. One thread, the main one;
+/// touches no disk.
 class LiveWatch {
  public:
   /// All arguments must outlive this object.
   LiveWatch(const Options& options, const mount::Mount& mount, const MountChoice& choice,
             live::LiveParts& parts, FiguresDisplay& display);
 
-  /// Opens health reports on a CAN bus; if that fails it warns, and the run goes on without them.
-  /// Shows the losses of `outlet`, which may be null, and of `publisher`, and hands the figures to
-  /// both every second. Both must outlive this object.
+  /// Opens health reports on a CAN bus; if that fails, warns, and the run goes on without them.
+  /// From now on shows the losses of `outlet`, which may be null, and of `publisher`, and hands the
+  /// figures to both every second. Both must outlive this object.
   void open(const std::string& sensor, const std::string& input, const live::FrameOutlet* outlet,
             publish::Publisher& publisher);
 
@@ -39,7 +39,7 @@ class LiveWatch {
     int frames = 0;  ///< Frames judged.
     int missed = 0;  ///< Judged frames that missed the deadline.
   };
-  /// Processes the results since the last round.
+  /// Processes the results that came since the last round.
   Round work_round();
   /// Notes that the run ended before the requested time.
   void note_interruption() { parts_.monitor.snapshot().interrupted = 1; }

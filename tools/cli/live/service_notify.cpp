@@ -31,15 +31,15 @@ std::optional<std::int64_t> number_in(const char* name) {
 std::optional<std::int64_t> watchdog_of_environment() {
   const std::optional<std::int64_t> time_us = number_in("WATCHDOG_USEC");
   if (!time_us || *time_us <= 0 || *time_us > INT64_MAX / 1000) return std::nullopt;
-  // Child processes inherit these variables, but WATCHDOG_PID names the one process that systemd
-  // watches.
+  // Child processes inherit these variables, but systemd watches only the process named by
+  // WATCHDOG_PID.
   if (!environment("WATCHDOG_PID").empty() && number_in("WATCHDOG_PID") != ::getpid()) {
     return std::nullopt;
   }
   return *time_us * 1000;
 }
 
-/// The text "STATUS=..." on one line, as the protocol requires. A long text is cut.
+/// The text "STATUS=..." as the protocol requires it: on one line. A long text is cut.
 struct StatusLine {
   static constexpr std::string_view kKey = "STATUS=";
   static constexpr std::size_t kMost = 200;
@@ -76,7 +76,7 @@ Expected<ServiceNotify> ServiceNotify::from_environment() {
   std::memcpy(address.sun_path, name.data(), name.size());
   const bool abstract = name.front() == '@';
   if (abstract) address.sun_path[0] = '\0';
-  // The length includes the terminating zero of a path; an abstract name has none.
+  // The length of a path includes its terminating zero; that of an abstract name does not.
   const auto length =
       static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size() + (abstract ? 0 : 1));
   files::OwnedDescriptor socket(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));

@@ -21,10 +21,10 @@ class ServiceNotify {
   [[nodiscard]] static Expected<ServiceNotify> from_environment();
 
   [[nodiscard]] bool connected() const noexcept { return static_cast<bool>(socket_); }
-  /// Returns the time within which the watchdog has to be fed; none without a watchdog.
+  /// Returns the time within which the watchdog must be fed; none without a watchdog.
   [[nodiscard]] std::optional<std::int64_t> watchdog_ns() const noexcept { return watchdog_ns_; }
 
-  /// Reports the end of the start-up: the unit counts as started. `systemctl status` shows
+  /// Reports the end of the start-up: the unit then counts as started. `systemctl status` shows
   /// `status`, cut after 200 bytes. This and the following functions return true if systemd took
   /// the message; a refused message is no reason to stop.
   bool ready(std::string_view status) const noexcept;

@@ -15,11 +15,10 @@
 namespace terracut::cli {
 namespace {
 
-/// At most kMostWaiting clouds wait to be labelled, some hundred milliseconds. As many answers may
-/// wait to be written, and in addition the answers to the first clouds, which are labelled
-/// together.
+/// At most kMostWaiting clouds, some hundred milliseconds, wait to be labelled. As many answers may
+/// wait to be written, plus those to the first clouds, which are labelled together.
 constexpr std::size_t kMostWaiting = 4, kMostAnswers = kMostWaiting + mount::kFramesToFind;
-/// If no other cloud comes for this long, rows and mount are learnt from the clouds so far.
+/// If no cloud comes for this long, rows and mount are learnt from the clouds so far.
 constexpr std::chrono::seconds kPatience{1};
 
 }  // namespace
@@ -88,7 +87,7 @@ void CloudNode::label_clouds() {
       continue;
     }
     job->record.handed_over_ns = measure::realtime_ns();
-    if (labeller_.skip_if_late(job->record)) {  // a late cloud must not delay the next one
+    if (labeller_.skip_if_late(job->record)) {  // so that a late cloud does not delay the next one
       news_.add(job->record);
       continue;
     }
@@ -127,7 +126,8 @@ void CloudNode::set_up() {
   }
   news_.set_sensor(labeller_.sensor());
   for (Job& job : first) {
-    job.record.info.last_packet_ns = 0;  // no deadline: nobody can label before the sensor is known
+    // no deadline: nothing can be labelled before the sensor is known
+    job.record.info.last_packet_ns = 0;
     if (read(*job.cloud)) label(std::move(job));
   }
 }
@@ -152,7 +152,8 @@ void CloudNode::refuse_rows(const Error& error) {
 }
 
 void CloudNode::say_once(const std::string& what) {
-  constexpr std::size_t kMostKinds = 16;  // messages quote numbers, so their kinds are unlimited
+  // messages contain numbers, so there is no limit to their kinds
+  constexpr std::size_t kMostKinds = 16;
   if (said_.size() >= kMostKinds || std::ranges::count(said_, what) > 0) return;
   said_.push_back(what);
   warn(what + " (counted from now on, as losses)");

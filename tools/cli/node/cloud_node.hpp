@@ -28,7 +28,8 @@ class CloudNode {
   CloudNode(const Options& options, dds::CloudReader reader, NodeAnswers answers, NodeNews& news);
   ~CloudNode();
 
-  /// Returns how many clouds DDS reported as lost or gaps in stamps show. For any thread.
+  /// Returns how many clouds are lost: as reported by DDS or as gaps in stamps show, whichever is
+  /// more. For any thread.
   [[nodiscard]] std::uint64_t lost_clouds() const {
     return std::max(reader_.lost(), missing_.load(std::memory_order_relaxed));
   }
@@ -48,7 +49,8 @@ class CloudNode {
 
   /// Returns false if the cloud is refused, which is then counted.
   [[nodiscard]] bool read(const dds::RosCloud& cloud);
-  /// Keeps a first cloud to learn from; it is answered, without deadline, once a labeller exists.
+  /// Keeps a first cloud for learning. It is answered, without deadline, once rows and mount are
+  /// known.
   void learn_from(Job job);
   void set_up();
   void label(Job job);

@@ -94,8 +94,8 @@ Status NodeLabeller::label(status::FrameRecord& record) {
   record.level = decltype(degradation_)::level_of(record.segmentation);
   if (!is_timed) return {};
   if (!degradation_.may_hand_on()) record.level = status::Level::kSkipped;
-  // The time outside the stages counts as well: rows are found before them, points labelled after
-  // them.
+  // The time outside the stages counts as well: before them rows are found, after them points get
+  // their labels.
   degradation_.end(record.stages, record.segmentation,
                    record.segment_cpu_ns - record.stages.sum_ns());
   return {};

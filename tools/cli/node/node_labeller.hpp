@@ -35,17 +35,17 @@ class NodeLabeller {
 
   /// True if rows and mount are known, which label() requires.
   [[nodiscard]] bool is_ready() const noexcept { return pipeline_.has_value(); }
-  /// Keeps a copy of the cloud read last. Returns true once set_up() has enough clouds.
+  /// Keeps a copy of the cloud read last. Returns true once there are enough clouds for set_up().
   [[nodiscard]] bool learn_from_cloud();
-  /// Learns rows and mount from the kept clouds, which are then dropped. Fails with the errors of
+  /// Learns rows and mount from the kept clouds, then drops these. Fails with the errors of
   /// cloud::learn_rows() and of a setup file.
   [[nodiscard]] Status set_up();
 
   /// True if the cloud's deadline passed before labelling began; then marks the record as skipped.
   [[nodiscard]] bool skip_if_late(status::FrameRecord& record) const noexcept;
-  /// Labels the cloud read last within the time until `record.info.last_packet_ns` plus the
-  /// deadline, or completely if that stamp is 0. Fills in the record. The labels are in
-  /// point_labels(), unless the record's level is kSkipped. Fails with the errors of
+  /// Labels the cloud read last by its deadline, which is counted from
+  /// `record.info.last_packet_ns`, or completely if that stamp is 0. Fills in the record. The
+  /// labels are in point_labels(), unless the record's level is kSkipped. Fails with the errors of
   /// cloud::RowFinder::find().
   [[nodiscard]] Status label(status::FrameRecord& record);
   /// Returns one label per point, in the cloud's order.

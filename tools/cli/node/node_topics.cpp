@@ -60,7 +60,7 @@ Status NodeAnswers::write(const dds::RosCloud& cloud, std::span<const Label> lab
     Status written = writer.write(message);
     if (first && !written) first = std::move(written);
   };
-  // Obstacles first: a planner stops for them.
+  // Obstacles are published first, because planners stop for them.
   if (is_read(obstacles_)) {
     put(*obstacles_,
         &derived_.select(cloud, labels, [](Label l) { return l == Label::kObstacle; }));

@@ -21,7 +21,7 @@ class NodeAnswers {
   [[nodiscard]] static Expected<NodeAnswers> open(const dds::Participant& participant,
                                                   const Options& options);
 
-  /// The times to be published with the answer to one cloud.
+  /// The times that are published with the answer to a cloud.
   struct Times {
     double processing_ms = 0;  ///< Time from the cloud's arrival to its labels.
     double cyclic_ms = 0;      ///< Time from the previous labels to these.

@@ -58,7 +58,7 @@ void NodeWatch::work_round(std::uint64_t lost) {
 
 void NodeWatch::look_at_pace(const status::FrameRecord& record) {
   constexpr std::size_t kEnough = 20;
-  const bool is_first_cloud = record.info.last_packet_ns == 0;  // used twice below
+  const bool is_first_cloud = record.info.last_packet_ns == 0;  // the deadline does not apply to it
   if (is_first_cloud || record.level == status::Level::kSkipped || paces_ns_.size() == kEnough) {
     return;
   }

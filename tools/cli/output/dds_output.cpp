@@ -19,10 +19,10 @@ DdsTopics dds_topics_of(const DdsOptions& options) {
   switch (options.preset) {
     case DdsPreset::kRos:
       break;
-    case DdsPreset::kAutoware:  // its planner stops for obstacles
+    case DdsPreset::kAutoware:  // Autoware's planner stops for obstacles
       topics = {.obstacles = "/perception/obstacle_segmentation/pointcloud"};
       break;
-    case DdsPreset::kNav2:  // the defaults of its GroundConsistencyLayer
+    case DdsPreset::kNav2:  // the defaults of Nav2's GroundConsistencyLayer
       topics = {.ground = "/ground_points", .obstacles = "/nonground_points"};
       break;
   }
@@ -68,19 +68,19 @@ Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& op
   constexpr std::int64_t kPatience_ns = 10'000'000'000;
   const DdsTopics topics = dds_topics_of(options);
   const auto topic = [&](const std::string& name) { return dds_topic_of(name, options); };
-  auto sink =
-      dds::DdsSink::open({.participant = participant_config_of(options),
-                          .quality = {.reliable = options.reliable, .depth = options.depth},
-                          .points = topic(topics.points),
-                          .ground = topic(topics.ground),
-                          .obstacles = topic(topics.obstacles),
-                          .road = facts.has_road ? topic(topics.road) : "",
-                          .raw = topic(topics.raw),
-                          .diagnostics = topic(topics.diagnostics),
-                          .tf_static = topic("/tf_static"),
-                          // A recording must not lose a single frame; a live run waits for nobody.
-                          .patience_ns = facts.deadline_ns == 0 ? kPatience_ns : 0},
-                         facts);
+  auto sink = dds::DdsSink::open({.participant = participant_config_of(options),
+                                  .quality = {.reliable = options.reliable, .depth = options.depth},
+                                  .points = topic(topics.points),
+                                  .ground = topic(topics.ground),
+                                  .obstacles = topic(topics.obstacles),
+                                  .road = facts.has_road ? topic(topics.road) : "",
+                                  .raw = topic(topics.raw),
+                                  .diagnostics = topic(topics.diagnostics),
+                                  .tf_static = topic("/tf_static"),
+                                  // A recording waits for readers, because it must not lose a
+                                  // frame; a live run waits for nobody.
+                                  .patience_ns = facts.deadline_ns == 0 ? kPatience_ns : 0},
+                                 facts);
   if (!sink) return tl::unexpected(sink.error());
   say(fmt::format("ROS 2 messages on DDS domain {}: {}", (*sink)->domain(), topic_list(options)));
   return std::unique_ptr<publish::FrameSink>(*std::move(sink));

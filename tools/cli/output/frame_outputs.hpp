@@ -37,7 +37,7 @@ class FrameOutputs {
     return !options.pcd.empty() || !options.png.empty() || wants_sinks(options);
   }
 
-  /// Opens the outputs that get frames as they come (output/output_sinks.hpp), before the first
+  /// Opens the outputs that get every frame in turn (output/output_sinks.hpp), before the first
   /// frame.
   [[nodiscard]] Status open(const publish::RunFacts& facts);
 
@@ -52,7 +52,7 @@ class FrameOutputs {
                                    std::span<const std::uint32_t> truth);
 
   /// Hands the frame to the outputs that open() opened, and waits for slow ones. Returns their
-  /// first error. `timing` is that of its returns.
+  /// first error. `timing` gives the times of the frame's returns.
   [[nodiscard]] Status publish(const status::FrameRecord& record, const frame::RangeImage& image,
                                std::span<const frame::Label> labels,
                                const points::FrameTiming& timing = {});

@@ -106,7 +106,7 @@ Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(const OutputOptions&
   name_frames(options, facts);
   std::vector<bool> topics(ros_messages::kTopics.size(), true);
   for (std::size_t i = 0; i < topics.size(); ++i) {
-    // Without the road surface all ground is road.
+    // Without the road surface all ground counts as road, and there is no topic for it.
     if (ros_messages::kTopics[i].cloud == ros_messages::CloudOf::kRoad) {
       topics[i] = facts.has_road;
     }

@@ -16,16 +16,17 @@ namespace terracut::cli {
 /// True if an output is requested that needs every frame with its points, not only labels.
 [[nodiscard]] bool wants_sinks(const OutputOptions& options);
 
-/// Opens the requested outputs: creates files and binds ports, and prints them. Returns the first
+/// Opens the requested outputs: creates files, binds ports, and prints both. Returns the first
 /// error. `facts` gets its names of coordinate frames from `options`.
 [[nodiscard]] Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
                                                              publish::RunFacts facts);
 
-/// Makes outputs for a run that goes on without them: each is opened on its own thread, and again
-/// after a failure, with a message (publish::RetriedSink).
+/// Makes outputs for a run that goes on without those that fail: each is opened on its own thread,
+/// and again after a failure, with a message (publish::RetriedSink).
 [[nodiscard]] publish::Publisher::Sinks retried_sinks(const OutputOptions& options,
                                                       publish::RunFacts facts);
-/// Checks the options of outputs, not ports and disks. Fails with kInvalidArgument or kUnsupported.
+/// Checks the options of outputs, but no ports or disks. Fails with kInvalidArgument or
+/// kUnsupported.
 [[nodiscard]] Status check_sinks(const OutputOptions& options);
 
 /// Opens only Foxglove's output. `capture` is the capture that viewers may play; null if they may
@@ -33,7 +34,7 @@ namespace terracut::cli {
 [[nodiscard]] Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(
     const OutputOptions& options, publish::RunFacts facts, ViewedCapture* capture);
 
-/// Warns that an output gets nothing more.
+/// Warns that a failed output gets no more frames.
 void warn_of_failure(std::string_view sink, const Error& error);
 
 }  // namespace terracut::cli

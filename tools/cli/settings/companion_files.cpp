@@ -31,7 +31,7 @@ Expected<fs::path> only_one(const fs::path& folder, const std::vector<std::strin
   return found.empty() ? fs::path() : found.front();
 }
 
-/// Finds the file by the drive's own name, otherwise by a usual name in the nearest folder.
+/// Finds a file by the drive's own name, or else by a usual name in the nearest folder.
 Expected<fs::path> find_beside(const Beside& recording, const std::vector<std::string>& suffixes,
                                const std::vector<std::string>& names) {
   std::vector<std::string> own;

@@ -9,7 +9,7 @@
 
 namespace terracut::cli {
 
-/// A recording's place, for the search of its companion files: in its folder by its own name,
+/// Where to search for the files that belong to a recording: in its folder by its own name,
 /// otherwise by a usual name there and in the folders above, up to the root.
 struct Beside {
   std::filesystem::path folder, root;
@@ -19,10 +19,11 @@ struct Beside {
 /// Returns a capture's name without its ending; the whole name if that is not one of a capture.
 [[nodiscard]] std::string stem_of(const std::filesystem::path& capture);
 
-/// Returns the setup beside a recording; empty if none. Fails with kMalformed if two exist.
+/// Returns the setup file of a recording; empty if there is none. Fails with kMalformed if there
+/// are two.
 [[nodiscard]] Expected<std::filesystem::path> setup_beside(const Beside& recording);
 [[nodiscard]] Expected<std::filesystem::path> calibration_beside(const Beside& recording);
-/// Returns the calibration in a capture's own folder, used if its packets hold none.
+/// Returns the calibration in a capture's own folder, which is used if the packets hold none.
 [[nodiscard]] Expected<std::filesystem::path> calibration_beside(
     const std::filesystem::path& capture);
 [[nodiscard]] Expected<std::filesystem::path> can_beside(const Beside& recording);

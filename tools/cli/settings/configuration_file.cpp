@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kMethod = "method.";
 
-/// Returns all keys of a file, in the file's order.
+/// Returns all keys that a file may have, in the order in which they are written.
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys;
   for (const Setting& setting : settings()) {
@@ -50,7 +50,7 @@ class Reader {
   [[nodiscard]] Options take() && { return std::move(options_); }
 
  private:
-  /// Reads the keys of a section. `section` is empty for the whole file, else it ends with a dot.
+  /// Reads the keys of a section. `section` is empty for the whole file; else it ends with a dot.
   Status read_section(const YAML::Node& map, const std::string& section) {
     std::map<std::string, int> line_of;
     for (const auto& entry : map) {
@@ -73,7 +73,7 @@ class Reader {
       return refuse(key_node, unknown(key));
     }
     if (is_section) {
-      if (value.IsNull()) return {};  // all its keys are left out
+      if (value.IsNull()) return {};  // none of its keys is given
       if (!value.IsMap()) {
         return refuse(value, fmt::format("{}: expected keys below it, found {}", key, kind(value)));
       }

@@ -37,7 +37,7 @@ std::string quoted_if_needed(std::string_view text) {
   return quoted + "'";
 }
 
-/// Returns "Description [unit, range]" and the commands concerned.
+/// Returns the comment above a key: "Description [unit, range]", and the commands that use the key.
 std::string comment(std::string_view indent, std::string_view help, std::string_view unit,
                     std::string_view allowed, std::string_view whose = {}) {
   return fmt::format("{}# {} [{}{}{}]{}\n", indent, help, unit, unit.empty() ? "" : ", ", allowed,

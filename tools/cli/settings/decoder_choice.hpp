@@ -9,7 +9,7 @@
 
 namespace terracut::cli {
 
-/// What the frames are used for. For labels alone they may keep their returns as measured.
+/// What frames are used for. For labels alone they may keep their returns as measured.
 enum class FramesAreFor : std::uint8_t { kLabels, kPoints };
 
 /// Returns the decoder's configuration. `columns` is the range image's width, 0 for the sensor's

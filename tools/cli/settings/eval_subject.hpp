@@ -17,8 +17,8 @@ struct EvalSubject {
   bool with_hazards = false;
 };
 
-/// Understands `hazards DATASET ROOT...`, `hazards ROOT...` (semantickitti) and `hazards simulated`
-/// (all scenes). Without hazards returns the dataset and its root.
+/// Parses `hazards DATASET ROOT...`, `hazards ROOT...` (semantickitti) and `hazards simulated` (all
+/// scenes). Without `hazards`, returns the dataset and its root.
 [[nodiscard]] EvalSubject subject_of(const EvalOptions& options);
 
 }  // namespace terracut::cli

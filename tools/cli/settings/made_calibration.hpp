@@ -5,7 +5,7 @@
 #include "tools/cli/options.hpp"
 #include "tools/lab/packets/encoder_traits.hpp"
 
-/// Returns the table of the unit whose packets are made: that of --calibration, otherwise the
+/// Returns the table of the unit whose packets are to be made: that of --calibration, otherwise the
 /// nominal one. Fails with the errors of the file; kInvalidArgument if a file is given for a sensor
 /// with a built-in table.
 namespace terracut::cli {

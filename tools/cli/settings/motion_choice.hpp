@@ -10,7 +10,7 @@
 namespace terracut::cli {
 
 /// Returns the configured signals of the configured DBC file. Fails with kInvalidArgument if no
-/// file is given; errors of read_dbc() and MotionSignals::make().
+/// file is configured, and with the errors of read_dbc() and MotionSignals::make().
 [[nodiscard]] Expected<vehicle::MotionSignals> motion_signals_of(const MotionOptions& options);
 
 [[nodiscard]] vehicle::EgoMotion::Config ego_motion_config_of(const MotionOptions& options);

@@ -27,7 +27,7 @@ std::string found_instead(const CaptureOptions& options, const streams::HeardSen
          "and `terracut node` (ROS 2)";
 }
 
-/// Explains a capture with frames but without a delivered datagram.
+/// Explains why no datagram came from a capture that has frames.
 std::string where_frames_went(const capture::PcapCounters& read) {
   std::string text = fmt::format("of {} captured frames", read.frames);
   const auto add = [&](std::uint64_t count, std::string_view what) {

@@ -24,9 +24,9 @@ struct SensorChoice {
   bool dual_return = false;
 };
 
-/// Returns the sensors of the model of --sensor, or of any, at the beginning of `source`, told
-/// apart by address or as in streams::SenderStreams. A sender of less than a hundredth of the
-/// busiest one's packets is ignored as stray. Leaves `source` at any position.
+/// Returns the sensors at the beginning of `source`, of the model of --sensor or of any, told apart
+/// by address or as in streams::SenderStreams. A sender of less than a hundredth of the busiest
+/// one's packets is ignored as stray. Leaves `source` at any position.
 [[nodiscard]] std::vector<streams::SensorStream> sensors_in(const CaptureOptions& options,
                                                             capture::PcapSource& source);
 

@@ -25,7 +25,7 @@ struct ChoiceField {
   std::function<void(std::size_t)> choose;
 };
 
-/// Where in Options the value of a setting is stored.
+/// A pointer to the member of Options that stores a setting's value.
 using SettingField =
     std::variant<double*, std::optional<double>*, int*, std::optional<int>*, std::uint64_t*,
                  std::uint16_t*, std::optional<std::uint16_t>*, bool*, std::string*,
@@ -49,10 +49,10 @@ enum class TextForm : std::uint8_t {
   kTopic,      ///< A ROS topic, or "off".
 };
 
-/// A setting of commands. The table of settings defines the command line's options, the keys of the
-/// configuration file, messages about wrong ones, and docs/reference/configuration.md. The method's
-/// parameters are further keys, with "method." before their name in
-/// pipeline/ground/parameter_table.hpp.
+/// A setting of one or more commands. The table of settings defines the options of the command
+/// line, the keys of the configuration file, the messages about wrong ones, and
+/// docs/reference/configuration.md. The method's parameters are further keys: "method." and their
+/// name in pipeline/ground/parameter_table.hpp.
 struct Setting {
   std::string_view key{};     ///< Key in the file, "section.name_unit"; empty: none.
   std::string_view option{};  ///< "--mount-height", "-o,--output", "FILE"; empty: none.
@@ -78,7 +78,7 @@ struct Setting {
   }
 };
 
-/// Returns all settings; those of the file by section in the file's order.
+/// Returns all settings; those of the configuration file by section, in the file's order.
 [[nodiscard]] std::span<const Setting> settings() noexcept;
 
 /// Returns the setting of that key; null if there is none.

@@ -17,12 +17,12 @@ namespace terracut::cli {
 /// Returns the valid values of a setting: "0.2 .. 6", "auto, hdl64e, ruby128", "file or folder".
 [[nodiscard]] std::string allowed_text(const Setting& setting);
 
-/// Sets one setting from text; a list is extended. Relative paths start at `base`. The error,
-/// kInvalidArgument, tells what was expected and found, without the setting's name.
+/// Sets one setting from text; to a list the text is added. Relative paths start at `base`. The
+/// error, kInvalidArgument, tells what was expected and found, without the setting's name.
 [[nodiscard]] Status apply_text(const Setting& setting, std::string_view text,
                                 const std::filesystem::path& base, Options& options);
 
-/// Returns a setting's value as taken by apply_text(); empty if not given.
+/// Returns a setting's value in the form that apply_text() takes; empty if not given.
 [[nodiscard]] std::string value_text(const Setting& setting, const Options& options);
 
 }  // namespace terracut::cli

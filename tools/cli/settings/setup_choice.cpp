@@ -31,7 +31,7 @@ Expected<mount::SensorSetup> setup_of(const MountOptions& options) {
   return setup;
 }
 
-/// Returns the profile by the options. `at_mount` returns the unit's profile at a mount.
+/// Returns the ring profile by the options; `at_mount` returns the unit's profile for a mount.
 template <class AtMount>
 Expected<mount::RingProfile> profile_by(const AtMount& at_mount, const MountOptions& options) {
   const Expected<mount::SensorSetup> setup = setup_of(options);

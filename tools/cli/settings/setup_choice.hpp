@@ -15,24 +15,24 @@
 
 namespace terracut::cli {
 
-/// Returns the stated mount: --setup, overridden by --mount-..., completed by a level mount at 1.73
-/// m.
+/// Returns the stated mount: that of --setup, overridden by --mount-...; figures not stated are
+/// those of a level mount at 1.73 m.
 [[nodiscard]] Expected<mount::Mount> mount_of(const MountOptions& options);
 
-/// Returns the ring profile of a unit at the mount of the options. The ring distances measured for
-/// a setup count only if no --mount-... option moves the sensor away from the setup's mount.
+/// Returns a unit's ring profile for the mount of the options. The ring distances measured for a
+/// setup are used only if no --mount-... option changes the setup's mount.
 [[nodiscard]] Expected<mount::RingProfile> ring_profile_of(
     const calib::SensorCalibration& calibration, const MountOptions& options);
 [[nodiscard]] Expected<mount::RingProfile> ring_profile_of(const scan::RingTable& rings,
                                                            const MountOptions& options);
 
-/// Checks that each setting, whose name and value are already checked, belongs to a method among
-/// `kinds`: otherwise it would silently have no effect. Fails with kInvalidArgument, naming the
-/// setting and its method.
+/// Checks that each setting belongs to a method among `kinds`: otherwise it would silently have no
+/// effect. Names and values must have been checked. Fails with kInvalidArgument, naming the setting
+/// and its method.
 [[nodiscard]] Status check_used(std::span<const std::string> settings,
                                 std::span<const baselines::MethodKind> kinds);
 
-/// Returns the method for --method, or --profile and --stages, and --set, whose names and settings
+/// Returns the method that --method, or --profile, --stages and --set describe. Names and settings
 /// must have been checked.
 [[nodiscard]] baselines::MethodConfig method_config_of(const MethodOptions& options);
 [[nodiscard]] inline ground::MethodMaker method_of(const MethodOptions& options) {

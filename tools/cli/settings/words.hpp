@@ -18,7 +18,7 @@ struct Word {
   Value value;
 };
 
-/// "auto", and a word for each sensor that has one.
+/// "auto", then the word of each sensor that has one.
 inline constexpr auto kSensorWords = [] {
   constexpr auto kHasWord = [](const sensor::SensorRow& row) { return !row.word.empty(); };
   std::array<Word<std::optional<sensor::SensorModel>>,

@@ -29,7 +29,7 @@ CapturePlayer::CapturePlayer(PlayedRecording& recording) : recording_(recording)
   } catch (const std::system_error&) {  // no thread left; the player works without the length
     is_measured_ = true;
   }
-  // The wait makes the length of a short recording known before a viewer asks for it.
+  // Waits a little, so that a short recording's length is known before a viewer asks for it.
   std::unique_lock lock(mutex_);
   told_.wait_for(lock, kMeasuredAhead, [&] { return is_measured_; });
 }
@@ -81,7 +81,7 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
         return seek_s_ || steps_ > 0 || (state_.playing && !state_.at_end);
       };
       if (!told_.wait_for(lock, kMoment, has_work)) continue;
-      // A seek waits for the first frame, which shows where frames begin in the capture.
+      // A seek is done after the first frame, which shows where frames begin in the capture.
       if (has_frames_) seek_s = std::exchange(seek_s_, std::nullopt);
     }
     if (seek_s) {
@@ -107,7 +107,8 @@ Status CapturePlayer::go_to(double seek_s) {
   return {};
 }
 
-/// Waits for the next frame and returns it; none if a command came meanwhile, or at the end.
+/// Waits until the next frame is due and returns it; none if a command came meanwhile, or at the
+/// end.
 std::optional<PlayedRecording::Span> CapturePlayer::next_due() {
   auto span = recording_.next();
   has_frames_ = has_frames_ || span;
@@ -124,7 +125,7 @@ std::optional<PlayedRecording::Span> CapturePlayer::next_due() {
 void CapturePlayer::end_or_begin_anew() {
   const auto frame_ns = static_cast<std::int64_t>(recording_.frame_s() * 1e9);
   std::unique_lock lock(mutex_);
-  if (seek_s_ || stop_wanted()) return;  // a seek came, so this is not the end
+  if (seek_s_ || stop_wanted()) return;  // a seek or a stop, not the end
   const bool is_stepped = steps_ > 0;
   if (state_.loop && has_frames_) {
     lock.unlock();
@@ -148,7 +149,7 @@ bool CapturePlayer::wait_until_due(std::int64_t since_begin_ns) {
     if (seek_s_) return false;
     if (since_begin_ns - shown_ns_ > kLongestPause_ns) pace_.reset();
     if (steps_ > 0) {
-      --steps_;  // a later command may set the steps anew
+      --steps_;  // counted now, as a later command may set the steps anew
       pace_.reset();
       shown_ns_ = since_begin_ns;
       return true;
@@ -166,8 +167,7 @@ bool CapturePlayer::wait_until_due(std::int64_t since_begin_ns) {
         pace_->first + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
                            seconds(since_begin_ns - pace_->second) / state_.rate));
     if (due <= now) {
-      // If frames are labelled more slowly than they are due, the pace begins anew instead of
-      // catching up.
+      // If labelling is slower than the recording, the pace begins anew instead of catching up.
       if (now - due > std::chrono::seconds(1)) pace_ = {now, since_begin_ns};
       return true;
     }

@@ -17,8 +17,8 @@
 
 namespace terracut::cli {
 
-/// Plays a recording at its own speed, or as commanded: pause, step, seek. At the end it starts
-/// anew or, if told, pauses.
+/// Plays a recording at its own speed, or as commanded (pause, step, seek). At the end it starts
+/// over or, if so commanded, pauses.
 class CapturePlayer : public ViewedCapture {
  public:
   using OnFrame = std::function<Status(const publish::LabelledFrame& frame)>;
@@ -55,7 +55,7 @@ class CapturePlayer : public ViewedCapture {
   bool has_frames_ = false;
   /// Frames that end before this time are not shown.
   std::int64_t skip_to_ns_ = std::numeric_limits<std::int64_t>::min();
-  /// When a frame was due, with its time in the capture.
+  /// The time at which a frame was due, and that frame's time in the capture.
   std::optional<std::pair<Clock::time_point, std::int64_t>> pace_;
   std::int64_t shown_ns_ = 0;  ///< Time of the last frame waited for.
   std::atomic<bool> stop_measuring_{false};

@@ -13,7 +13,7 @@ namespace {
 namespace asio = boost::asio;
 using boost::system::error_code;
 
-/// The answer has no length: its body ends when the connection ends.
+/// The head of an answer without a length: its body ends with the connection.
 constexpr std::string_view kHead =
     "HTTP/1.1 200 OK\r\n"
     "Content-Type: application/octet-stream\r\n"

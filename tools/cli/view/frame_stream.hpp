@@ -11,8 +11,8 @@
 
 namespace terracut::cli {
 
-/// The labelled stream for one browser as the body of an answer, until either side ends. While a
-/// frame is being sent, the newest of later frames waits.
+/// Streams labelled frames to one browser as the body of an answer, until either side ends. While a
+/// frame is being sent, only the newest later one waits.
 class FrameStream final : public HttpGuest, public std::enable_shared_from_this<FrameStream> {
  public:
   FrameStream(HttpStream stream, ViewSource& source);

@@ -11,8 +11,8 @@
 
 namespace terracut::cli {
 
-/// Finds the ends of a capture's frames, beginning with its first frame. Frames are numbered by
-/// their ends, because the first frame after a seek does not begin where it did in the capture.
+/// Finds the ends of a capture's frames in order, from its first frame on. Frames are numbered by
+/// their ends, because after a seek the first frame does not begin where it did before.
 class PlayedCapture::Counter {
  public:
   Counter(const OpenCapture& capture, const Options& options)
@@ -23,8 +23,7 @@ class PlayedCapture::Counter {
     if (source_) part_.emplace(*source_, CaptureOptions{});
   }
 
-  /// Returns the end of the next frame; nothing at the end of the capture, or if the run is to
-  /// stop.
+  /// Returns the end of the next frame; nothing at the end of the capture, or when stop_wanted().
   std::optional<std::int64_t> next() {
     while (true) {
       if (const frame::Frame* frame = decoder_.next()) {
@@ -81,7 +80,7 @@ void PlayedCapture::take(publish::LabelledFrame& frame) {
 }
 
 Status PlayedCapture::go_to(double seek_s) {
-  // Goes one frame too far back, because the first frame after a seek is cut off at its beginning.
+  // Goes back one frame too many, because the first frame after a seek is cut off at its beginning.
   const double from_s = std::max(0.0, seek_s - 1.25 * frame_s());
   ahead_.reset();
   begins_ = from_s == 0;
@@ -89,7 +88,7 @@ Status PlayedCapture::go_to(double seek_s) {
 }
 
 std::uint32_t PlayedCapture::number_of(std::int64_t end_ns) {
-  // The frame's end may differ by some packets if the frame was cut elsewhere.
+  // The end may differ by some packets from the one noted before, if the frame was cut elsewhere.
   const std::int64_t least_ns = end_ns - static_cast<std::int64_t>(frame_s() / 2 * 1e9);
   const auto is_known = [&] { return !ends_ns_.empty() && ends_ns_.back() >= least_ns; };
   if (!is_known() && !counter_) {
@@ -105,7 +104,7 @@ std::uint32_t PlayedCapture::number_of(std::int64_t end_ns) {
   return static_cast<std::uint32_t>(found - ends_ns_.begin());
 }
 
-/// Reads through the capture, because a capture file does not store its length.
+/// Reads the whole capture, because its file does not state how long it is.
 void PlayedCapture::measure(const OnLength& on_length) const {
   auto source = open_again(capture_.capture(), options_.capture);
   constexpr std::uint64_t kPacketsAtOnce = 4096;

@@ -12,8 +12,8 @@
 
 namespace terracut::cli {
 
-/// A played capture. Frames are numbered as by `replay` without --start; after a seek the numbers
-/// are found by decoding the part before it, once.
+/// A capture as a recording to play. Frames have the numbers that `replay` without --start gives
+/// them; after a seek these are found by decoding, once, the part before it.
 class PlayedCapture : public PlayedRecording {
  public:
   /// Both arguments must outlive this object.
@@ -36,7 +36,7 @@ class PlayedCapture : public PlayedRecording {
   const Options& options_;
   const run::Frame* frame_ = nullptr;
   Span span_{};
-  /// The decoder's frame number, which never restarts, minus the number in file names.
+  /// The decoder's frame number, which never restarts, minus the frame's number in file names.
   std::optional<std::uint32_t> ahead_;
   bool begins_ = false;                ///< True if the next frame is the first.
   std::vector<std::int64_t> ends_ns_;  ///< Ends of the first frames, by number.

@@ -66,7 +66,7 @@ Status PlayedClouds::label(std::size_t index) {
   record_ = {};
   record_.info.complete = true;
   record_.info.number = file.frame.value_or(static_cast<std::uint32_t>(index));
-  // The stamps must rise from frame to frame, as players of recordings expect.
+  // Players of recordings expect stamps that rise from frame to frame.
   record_.info.first_packet_ns = static_cast<std::int64_t>(index + 1) * kPeriod_ns;
   record_.info.last_packet_ns = record_.info.first_packet_ns;
   if (const Status labelled = pipeline_->label(*cloud, record_); !labelled) {

@@ -13,7 +13,7 @@
 
 namespace terracut::cli {
 
-/// A folder of clouds, or one cloud, played at ten a second: files have no stamps.
+/// A folder of clouds, or one cloud, played at ten a second, because files have no stamps.
 class PlayedClouds : public PlayedRecording {
  public:
   /// Finds the lasers' rows and the mount. Fails with the errors of CloudReader::open(), rows_of(),
@@ -26,7 +26,7 @@ class PlayedClouds : public PlayedRecording {
   [[nodiscard]] const mount::Mount& sensor_mount() const noexcept { return mount_; }
 
   [[nodiscard]] double frame_s() const override;
-  /// Leaves out clouds that cannot be labelled, with a warning.
+  /// Returns the next cloud, labelled. Leaves out clouds that cannot be labelled, with a warning.
   [[nodiscard]] std::optional<Span> next() override;
   void take(publish::LabelledFrame& frame) override;
   [[nodiscard]] Status go_to(double seek_s) override;

@@ -11,8 +11,8 @@
 
 namespace terracut::cli {
 
-/// A recording for CapturePlayer. Times count from the recording's beginning. One thread, except
-/// measure().
+/// A recording that CapturePlayer plays. Times count from the recording's beginning. One thread,
+/// except measure().
 class PlayedRecording {
  public:
   PlayedRecording() = default;
@@ -26,13 +26,15 @@ class PlayedRecording {
   struct Span {
     std::int64_t begin_ns, end_ns;
   };
-  /// Labels the next frame. Returns nothing at the end, at a break, and when stop_wanted().
+  /// Labels the next frame. Returns nothing at the end, where the recording breaks off, and when
+  /// stop_wanted().
   [[nodiscard]] virtual std::optional<Span> next() = 0;
-  /// Copies the frame labelled last, numbered as in the names of its files, even after a seek.
+  /// Copies the frame labelled last. Its number is that in the names of its files, even after a
+  /// seek.
   virtual void take(publish::LabelledFrame& frame) = 0;
   /// Seeks: next() then gives the frame of that time, perhaps after some earlier ones.
   [[nodiscard]] virtual Status go_to(double seek_s) = 0;
-  /// Returns the error, with its reason, if there was no frame at all.
+  /// Returns an error, with its reason, if there was no frame at all.
   [[nodiscard]] virtual Status conclude() = 0;
 
   /// Measures when the recording begins, by its stamps, and how long it is. Reports what is known

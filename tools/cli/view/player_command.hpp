@@ -12,12 +12,12 @@ namespace terracut::cli {
 
 inline constexpr double kLeastRate = 0.05, kMostRate = 20, kLongestSeek_s = 1e9;
 
-/// A viewer's command to the player of a capture; fields not given keep their state.
+/// A viewer's command to the player of a capture; fields not given change nothing.
 struct PlayerCommand {
   std::optional<bool> playing;
   bool step = false;             ///< Shows one more frame, then pauses.
   std::optional<double> seek_s;  ///< Since the capture's beginning, [0, kLongestSeek_s].
-  std::optional<bool> loop;      ///< At the end: true starts anew, false pauses.
+  std::optional<bool> loop;      ///< What happens at the end: true starts over, false pauses.
   std::optional<double> rate;    ///< Speed relative to the recording, [kLeastRate, kMostRate].
 };
 

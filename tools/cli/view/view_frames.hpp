@@ -19,8 +19,9 @@
 
 namespace terracut::cli {
 
-/// The newest frame for any number of browsers, and figures on the last 300. A slow browser gets
-/// the newest frame once it is ready for it; no thread waits for it. Any thread without a deadline.
+/// The newest frame for any number of browsers, and figures of the last 300 frames. A slow browser
+/// gets the newest frame when it is ready for one; no thread waits for it. Any thread without a
+/// deadline.
 class ViewFrames {
  public:
   struct Kept {
@@ -54,7 +55,7 @@ class ViewFrames {
   [[nodiscard]] Shown shown(const status::FrameRecord& record) const noexcept;
 
   publish::RunFacts facts_;
-  /// One room per browser, one for the newest frame and one for the next frame.
+  /// Memory for one frame per browser, for the newest frame and for the next one.
   memory::UsedAgain<Kept> rooms_;
   mutable std::mutex mutex_;
   std::shared_ptr<const Kept> newest_;  ///< Guarded by mutex_, as are the next members.

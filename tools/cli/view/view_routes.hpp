@@ -11,7 +11,7 @@
 
 namespace terracut::cli {
 
-/// The sources of the page's answers; must outlive its server.
+/// Where the page's answers come from; must outlive the server.
 struct ViewSource {
   ViewFrames& frames;
   ViewedCapture* capture = nullptr;                ///< Null: a live run, which has no player.

@@ -16,9 +16,9 @@
 
 namespace terracut::cli {
 
-/// The page that shows frames in a browser (view_routes.hpp), as an output of a run, within
-/// HttpBounds: each slow browser holds a frame of its own. Browsers affect a run only in losses():
-/// frames that one of them skipped. Listen on loopback unless the network is trusted.
+/// An output of a run that shows frames in a browser (view_routes.hpp), within HttpBounds: each
+/// slow browser holds a frame of its own. All that a run notices of browsers is the count of frames
+/// that they skipped, in losses(). Listen on loopback unless the network is trusted.
 class ViewSink : public publish::FrameSink {
  public:
   /// `endpoint` is like "127.0.0.1:8480". `capture` is its player, which outlives this object; null

@@ -6,7 +6,7 @@
 
 namespace terracut::cli {
 
-/// The controls by which viewers play a recording. For any thread.
+/// The controls with which viewers play a recording. For any thread.
 class ViewedCapture {
  public:
   ViewedCapture() = default;

@@ -47,8 +47,8 @@ Status check_folder(const fs::path& folder) {
   return {};
 }
 
-/// Exchanges two folders in one step, so that a process killed in between has lost neither. Returns
-/// false if one is missing or the file system cannot exchange them.
+/// Exchanges two folders in one step, so that a process killed at this point has lost neither.
+/// Returns false if one is missing or the file system cannot exchange folders.
 bool exchange(const fs::path& a, const fs::path& b) noexcept {
   return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 }

@@ -11,7 +11,7 @@
 
 namespace terracut::drive {
 
-/// truth_folder_of() and calibration_path_of() return where a drive's parts are stored beside
+/// truth_folder_of() and calibration_path_of() return the paths of a drive's parts beside
 /// "<folder>/<name>.pcap".
 [[nodiscard]] std::filesystem::path truth_folder_of(const std::filesystem::path& pcap_path);
 /// Returns an empty path for a sensor with a built-in table.
@@ -23,13 +23,13 @@ template <class EncoderTraits>
   return pcap_path.parent_path() / name;
 }
 
-/// The truth and the table of an unfinished drive, in a folder beside their final places on the
-/// same file system, until put_in_place(); without it nothing is left. One thread.
+/// The truth and the table of an unfinished drive. They lie in a folder beside their final paths,
+/// on the same file system, until put_in_place(); without that call nothing is left. One thread.
 class DriveFiles {
  public:
   /// Fails with kInvalidArgument if an existing truth folder holds anything but NNNNNN.label files,
-  /// because only a folder that is surely a drive's may be replaced; kWriteFailed if no folder can
-  /// be made.
+  /// because a folder is replaced only if it surely belongs to a drive; kWriteFailed if no folder
+  /// can be made.
   [[nodiscard]] static Expected<DriveFiles> create(const std::filesystem::path& pcap_path);
 
   DriveFiles(DriveFiles&&) noexcept;
@@ -38,10 +38,10 @@ class DriveFiles {
 
   /// Returns the path at which the table is to be written.
   [[nodiscard]] std::filesystem::path staged_calibration() const;
-  /// Writes NNNNNN.label of the truth, little-endian. Fails with kWriteFailed.
+  /// Writes the truth of a frame as NNNNNN.label, little-endian. Fails with kWriteFailed.
   [[nodiscard]] Status write_truth(std::uint64_t frame, std::span<const std::uint32_t> labels);
 
-  /// Repeats the check of create(), as the folder may have changed since.
+  /// Checks the truth folder as create() does, because it may have changed since.
   [[nodiscard]] Status check_replaceable() const;
   /// `calibration_path` is empty if there is no table.
   [[nodiscard]] Status put_in_place(const std::filesystem::path& calibration_path);

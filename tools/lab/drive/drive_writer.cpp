@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Refuses to replace a table that no drive has written: without a drive's truth beside it, it may
+/// Refuses to replace a table without a drive's truth beside it: no drive has written it, so it may
 /// belong to a real unit.
 Status check_table(const fs::path& table, const fs::path& truth) {
   std::error_code none;
@@ -24,8 +24,8 @@ Status check_table(const fs::path& table, const fs::path& truth) {
                           table.string(), truth.string()));
 }
 
-/// Writes the unit's table and reads it back, so that frames are cut by the values in the file, as
-/// the decoder will cut them. A built-in table is returned unchanged.
+/// Writes the unit's table and reads it back, so that frames begin and end by the values in the
+/// file, as they will for the decoder. Returns a built-in table unchanged.
 template <class EncoderTraits>
 Expected<typename EncoderTraits::Calibration> written_table(
     const fs::path& table, const typename EncoderTraits::Calibration& calibration) {
@@ -47,7 +47,7 @@ Expected<DriveWriter<EncoderTraits>> DriveWriter<EncoderTraits>::create(
   const Status replaceable =
       check_table(calibration_path_of<EncoderTraits>(pcap_path), truth_folder_of(pcap_path));
   if (!replaceable) return tl::unexpected(replaceable.error());
-  // Comes first, because it makes missing folders.
+  // The capture comes first, because creating it makes missing folders.
   auto pcap = capture::PcapWriter::create(pcap_path);
   if (!pcap) return tl::unexpected(pcap.error());
   auto files = DriveFiles::create(pcap_path);

@@ -49,10 +49,9 @@ class DriveWriter {
  public:
   static constexpr auto kLasers = static_cast<std::size_t>(EncoderTraits::kLasers);
 
-  /// `pcap_path` is "<folder>/<name>.pcap"; the names of the other parts follow from it. An
-  /// existing capture, calibration and truth folder of that name are replaced at finish(). Refused
-  /// are a truth folder with anything but NNNNNN.label files, and a calibration without a truth
-  /// folder.
+  /// `pcap_path` is "<folder>/<name>.pcap"; the paths of the other parts follow from it. finish()
+  /// replaces an existing capture, calibration and truth folder of that name. Refuses a truth
+  /// folder with anything but NNNNNN.label files, and a calibration without a truth folder.
   [[nodiscard]] static Expected<DriveWriter> create(
       const std::filesystem::path& pcap_path,
       const typename EncoderTraits::Calibration& calibration,

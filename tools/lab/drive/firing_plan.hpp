@@ -13,12 +13,12 @@ namespace terracut::drive {
 struct Firing {
   std::int64_t index = 0;
   std::int64_t azimuth_cdeg = 0;  ///< Azimuth of the head as sent, unwrapped.
-  std::int32_t step_ticks = 0;    ///< The step with which a decoder computes its beams.
+  std::int32_t step_ticks = 0;    ///< The step with which a decoder computes the beams' azimuths.
   double time_s = 0;              ///< Time since the head first pointed straight ahead.
 };
 
-/// The times and azimuths of the head's firings in a drive of whole frames, with a run-up and
-/// run-out so that every laser covers them. The firings fill whole packets.
+/// The times and azimuths of the head's firings in a drive of whole frames, with a run-up and a
+/// run-out so that every laser covers these frames. The firings fill whole packets.
 template <class EncoderTraits>
 class FiringPlan {
  public:
@@ -42,7 +42,7 @@ class FiringPlan {
 
   packets::ReturnMode returns_;
   std::int64_t frames_;
-  std::int64_t group_;  ///< Firings of whole packets.
+  std::int64_t group_;  ///< Number of firings that fill whole packets.
   double start_cdeg_;   ///< < 0
   double cdeg_per_s_;
   double firing_s_;

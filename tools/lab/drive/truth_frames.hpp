@@ -26,10 +26,10 @@ class TruthFrames {
   /// Adds the columns of one group of firings.
   void add(std::span<const Column> columns);
 
-  /// Moves the labels of the oldest frame to `labels` and returns true, if no further beam can
-  /// reach it. Drops frames without labels.
+  /// If no further beam can reach the oldest frame, moves its labels to `labels` and returns true.
+  /// Drops frames without labels.
   [[nodiscard]] bool take_finished(std::vector<std::uint32_t>& labels);
-  /// Moves the labels of the oldest frame of all, at the end of the drive.
+  /// Moves the labels of the oldest frame, finished or not; for the end of the drive.
   [[nodiscard]] bool take_any(std::vector<std::uint32_t>& labels);
 
  private:

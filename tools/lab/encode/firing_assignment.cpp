@@ -11,7 +11,7 @@ constexpr std::size_t kNone = SIZE_MAX;
 struct Pair {
   std::size_t wanted, fired, before;
 };
-/// The best assignment that uses only the firings before a given one: its worth and its last pair.
+/// The best assignment that uses only the firings before a given one: its value and its last pair.
 struct Way {
   std::int64_t worth = 0;
   std::size_t last = kNone;
@@ -22,11 +22,11 @@ struct Way {
 std::vector<std::size_t> assign_firings(std::span<const std::int64_t> wanted_ticks,
                                         std::span<const std::int64_t> fired_ticks,
                                         std::int64_t farthest_ticks) {
-  // One more return outweighs all shifts together.
+  // Placing one more return counts more than all shifts together.
   const std::int64_t worth_of_return =
       farthest_ticks * farthest_ticks * (std::ssize(wanted_ticks) + 1);
   std::vector<Pair> pairs;
-  std::vector<Way> best(fired_ticks.size() + 1);  // best[n]: with the first n firings
+  std::vector<Way> best(fired_ticks.size() + 1);  // best[n]: using the first n firings
   std::size_t first = 0, end = 0;                 // the firings near enough to this return
   for (std::size_t i = 0; i < wanted_ticks.size(); ++i) {
     const std::int64_t wanted = wanted_ticks[i];
@@ -34,7 +34,7 @@ std::vector<std::size_t> assign_firings(std::span<const std::int64_t> wanted_tic
     for (; end < fired_ticks.size() && fired_ticks[end] <= wanted + farthest_ticks; ++end) {
       best[end + 1] = best[end];
     }
-    // The loop goes backwards, so that the entries it reads do not contain this return yet.
+    // The loop goes backwards, so that the entries it reads do not include this return yet.
     for (std::size_t firing = end; firing-- > first;) {
       const std::int64_t shift = fired_ticks[firing] - wanted;
       const std::int64_t worth = best[firing].worth + worth_of_return - shift * shift;

@@ -29,8 +29,8 @@ Vector moved_back(const SensorTwist& twist, double seconds, const Vector& p) {
   return q;
 }
 
-/// Returns the azimuth as a share of a revolution, clockwise, on the same side of the rear seam as
-/// `near`.
+/// Returns the azimuth as a share of a revolution, clockwise, nearest to `near`: the value jumps by
+/// 1 straight behind the sensor.
 double share_of_frame(const Vector& p, double near) {
   const double share = std::atan2(-p[1], p[0]) / (2 * std::numbers::pi);
   return share - std::floor(share - near + 0.5);
@@ -40,7 +40,7 @@ double share_of_frame(const Vector& p, double near) {
 
 void undo_motion_compensation(const SensorTwist& twist,
                               std::span<scan::ScanPoint> points) noexcept {
-  constexpr int kCorrections = 4;  // each one is v t / r of the last, less than a fifth
+  constexpr int kCorrections = 4;  // each is less than a fifth (v t / r) of the one before
   for (scan::ScanPoint& point : points) {
     if (!scan::is_place(point)) continue;
     const Vector in_file{point.x_m, point.y_m, point.z_m};

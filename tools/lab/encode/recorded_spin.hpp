@@ -15,9 +15,9 @@
 namespace terracut::encode {
 
 /// Estimates the spin rate of an HDL-64E from its recorded scans. A laser fires every 48 us and
-/// returns at most once each time, so the ring with most points has about as many as there were
-/// firings in the frame. (In the KITTI recordings these are 2114 to 2172; the scan intervals of
-/// 103.4 to 104.2 ms in their times.txt are 2154 to 2171 times 48 us.)
+/// returns at most once each time, so the ring with the most points has about as many points as
+/// there were firings in the frame. (In the KITTI recordings there are 2114 to 2172; the scan
+/// intervals of 103.4 to 104.2 ms in their times.txt are 2154 to 2171 times 48 us.)
 class RecordedSpin {
  public:
   /// Adds a scan: the ring of every point, or kNoRing.
@@ -32,8 +32,8 @@ class RecordedSpin {
     longest_ring_ = std::max(longest_ring_, *std::ranges::max_element(points));
   }
 
-  /// Returns at least 5 Hz, the head's slowest, and at most 10 Hz: if every ring is short, the view
-  /// may be cropped or open to the sky.
+  /// Returns at least 5 Hz, the head's slowest rate, and at most 10 Hz: if every ring is short, the
+  /// view may be cropped or open to the sky.
   [[nodiscard]] double spin_hz() const noexcept {
     constexpr double kSlowest_hz = 5, kFastest_hz = 10;
     if (longest_ring_ == 0) return kFastest_hz;

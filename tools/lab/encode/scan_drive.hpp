@@ -22,14 +22,15 @@ struct ScanDriveOptions {
   /// The unit's table; without one it is fitted from the scans.
   std::optional<hdl64e::Hdl64eCalibration> calibration;
   PutMotionBack motion = PutMotionBack::kWhereKnown;
-  /// Also write the restored motion as a CAN log beside the capture (drive/vehicle_log.hpp); fails
-  /// with kInvalidArgument if none was restored. A recorded frame begins behind the sensor, but a
-  /// frame of packets straight ahead. So the sensor is reversed: it looks backwards, and its
+  /// True: also writes the restored motion as a CAN log beside the capture (drive/vehicle_log.hpp);
+  /// fails with kInvalidArgument if none was restored. A recorded frame begins behind the sensor,
+  /// but a frame of packets straight ahead. So the sensor is reversed: it looks backwards, and its
   /// vehicle drives backwards. Each frame is then one scan as it was measured; deskewed to its
-  /// middle it is the recorded scan, rotated by 180 degrees.
+  /// middle, it is the recorded scan, rotated by 180 degrees.
   bool can_log = false;
   std::int64_t first_stamp_ns = 1'600'000'000'000'000'000;  ///< Capture time of the first firing.
-  /// Reports progress; may be empty. An error ends the work, is returned, and nothing is written.
+  /// Reports progress; may be empty. If it returns an error, the work ends, that error is returned,
+  /// and nothing is written.
   std::function<Status(std::size_t done, std::size_t of)> on_scan;
 };
 
@@ -39,8 +40,8 @@ struct ScanDriveReport {
   EncodeSummary encoded;
   double spin_hz = 0;                       ///< Spin rate of the head, estimated.
   std::string why_as_recorded;              ///< Why motion was not restored; empty if it was.
-  std::optional<scan::FittedRings> fitted;  ///< If no calibration was given.
-  hdl64e::Hdl64eCalibration calibration;    ///< The one used.
+  std::optional<scan::FittedRings> fitted;  ///< Set if no calibration was given.
+  hdl64e::Hdl64eCalibration calibration;    ///< The calibration used.
 };
 
 /// Encodes all scans of a folder (scan_folder.hpp), one frame each, as "<name>.pcap" with

@@ -64,7 +64,7 @@ bool ScanEncoder::want(int laser, const scan::ScanPoint& point, Wanted& wanted) 
   wanted.z_m = z;
   wanted.intensity = scan::intensity_of(point.remission);
 
-  // A beam with sideways offset or two-point correction hits beside its own azimuth.
+  // A beam with a sideways offset or two-point correction hits a place beside its own azimuth.
   const bool straight = table.horiz_offset_m == 0 && !table.two_point;
   double beam_rad = wanted.azimuth_rad;
   for (int i = 0; i < (straight ? 1 : 4); ++i) {
@@ -119,7 +119,7 @@ ScanEncoder::Planned& ScanEncoder::planned(std::int64_t firing) {
     Planned& next = planned_.emplace_back();
     next.when = plan_.firing(index);
     next.what.column.stamp_ns = first_stamp_ns_ + plan_.after_ns(index);
-    // One revolution is added, so that no azimuth is negative.
+    // Adds one revolution, so that no azimuth is negative.
     next.what.column.unwrapped_azimuth_cdeg = next.when.azimuth_cdeg + beams::kRevolution_cdeg;
   }
   return planned_[static_cast<std::size_t>(firing - sent_)];
@@ -135,7 +135,7 @@ void ScanEncoder::assign(std::int32_t frame, int laser) {
         packet::beam_azimuth(firing.azimuth_cdeg, offsets_.offset_ticks(firing.step_ticks, laser));
     if (beam.frame > frame) break;
     if (beam.frame < frame) {
-      first = next + 1;  // it belongs to the run-up
+      first = next + 1;  // this firing belongs to the run-up
     } else {
       fired_ticks.push_back(beam.in_revolution_ticks);
     }
@@ -159,7 +159,8 @@ void ScanEncoder::encode(std::int32_t frame, int laser, const Wanted& wanted, Pl
       planned.when.azimuth_cdeg, hdl64e::firing_advance_ticks(planned.when.step_ticks, laser));
   const auto exact = geometry_.raw_for_range(laser, rotor_rad, wanted.range_m);
   const double raw = std::round(exact.value_or(0.0));
-  if (raw < 1 || raw > beams::kMaxRawCounts) {  // possible only at the ends of the wire's range
+  // possible only at the ends of the range of raw distances
+  if (raw < 1 || raw > beams::kMaxRawCounts) {
     count(wanted.range_m < 10.0 ? NotEncoded::kTooNear : NotEncoded::kTooFar);
     return;
   }

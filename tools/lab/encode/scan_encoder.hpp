@@ -31,7 +31,7 @@ enum class NotEncoded : std::uint8_t {
   kTooNear,      ///< Its distance is below the calibration's range (raw count < 1).
   kTooFar,       ///< Its distance is beyond the wire's 65535 counts.
   kSeam,         ///< The beam that hits it belongs to the previous or next frame.
-  kCollision,    ///< No firing of its laser near enough is left: a laser measures once
+  kCollision,    ///< All firings of its laser near enough are taken: a laser measures once
                  /// per firing, so a sensor would not have sent it.
   kCount,
 };
@@ -44,7 +44,7 @@ inline constexpr std::size_t kNotEncodedReasons = static_cast<std::size_t>(NotEn
 struct EncodedFrame {
   std::size_t points = 0;            ///< Points of the scan.
   std::size_t encoded = 0;           ///< Number of returns in the frame's truth.
-  double max_azimuth_shift_deg = 0;  ///< Decoded azimuth less the scan's.
+  double max_azimuth_shift_deg = 0;  ///< Azimuth as decoded minus the scan's.
 };
 
 /// Counts and errors of the encoded points.
@@ -53,9 +53,9 @@ struct EncodeSummary {
   std::size_t points = 0;  ///< The sum of encoded and not_encoded.
   std::size_t encoded = 0;
   std::array<std::size_t, kNotEncodedReasons> not_encoded{};
-  double median_azimuth_shift_deg = 0, max_azimuth_shift_deg = 0;  ///< Decoded less the scan's.
-  double max_range_error_m = 0;  ///< Range decoded from the wire less the scan's.
-  scan::HeightResidual height;   ///< Decoded height less the scan's.
+  double median_azimuth_shift_deg = 0, max_azimuth_shift_deg = 0;  ///< As decoded minus the scan's.
+  double max_range_error_m = 0;  ///< Range as decoded minus the scan's.
+  scan::HeightResidual height;   ///< Height as decoded minus the scan's.
 };
 
 /// A firing and the points it came from.
@@ -91,14 +91,14 @@ class ScanEncoder {
     std::int64_t first_stamp_ns = 0;  ///< Stamp of the first firing.
   };
 
-  /// Receives the firings in order, whole packets of six in all; an error ends the encoding and is
-  /// returned.
+  /// Receives the firings in order; all together fill whole packets of six. An error ends the
+  /// encoding and is returned.
   using Sink = std::function<Status(const EncodedFiring&)>;
 
   ScanEncoder(const hdl64e::Hdl64eCalibration& calibration, const Config& config, Sink sink);
 
-  /// Adds the next frame. `ring_of_point`: 0..63 or kNoRing for each point; `labels`: one for each
-  /// point, or empty (truth 0).
+  /// Adds the next frame. `ring_of_point` has a ring, 0..63 or kNoRing, for each point; `labels`
+  /// has one for each point, or is empty (truth 0).
   [[nodiscard]] Status add_frame(std::span<const scan::ScanPoint> points,
                                  std::span<const std::int16_t> ring_of_point,
                                  std::span<const std::uint32_t> labels);
@@ -108,7 +108,7 @@ class ScanEncoder {
 
  private:
   struct Wanted {
-    std::int64_t ticks = 0;  ///< Of the beam, in its frame.
+    std::int64_t ticks = 0;  ///< Azimuth of the beam in its frame.
     double range_m = 0, z_m = 0, azimuth_rad = 0;
     std::uint32_t label = 0, point = 0;
     std::uint8_t intensity = 0;

@@ -18,7 +18,7 @@ Error in_file(const std::filesystem::path& path, Error error) {
   return error;
 }
 
-/// Returns what the folder lacks to know the scans' motion; empty if nothing.
+/// Returns what the folder lacks for the scans' motion; empty if it lacks nothing.
 std::string missing_for_motion(const scan::ScanFolder& folder) {
   if (!folder.poses) return "poses.txt is missing beside velodyne/";
   if (!folder.times) return "times.txt is missing beside velodyne/";
@@ -67,7 +67,7 @@ Status ScanReader::read(std::size_t index, const scan::RingTable* table, scan::K
   const Status status = file.labels ? scan::read_kitti_scan(file.points, *file.labels, scan)
                                     : scan::read_kitti_scan(file.points, scan);
   if (!status) return status;
-  // Rings come first: putting the motion back moves points over the line that separates rings.
+  // Rings are found first: restoring the motion moves points across the line that separates rings.
   Status recovered = scan::recover_rings(scan.points, table, rings);
   if (!recovered) return tl::unexpected(in_file(file.points, std::move(recovered.error())));
   const auto twist = this->twist(index);

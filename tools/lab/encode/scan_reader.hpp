@@ -16,7 +16,7 @@
 
 namespace terracut::encode {
 
-/// Whether to put back the sensor's motion, for which recorded scans are compensated
+/// Whether to restore the sensor's motion, for which recorded scans are compensated
 /// (motion_compensation.hpp). This needs poses.txt and times.txt beside velodyne/, with poses of
 /// all scans, and scans named by their frame number.
 enum class PutMotionBack {
@@ -32,7 +32,7 @@ class ScanReader {
   [[nodiscard]] static Expected<ScanReader> open(const std::filesystem::path& folder,
                                                  PutMotionBack motion = PutMotionBack::kNever);
 
-  /// Returns why the scans are read as recorded; empty if their motion is restored.
+  /// Returns why motion is not restored; empty if it is.
   [[nodiscard]] const std::string& why_as_recorded() const noexcept { return why_as_recorded_; }
 
   [[nodiscard]] std::size_t size() const noexcept { return folder_.scans.size(); }
@@ -43,7 +43,7 @@ class ScanReader {
   [[nodiscard]] Status read(std::size_t index, scan::KittiScan& scan,
                             scan::RingRecovery& rings) const;
 
-  /// Returns the motion put back into scan `index`; nothing if none was.
+  /// Returns the motion restored in scan `index`; nothing if none was.
   [[nodiscard]] Expected<std::optional<SensorTwist>> twist(std::size_t index) const;
 
   /// Fits the unit's ring table (ring_fit_of_scans.hpp) and uses it from then on.

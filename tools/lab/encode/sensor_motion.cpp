@@ -43,7 +43,8 @@ Pose inverse(const Pose& a) {
   return b;
 }
 
-/// Takes the logarithm of a small motion: its rotation vector, and its translation to second order.
+/// Computes the logarithm of a small motion: its rotation vector, and its translation to second
+/// order.
 void logarithm(const Pose& T, std::array<double, 3>& rotating, std::array<double, 3>& moving) {
   const double cosine = std::clamp((T[0] + T[5] + T[10] - 1) / 2, -1.0, 1.0);
   const double angle = std::acos(cosine);
@@ -58,7 +59,7 @@ void logarithm(const Pose& T, std::array<double, 3>& rotating, std::array<double
   for (std::size_t i = 0; i < 3; ++i) moving[i] = t[i] - wt[i] / 2 + wwt[i] / 12;
 }
 
-/// Reads the numbers of one line; false if it has anything else.
+/// Reads the numbers of one line; false if the line has anything else.
 bool parse_numbers(const char* text, std::vector<double>& numbers) {
   numbers.clear();
   for (;;) {

@@ -46,15 +46,15 @@
 
 namespace terracut::packets {
 
-/// Returns the columns of a frame's image, by how often a laser fires.
+/// Returns the columns of a frame's image: one for each firing of a laser.
 template <class EncoderTraits>
 [[nodiscard]] int image_columns(double spin_hz, ReturnMode returns) {
   const auto period_ns = static_cast<double>(EncoderTraits::laser_period_ns(returns));
   return static_cast<int>(std::lround(1e9 / (spin_hz * period_ns)));
 }
 
-/// Calls `work` with the (empty) trait of the model; with that of an HDL-64E for a model whose
-/// packets are not made.
+/// Calls `work` with the trait (an empty object) of the model; with the HDL-64E's for a model whose
+/// packets cannot be made.
 template <class Work>
 decltype(auto) with_encoder_traits(sensor::SensorModel model, const Work& work) {
   if (velodyne::layout_of(model) != nullptr) {

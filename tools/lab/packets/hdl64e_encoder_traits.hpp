@@ -37,7 +37,8 @@ struct Hdl64eEncoderTraits {
 
   static constexpr int kLasers = hdl64e::kHdl64eLasers;
   static constexpr bool kStrongestFirst = true;
-  static constexpr double kBeamHalfWidth_rad = 1.0e-3;  ///< The manual: 2 mrad for the whole beam.
+  /// Half of the 2 mrad that the manual gives for the whole beam.
+  static constexpr double kBeamHalfWidth_rad = 1.0e-3;
   static constexpr std::string_view kCalibrationSuffix = ".calibration.xml";
 
   [[nodiscard]] static constexpr const hdl64e::FiringTimes& times(ReturnMode returns) noexcept {

@@ -20,8 +20,8 @@ void encode_hdl64e_packet(std::span<const FiringColumn, hdl64e::kColumnsPerPacke
                           std::int64_t end_stamp_ns, hdl64e::StatusPair status,
                           hdl64e::wire::Packet& packet) noexcept;
 
-/// Returns the end of the packet of these columns: one firing period, computed from the columns,
-/// after the last one. Two columns with one azimuth at the start mean dual return.
+/// Returns the time at which the packet of these columns ends: one firing period, computed from the
+/// columns, after the last one. Two equal azimuths at the start mean dual return.
 [[nodiscard]] std::int64_t packet_end_ns(
     std::span<const FiringColumn, hdl64e::kColumnsPerPacketSingle> columns) noexcept;
 

@@ -23,8 +23,8 @@ class Hdl64ePacketSender {
   [[nodiscard]] static Expected<Hdl64ePacketSender> create(
       const hdl64e::Hdl64eCalibration& calibration, ReturnMode returns);
 
-  /// Writes the next packet from its columns. `first_column` is the index of its first column in
-  /// the group.
+  /// Writes the next packet from its columns. `first_column` is the index of the packet's first
+  /// column in its group of firings.
   [[nodiscard]] Status send(std::span<const FiringColumn> columns, int first_column,
                             capture::PcapWriter& capture);
 

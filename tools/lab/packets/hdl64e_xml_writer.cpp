@@ -19,7 +19,7 @@ namespace {
 using Text = fmt::memory_buffer;
 
 /// Returns the shortest text in degrees that deg_to_rad() turns back into exactly `rad`; if there
-/// is none, the nearest double.
+/// is none, that of the nearest double.
 std::string degrees(double rad) {
   const double nearest = beams::rad_to_deg(rad);
   std::string best = text::text_of(nearest, 0);
@@ -46,7 +46,7 @@ void put(Text& text, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
 }
 
-/// A list of one value a laser, as Boost.Serialization writes a std::vector or std::array.
+/// Writes a list of one value a laser, as Boost.Serialization writes a std::vector or std::array.
 template <class Value>
 void put_list(Text& text, std::string_view element, bool versioned, Value value) {
   put(text, "\t<{}>\n\t\t<count>64</count>\n", element);
@@ -73,8 +73,8 @@ void put_colors(Text& text) {
 
 void put_laser(Text& text, std::size_t number, const Hdl64eLaser& laser) {
   const bool first = number == 0;
-  // Some readers always interpolate between near and far. Equal values make them use the far value
-  // everywhere, as "no two-point correction" means.
+  // Some readers always interpolate between near and far. With both equal they use the far value
+  // everywhere, which is what a laser without two-point correction needs.
   const double near_x_m = laser.two_point ? laser.dist_correction_x_m : laser.dist_correction_m;
   const double near_y_m = laser.two_point ? laser.dist_correction_y_m : laser.dist_correction_m;
   put(text, "\t\t<item{}>\n\t\t\t<px class_id{}=\"9\"{} object_id=\"_{}\">\n",

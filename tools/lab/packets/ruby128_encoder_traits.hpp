@@ -31,7 +31,7 @@ struct Ruby128EncoderTraits {
   struct Config {
     ReturnMode returns = ReturnMode::kSingle;
     ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
-    /// 0 lets decoders detect the stamps' encoding.
+    /// With 0, decoders find out the stamps' encoding.
     std::uint16_t protocol_version = 0;
     Ruby128Unit unit{};
   };
@@ -52,8 +52,8 @@ struct Ruby128EncoderTraits {
     return ruby128::kRubyBlocksPerPacket;
   }
 
-  /// In dual return two packets hold the firings A A B and B C C; B keeps the step of the first
-  /// packet.
+  /// In dual return two packets hold the firings A A B and B C C; both returns of B have the step
+  /// of the first packet.
   [[nodiscard]] static constexpr std::int32_t step_ticks(const GroupAzimuths& rotor, int place,
                                                          ReturnMode returns) noexcept {
     const std::int32_t a = rotor.cdeg[0], b = rotor.cdeg[1], c = rotor.cdeg[2];

@@ -21,9 +21,9 @@ struct Ruby128PacketFacts {
 };
 
 /// Writes three columns as one data packet: three firings, or one and a half in dual return, where
-/// both returns of a firing (the last, then the strongest) are blocks of their own. `first_column`
-/// is the first column's index in the group of firings of whole packets: even for the first return
-/// of a firing. The device stamp is the first column's.
+/// each return of a firing (the last, then the strongest) is a block of its own. `first_column` is
+/// the first column's index in the group of firings that fill whole packets; it is even for the
+/// first return of a firing. The device stamp is the first column's.
 void encode_ruby128_packet(std::span<const Ruby128Column, ruby128::kRubyBlocksPerPacket> columns,
                            int first_column, const Ruby128PacketFacts& facts,
                            ruby128::ruby128_wire::Packet& packet) noexcept;

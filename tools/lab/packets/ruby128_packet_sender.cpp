@@ -13,8 +13,8 @@ constexpr std::array<std::uint8_t, 4> kSensor{192, 168, 1, 200};
 constexpr std::array<std::uint8_t, 4> kHost{192, 168, 1, 102};
 constexpr std::int64_t kDifopPeriod_ns = 1'000'000'000;
 
-/// Return modes in the DIFOP. All sources agree on the value for dual. A unit set to "strongest"
-/// sent the other value, used here for single (docs/reference/sensors.md).
+/// Return modes in DIFOP packets. All sources agree on the value for dual. The other value, used
+/// here for single, was sent by a unit set to "strongest" (docs/reference/sensors.md).
 constexpr std::uint8_t kStrongestMode = 1, kDualMode = 3;
 
 constexpr std::uint32_t number_of(const std::array<std::uint8_t, 4>& address) {

@@ -24,16 +24,17 @@ struct Ruby128Unit {
   double temperature_deg_c = 41.5;
 };
 
-/// Writes an RS-Ruby128's packets into a capture, with the factory's addresses and ports: the given
-/// data packets (MSOP), and the device packet (DIFOP) with the unit's angles before the first of
-/// them and then once a second. Writes a file, so it is not real-time safe. One thread.
+/// Writes an RS-Ruby128's packets into a capture, with the factory's addresses and ports: the data
+/// packets (MSOP) that it is given, and the device packet (DIFOP) with the unit's angles, before
+/// the first of them and then once a second. Writes a file, so it is not real-time safe. One
+/// thread.
 class Ruby128PacketSender {
  public:
   Ruby128PacketSender(const ruby128::Ruby128Calibration& calibration, const Ruby128Unit& unit,
                       Ruby128PacketFacts facts);
 
-  /// Writes the next packet from its columns. `first_column` is the index of its first column in
-  /// the group.
+  /// Writes the next packet from its columns. `first_column` is the index of the packet's first
+  /// column in its group of firings.
   [[nodiscard]] Status send(std::span<const Ruby128Column> columns, int first_column,
                             capture::PcapWriter& capture);
 

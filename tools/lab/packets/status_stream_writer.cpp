@@ -23,7 +23,8 @@ std::array<std::uint8_t, 6> time_bytes_of(std::int64_t stamp_ns) noexcept {
           byte(static_cast<int>(date.year()) - 2000)};
 }
 
-/// Returns the type byte of a table byte (for non-digits: HDL-64E S3 manual Rev K pp. 36-38).
+/// Returns the type byte of a table byte; types other than digits are in the HDL-64E S3 manual Rev
+/// K, pp. 36-38.
 std::uint8_t table_type(hdl64e::StatusFlavour flavour, std::size_t group,
                         std::size_t place) noexcept {
   constexpr std::size_t kFirstTailGroup = 256;

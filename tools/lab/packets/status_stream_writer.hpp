@@ -18,16 +18,17 @@ struct StatusValues {
   std::uint8_t firmware = 0x40;
 };
 
-/// Makes the status bytes of successive packets like a unit, for the encoder, the simulator and
-/// tests. Allocates nothing; may be used from the packet path.
+/// Makes the status bytes of successive packets as a unit does, for the encoder, the simulator and
+/// tests. Allocates nothing; may be used on the packet path.
 class StatusStreamWriter {
  public:
-  /// `table` is made by hdl64e::make_stream_table() (kCrc for S3, kLengthMarker for S2); copied.
+  /// `table` is made by hdl64e::make_stream_table() (kCrc for an S3, kLengthMarker for an S2) and
+  /// copied.
   StatusStreamWriter(std::span<const std::uint8_t, hdl64e::kStreamTableBytes> table,
                      hdl64e::StatusFlavour flavour, StatusValues values = {}) noexcept;
 
   /// Returns the two status bytes of the next packet. `stamp_ns` (since 1970, UTC) is sent as date
-  /// and time; it is taken at the start of a cycle, so that the six bytes belong together. Years
+  /// and time. It is sampled at the start of a cycle, so that the six bytes belong together. Years
   /// 2000..2255.
   [[nodiscard]] hdl64e::StatusPair next(std::int64_t stamp_ns) noexcept;
 

@@ -17,8 +17,8 @@
 
 namespace terracut::packets {
 
-/// A Velodyne with a built-in table for makers of packets (packets/encoder_traits.hpp). Its firing
-/// is a column here; a column of a VLP-16 is two firings of its lasers.
+/// A Velodyne with a built-in table for makers of packets (packets/encoder_traits.hpp). Here a
+/// column is one firing of all lasers; in a VLP-16's packets it is two.
 template <class Model>
 struct VelodyneEncoderTraits {
   using Calibration = velodyne::VelodyneCalibration;
@@ -33,7 +33,8 @@ struct VelodyneEncoderTraits {
 
   static constexpr int kLasers = Model::kChannels;
   static constexpr bool kStrongestFirst = false;
-  static constexpr double kBeamHalfWidth_rad = 1.5e-3;  ///< The manuals: 3 mrad in all.
+  /// Half of the 3 mrad that the manuals give.
+  static constexpr double kBeamHalfWidth_rad = 1.5e-3;
   static constexpr std::string_view kCalibrationSuffix = "";
 
   [[nodiscard]] static constexpr bool is_dual(ReturnMode returns) noexcept {
@@ -52,7 +53,8 @@ struct VelodyneEncoderTraits {
     return Model::kLayout.columns(is_dual(returns));
   }
 
-  /// A packet with one firing shows no step: the decoder takes the step from the previous packet.
+  /// A packet with one firing shows no step between firings: the decoder uses the step from the
+  /// previous packet.
   [[nodiscard]] static constexpr std::int32_t step_ticks(const GroupAzimuths& rotor, int,
                                                          ReturnMode returns) noexcept {
     const int firings = firings_per_group(returns);

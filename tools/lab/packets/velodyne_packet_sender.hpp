@@ -27,7 +27,7 @@ class VelodynePacketSender {
   explicit VelodynePacketSender(ReturnMode returns) noexcept
       : is_dual_(returns == ReturnMode::kDual) {}
 
-  /// Writes the next packet, of as many columns as it holds.
+  /// Writes the next packet; `columns` fill it.
   [[nodiscard]] Status send(std::span<const Column> columns, int /*first_column*/,
                             capture::PcapWriter& capture) const {
     const std::int64_t stamp_ns = columns.front().stamp_ns;

@@ -10,7 +10,8 @@
 
 namespace terracut::quality {
 
-/// Percentiles of absolute errors, from a fixed number of counts for any length of drive.
+/// Finds percentiles of absolute errors by counting them in a fixed number of bins, however many
+/// there are.
 class ErrorCounts {
  public:
   /// Errors are counted to within `width`; an error beyond `bins` * `width` counts as that limit.
@@ -26,8 +27,8 @@ class ErrorCounts {
   [[nodiscard]] double rms() const {
     return count_ == 0 ? 0 : std::sqrt(squares_ / static_cast<double>(count_));
   }
-  /// Returns the error that at most 100 - `percent` percent of the errors exceed; 0 if there are no
-  /// errors.
+  /// Returns the error that at most 100 - `percent` percent of all errors exceed; 0 if there are
+  /// none.
   [[nodiscard]] double percentile(std::uint64_t percent) const {
     std::uint64_t not_above = 0;
     for (std::size_t bin = 0; count_ != 0 && bin < counts_.size(); ++bin) {

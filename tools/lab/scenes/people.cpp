@@ -23,7 +23,7 @@ world::SceneObject make_pedestrian(world::Random& random) {
 }
 
 world::SceneObject make_cyclist(world::Random& random) {
-  const double tall_m = random.uniform(1.6, 1.8);  // Above the ground, on the saddle.
+  const double tall_m = random.uniform(1.6, 1.8);  // Height above the ground, on the saddle.
   const world::Substance cloth{world::Truth::kBicyclist, world::Material::kCloth};
   const world::Substance metal{world::Truth::kBicyclist, world::Material::kMetal};
   const world::Substance rubber{world::Truth::kBicyclist, world::Material::kRubber};
@@ -32,7 +32,7 @@ world::SceneObject make_cyclist(world::Random& random) {
   cyclist.stance = world::Stance::kOnWheels;
   cyclist.half_base_m = 0.52;
   cyclist.half_track_m = 0.1;
-  // Spokes let nearly all light through: the wheel's density is its tyre's share of a disc.
+  // Spokes let nearly all light through, so the wheel's density is its tyre's share of a disc.
   cyclist.shapes.push_back(
       world::wheel({0.52, 0, 0}, 0.34, 0.04, {rubber.truth, rubber.material, 10}));
   cyclist.shapes.push_back(

@@ -7,7 +7,7 @@
 
 namespace terracut::scenes {
 
-/// Makes a person, standing or walking, 1.1 to 1.95 m tall, about 0.5 m wide; two legs.
+/// Makes a person, standing or walking: 1.1 to 1.95 m tall, about 0.5 m wide, on two legs.
 [[nodiscard]] world::SceneObject make_pedestrian(world::Random& random);
 
 /// Makes a person on a bicycle, 1.75 m long, heading along x; all of one class.

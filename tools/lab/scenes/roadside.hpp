@@ -7,8 +7,8 @@
 
 namespace terracut::scenes {
 
-/// Makers of things beside a road. The origin is on the ground in their middle; long ones lie along
-/// x and reach below the origin, so that no gap shows on slopes.
+/// Functions that make things beside a road. The origin is on the ground in the thing's middle;
+/// long things lie along x and reach below the origin, so that no gap shows on slopes.
 
 /// Makes a building `length_m` along the road, `depth_m` across, `height_m` high, with a plinth.
 [[nodiscard]] world::SceneObject make_building(double length_m, double depth_m, double height_m);
@@ -19,7 +19,7 @@ namespace terracut::scenes {
 /// Makes a bush of leaves down to the ground, 0.5 to 1.6 m across.
 [[nodiscard]] world::SceneObject make_bush(world::Random& random);
 
-/// These make a lamp post, a sign post with its plate, and a bollard.
+/// Each makes one thing: a lamp post, a sign post with its plate, or a bollard.
 [[nodiscard]] world::SceneObject make_lamp_post(world::Random& random);
 [[nodiscard]] world::SceneObject make_sign_post(world::Random& random);
 [[nodiscard]] world::SceneObject make_bollard();

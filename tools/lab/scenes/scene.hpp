@@ -23,7 +23,7 @@ struct EgoArc {
 };
 
 /// A world and the path of the sensor's vehicle: from s = 0 at time 0 along the road, or along an
-/// arc, which leaves the road in the end.
+/// arc that touches the road and leaves it.
 struct Scene {
   world::Terrain terrain;
   std::vector<world::SceneObject> objects;
@@ -39,8 +39,9 @@ struct SceneExtent {
   double speed_mps = -1;  ///< < 0: the scene's usual speed.
 };
 
-/// Makes a scene. The same name and seed give the same world; a longer drive sees what a shorter
-/// one sees, and more. Fails with kInvalidArgument for a name not in scene_names(), which it lists.
+/// Makes a scene. The same name and seed give the same world; a longer drive sees everything that a
+/// shorter one sees, and more. Fails with kInvalidArgument for an unknown name; the message lists
+/// scene_names().
 [[nodiscard]] Expected<Scene> make_scene(std::string_view name, const SceneExtent& extent);
 
 /// A box of the scene "flat", standing on the plane.

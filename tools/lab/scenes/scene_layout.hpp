@@ -21,9 +21,9 @@ class SceneLayout {
 
   SceneLayout(Scene& scene, const SceneExtent& extent) noexcept : scene_(scene), extent_(extent) {}
 
-  /// Calls place(random, s_m) for every multiple s_m of `pitch_m` from which a thing moving with
-  /// `along_mps` ever comes into sight. The thing depends only on the seed, on `row` (a distinct
-  /// number for each use) and on the slot.
+  /// Calls place(random, s_m) for every multiple s_m of `pitch_m` from which a thing that moves
+  /// with `along_mps` comes into sight at any time. The thing depends only on the seed, on `row` (a
+  /// different number for each use) and on s_m.
   template <class Place>
   void row(std::uint64_t row, double pitch_m, double along_mps, Place&& place) {
     const double gained_m = (scene_.ego_speed_mps - along_mps) * extent_.duration_s;
@@ -60,7 +60,7 @@ class SceneLayout {
   SceneExtent extent_;
 };
 
-/// Half a revolution: heading against the direction of the road.
+/// Half a revolution: the heading of a thing that faces against the direction of the road.
 inline constexpr double kAgainst_rad = std::numbers::pi;
 
 }  // namespace terracut::scenes

@@ -4,7 +4,7 @@
 
 #include "scene.hpp"
 
-/// The makers behind make_scene(), one per file; they have resolved extent.speed_mps.
+/// The functions behind make_scene(), one per file; extent.speed_mps is already the speed to use.
 namespace terracut::scenes {
 
 [[nodiscard]] Scene make_street_scene(const SceneExtent& extent);

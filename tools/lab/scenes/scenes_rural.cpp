@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHalfRoad_m = 2.9;
 constexpr double kVerge_m = 0.8;
-constexpr double kDitch_m = 1.6;  // Each side of the ditch is this wide.
+constexpr double kDitch_m = 1.6;  // Width of each side of the ditch.
 constexpr double kDitch_d_m = kHalfRoad_m + kVerge_m + kDitch_m;
 constexpr double kField_d_m = kDitch_d_m + kDitch_m;
 constexpr double kLane_d_m = 1.4;
@@ -34,7 +34,7 @@ world::RoadSide road_side(double bank_slope, double bank_m, double roughness_m) 
 }
 
 void add_roadside(SceneLayout& layout, double sign, std::uint64_t row) {
-  // Hedges and fences come in runs, so they are drawn per 40 m and laid in pieces.
+  // Hedges and fences extend over some length, so they are chosen per 40 m and placed in pieces.
   layout.row(row, 40, 0, [&](world::Random& random, double s_m) {
     const double kind = random.unit();
     const double d_m = sign * (kField_d_m + random.uniform(0.3, 1.5));

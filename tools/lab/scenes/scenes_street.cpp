@@ -19,7 +19,7 @@ constexpr double kSpeed_mps = 8.33;
 constexpr double kOncoming_mps = -9.0;
 constexpr double kDroppedEvery_m = 26.0;
 
-/// One side of the street; widths from the centre line outwards.
+/// One side of the street; all widths are measured from the centre line outwards.
 struct SidePlan {
   double sign = 1;  ///< +1 left, -1 right.
   bool parking = true;
@@ -121,7 +121,7 @@ void add_traffic(SceneLayout& layout, const SidePlan& right, double ego_mps) {
     layout.add(random.chance(0.1) ? make_truck(random) : make_car(random), {s_m, 1.8}, kAgainst_rad,
                kOncoming_mps);
   });
-  // All vehicles in the own lane drive at the own vehicle's speed, so that none comes near it.
+  // All vehicles in the sensor vehicle's lane drive at its speed, so that none comes near it.
   layout.row(51, 24, ego_mps, [&](world::Random& random, double s_m) {
     if (std::abs(s_m) < 12 || random.chance(0.4)) return;
     layout.add(make_car(random), {s_m, kEgoLane_d_m}, 0, ego_mps);
@@ -137,7 +137,7 @@ void add_traffic(SceneLayout& layout, const SidePlan& right, double ego_mps) {
     layout.add(make_cyclist(random), {at_m, 3.1}, kAgainst_rad, -4.5);
   });
   // A person begins to cross from the right when the vehicle is about 50 m away, and has crossed
-  // before it comes.
+  // before it arrives.
   layout.row(54, 60, 0, [&](world::Random& random, double s_m) {
     if (ego_mps < 1) return;
     world::SceneObject person = make_pedestrian(random);

@@ -31,7 +31,7 @@ world::SceneObject make_car(world::Random& random) {
   car.half_base_m = 0.3 * length_m;
   car.half_track_m = 0.42 * width_m;
 
-  // A body reaches up to the belt line and is lower over the bonnet; above it stand windows all
+  // The body reaches up to the belt line and is lower over the bonnet; above it are windows all
   // round, and a roof.
   const double bonnet_m = 0.25 * length_m;
   const double cabin_m = length_m - bonnet_m - (random.chance(0.5) ? 0.1 : 0.7);

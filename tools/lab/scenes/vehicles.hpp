@@ -7,8 +7,8 @@
 
 namespace terracut::scenes {
 
-/// Makers of motor vehicles: origin on the ground below the middle, heading along x. Size, colour
-/// and kind vary with `random`; the caller sets place and speed.
+/// Functions that make motor vehicles: origin on the ground below the middle, heading along x.
+/// Size, colour and kind vary with `random`; the caller sets position and speed.
 
 /// Makes a car 3.8 to 4.8 m long, 1.75 to 1.9 m wide, 1.45 to 1.7 m high; 0.18 to 0.24 m of air
 /// below.

@@ -13,11 +13,11 @@ namespace terracut::send {
 class DeviceStampShift {
  public:
   /// Adds `shift_ns`, rounded to the device's unit, to the device stamp of a data packet; a
-  /// Velodyne's hour wraps. False, and the packet untouched, for payloads other than data packets
-  /// of a sensor whose stamp is known.
+  /// Velodyne's hour wraps. Returns false, leaving the packet untouched, for payloads other than
+  /// data packets of a sensor whose stamp is known.
   ///
-  /// Must see the stream from its beginning, with shift 0 before the jump, to find the encoding of
-  /// a RoboSense stamp.
+  /// To find the encoding of a RoboSense stamp, call this for every packet of the stream, with
+  /// shift 0 before the jump.
   bool operator()(std::span<std::uint8_t> payload, std::int64_t shift_ns) noexcept;
 
  private:

@@ -14,7 +14,7 @@ constexpr bool counts_packets(FaultKind kind) noexcept {
   return kind != FaultKind::kPause && kind != FaultKind::kBurst && kind != FaultKind::kClock;
 }
 
-/// True if a fault of this kind affects a packet of this time.
+/// True if a fault of this kind affects a packet with this stamp.
 bool is_due(const FaultOutcome& outcome, FaultKind kind, std::int64_t time_ns) noexcept {
   const Fault& fault = outcome.fault;
   if (fault.kind != kind || time_ns < fault.at_ns) return false;
@@ -22,8 +22,7 @@ bool is_due(const FaultOutcome& outcome, FaultKind kind, std::int64_t time_ns) n
   return kind == FaultKind::kClock || time_ns - fault.at_ns < fault.span_ns;
 }
 
-/// Counts a packet that a fault affects. Packets come in order, and a packet noted twice counts
-/// once.
+/// Counts a packet that a fault affects. Packets come in order; a packet noted twice counts once.
 void note(FaultOutcome& outcome, std::uint64_t index) {
   if (!outcome.runs.empty()) {
     Run& last = outcome.runs.back();
@@ -117,11 +116,11 @@ bool FaultInjector::take_away(std::int64_t time_ns) {
   return false;
 }
 
-/// Applies the clock faults first, because truncation may remove the packet's stamp.
+/// Applies clock faults first, because truncation may remove the packet's stamp.
 void FaultInjector::edit(packet::Datagram& datagram) {
   const std::int64_t time_ns = time_of(datagram);
   std::int64_t shift_ns = 0;
-  FaultOutcome* cut = nullptr;  // a packet is cut once; the next packets get further cuts
+  FaultOutcome* cut = nullptr;  // a packet is cut only once; further cuts are for the next packets
   for (FaultOutcome& outcome : outcomes_) {
     if (is_due(outcome, FaultKind::kClock, time_ns)) shift_ns += outcome.fault.span_ns;
     if (cut == nullptr && is_due(outcome, FaultKind::kTruncate, time_ns)) cut = &outcome;
@@ -168,8 +167,8 @@ bool FaultInjector::is_duplicated(std::int64_t time_ns) {
   return false;
 }
 
-/// Passes a datagram to the sink, or holds it back until the burst ends that it belongs to. If
-/// bursts overlap, the one that ends last counts, which keeps the order.
+/// Passes a datagram to the sink, or holds it back until the end of the burst that it belongs to.
+/// If bursts overlap, the one that ends last counts; this keeps the order.
 void FaultInjector::pass(const packet::Datagram& datagram, Origin origin, std::uint64_t index) {
   const std::int64_t time_ns = time_of(datagram);
   FaultOutcome* holding = nullptr;

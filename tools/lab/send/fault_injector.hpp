@@ -28,22 +28,21 @@ struct FaultOutcome {
   std::uint64_t packets = 0;
   std::vector<Run> runs{};  ///< The affected packets; for foreign ones, the packet after them.
 
-  /// True if its time came and, for a given number of packets, all were affected.
+  /// True if the fault's time has come and all packets that it asks for were affected.
   [[nodiscard]] bool complete() const noexcept;
 };
 
-/// Applies a fault script to a stream of datagrams between a generator and a sender. The same
+/// Applies a fault script to a stream of datagrams, between their source and a sender. The same
 /// stream and script always give the same result. For tests and simulation: allocates. One thread.
 class FaultInjector {
  public:
   enum class Origin : std::uint8_t { kSensor, kForeign };
 
-  /// Receives the datagrams to be sent, in order; the stamp is the time to send, never less than
-  /// that of the previous datagram unless the stream's own stamps go back. The payload is valid
-  /// only during the call.
+  /// Receives the datagrams to be sent, in order. Their stamp is the time to send; it never falls
+  /// unless the stream's own stamps do. The payload is valid only during the call.
   using Sink = std::function<void(const packet::Datagram&, Origin)>;
   /// Adds `shift_ns` to the device's stamp in a packet; false if it finds none. If the script has a
-  /// clock fault, it is called for every remaining packet, before the jump with 0.
+  /// clock fault, it is called for every remaining packet, with 0 before the jump.
   using ShiftStamp = std::function<bool(std::span<std::uint8_t> packet, std::int64_t shift_ns)>;
 
   static constexpr std::size_t kForeignBytes = 512;  ///< No data packet of a sensor has this size.

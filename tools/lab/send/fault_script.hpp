@@ -12,20 +12,20 @@
 namespace terracut::send {
 
 /// The faults between a sensor and its receiver. "From T on" means from the first packet whose
-/// stamp is at least T after the stream's first one. N counts remaining packets, without those that
-/// an earlier fault removed.
+/// stamp is at least T after the stream's first stamp. N counts the packets that earlier faults
+/// have not removed.
 enum class FaultKind : std::uint8_t {
   kLoss,       ///< N packets from T on are never sent.
   kReorder,    ///< One packet, the first from T on, is sent after the N that follow it.
   kDuplicate,  ///< N packets from T on are sent twice in a row.
   kPause,      ///< Packets during a time span from T on are never sent: the sensor falls silent.
   kBurst,      ///< Packets during a time span from T on are held back and sent together at its end.
-  kForeign,    ///< N packets of another device come before the first packet from T on.
+  kForeign,    ///< N packets of another device are sent before the first packet from T on.
   kTruncate,   ///< N packets from T on are sent with only the first half of their bytes.
   kClock,      ///< The device's clock jumps at T and keeps the offset.
 };
 
-/// Returns a stable lower-case name, as in scripts: "loss".
+/// Returns a stable lower-case name such as "loss", as in scripts.
 [[nodiscard]] std::string_view to_string(FaultKind kind) noexcept;
 
 struct Fault {

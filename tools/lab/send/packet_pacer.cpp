@@ -65,7 +65,7 @@ std::int64_t PacketPacer::due_ns(std::int64_t stamp_ns) noexcept {
   return std::max(due, planned_due_ns_);
 }
 
-/// Sleeps in slices, so that stop() does not have to interrupt the sleep.
+/// Sleeps in slices, so that stop() takes effect without interrupting a sleep.
 void PacketPacer::sleep_until(std::int64_t due_ns) const noexcept {
   constexpr std::int64_t kSlice_ns = 100'000'000;
   for (std::int64_t now_ns = measure::monotonic_ns(); now_ns < due_ns && !stopped();

@@ -15,29 +15,30 @@
 namespace terracut::send {
 
 /// Sends datagrams at the times of their stamps, as a sensor would, and measures how late each one
-/// was. Due times are instants of CLOCK_MONOTONIC, so that one late datagram does not delay others.
+/// is sent. Due times are instants of CLOCK_MONOTONIC, so that one late datagram does not delay
+/// others.
 ///
 /// The first datagram is due `start_delay_ns` after it is added; one stamped 1 s later is due 1 s /
-/// rate after that. A datagram with an earlier stamp than the previous one is due with it.
-/// Datagrams with the same stamp are sent together. Fixed memory; one thread, which add() puts to
-/// sleep and whose timers it makes exact (Linux delays them by 50 us otherwise).
+/// rate after that. A datagram with an earlier stamp than the previous one is due together with it.
+/// Datagrams with the same stamp are sent together. Fixed memory; one thread. add() puts that
+/// thread to sleep and makes its timers exact (otherwise Linux delays them by 50 us).
 class PacketPacer {
  public:
   /// `rate` is the speed relative to the stamps, (0, 1000], or 0 for as fast as possible.
   PacketPacer(double rate, memory::FixedMemory& memory, std::int64_t start_delay_ns = 0);
 
-  /// Copies the datagram and plans it; if it is due later than those before it, waits for their
-  /// time and sends them. `sender` must live until flush().
+  /// Copies the datagram and plans it. If it is due later than those planned before, waits for
+  /// their time and sends them. `sender` must live until flush().
   void add(const packet::Datagram& datagram, UdpSender& sender) noexcept;
   /// Waits for all planned datagrams and sends them.
   void flush() noexcept;
 
-  /// Ends the waiting within a tenth of a second; nothing is sent any more. From any thread or a
+  /// Ends any waiting within a tenth of a second; nothing is sent any more. For any thread or a
   /// signal handler.
   void stop() noexcept { stopped_.store(true, std::memory_order_relaxed); }
   [[nodiscard]] bool stopped() const noexcept { return stopped_.load(std::memory_order_relaxed); }
 
-  /// Returns the delays from a datagram's due time until the system call; empty at rate 0.
+  /// Returns the delays from datagrams' due times to their system calls; empty at rate 0.
   [[nodiscard]] const measure::LogLinearHistogram& lateness() const noexcept { return lateness_; }
 
  private:

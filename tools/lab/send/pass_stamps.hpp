@@ -7,12 +7,12 @@
 
 namespace terracut::send {
 
-/// Makes the stamps of a capture that is played repeatedly one continuous stream: passes are as far
-/// apart as the capture's packets are on average. With the old stamps, PacketPacer would send a
+/// Gives a capture that is played repeatedly one continuous stream of stamps: the gap between
+/// passes is the capture's mean gap between packets. With the old stamps, PacketPacer would send a
 /// second pass at once.
 class PassStamps {
  public:
-  /// Returns the stamp, in ns, of a packet in this pass.
+  /// Returns the stamp, in nanoseconds, of a packet in this pass.
   std::int64_t place(std::int64_t stamp_ns) noexcept {
     if (packets_++ == 0) first_ns_ = last_ns_ = stamp_ns;
     last_ns_ = std::max(last_ns_, stamp_ns);

@@ -18,7 +18,7 @@ Expected<PortSenders> PortSenders::open(const std::string& to, UdpSenderConfig c
                 "expected a port from 1 to 65535 after the address, found 0 in '" + to + "'");
   }
   config.to = *endpoint;
-  // A sender is opened even if no port is known yet, so that a wrong address is reported now.
+  // Opens a sender even if no port is known yet, so that a wrong address is reported now.
   UdpSenderConfig first = config;
   if (!has_port) first.to.port = 1;
   auto sender = UdpSender::open(first, memory);
@@ -47,7 +47,7 @@ UdpSender* PortSenders::sender_for(std::uint16_t port) {
 SendCounters PortSenders::counters() const noexcept {
   SendCounters sum;
   sum.failed = refused_;
-  if (refused_ > 0) sum.last_error = EMFILE;  // open() has found all other errors
+  if (refused_ > 0) sum.last_error = EMFILE;  // open() has reported all other errors
   for (const auto& [port, sender] : by_port_) sum += sender.counters();
   return sum;
 }

@@ -13,17 +13,17 @@
 
 namespace terracut::send {
 
-/// Sockets to one machine: all datagrams go to one port, or each to the port of its capture, like a
-/// sensor that sends data and device information to different ports.
+/// Sockets that send to one machine: all datagrams to one port, or each to the port that it had in
+/// the capture, as a sensor sends data and device information to different ports.
 class PortSenders {
  public:
-  /// `to` is "ADDRESS:PORT", or "ADDRESS" for each datagram's own port. `memory` must outlive this
+  /// `to` is "ADDRESS:PORT" or, for each datagram's own port, "ADDRESS". `memory` must outlive this
   /// object. Fails with the errors of parse_ipv4_endpoint() and UdpSender::open().
   [[nodiscard]] static Expected<PortSenders> open(const std::string& to, UdpSenderConfig config,
                                                   memory::FixedMemory& memory);
 
-  /// Returns the sender for a datagram captured on its way to `port`; a new port gets a new socket.
-  /// Null if the system refuses one; that datagram counts as failed.
+  /// Returns the sender for a datagram that was captured on its way to `port`; a new port gets a
+  /// new socket. Null if the system refuses one; that datagram counts as failed.
   [[nodiscard]] UdpSender* sender_for(std::uint16_t port);
 
   [[nodiscard]] SendCounters counters() const noexcept;

@@ -31,24 +31,24 @@ struct SendCounters {
   std::uint64_t failed = 0;
   int last_error = 0;  ///< errno of the newest failure.
 
-  /// Sums several senders; `last_error` is one of theirs.
+  /// Adds the counters of another sender; `last_error` is then that of one of the two.
   SendCounters& operator+=(const SendCounters& other) noexcept;
 };
 
-/// Sends datagrams as a sensor would, regardless of listeners. One thread.
+/// Sends datagrams as a sensor would, whether or not anybody listens. One thread.
 class UdpSender {
  public:
   static constexpr std::size_t kBatch = 64;
 
-  /// Takes all its memory. Fails with kInvalidArgument if there is no address or port to send to;
-  /// kNotFound if `from` is no address of this machine, or there is no such interface; kUnreadable
-  /// if the system refuses for another reason.
+  /// Takes all its memory. Fails with kInvalidArgument if the address or the port to send to is
+  /// missing; kNotFound if `from` is no address of this machine, or there is no such interface;
+  /// kUnreadable if the system refuses for another reason.
   [[nodiscard]] static Expected<UdpSender> open(const UdpSenderConfig& config,
                                                 memory::FixedMemory& memory);
 
-  /// Sends the payloads in this order, kBatch per system call; stamps and addresses of the
-  /// datagrams are ignored. Waits while the system's send buffer is full. Returns the number sent;
-  /// the others are counted as failed.
+  /// Sends the payloads in order, kBatch per system call; the datagrams' stamps and addresses are
+  /// ignored. Waits while the system's send buffer is full. Returns the number sent; the others are
+  /// counted as failed.
   std::size_t send(std::span<const packet::Datagram> datagrams) noexcept;
 
   [[nodiscard]] const SendCounters& counters() const noexcept { return counters_; }

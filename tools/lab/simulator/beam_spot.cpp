@@ -13,10 +13,10 @@ namespace terracut::simulator {
 namespace {
 
 constexpr std::uint64_t kBesideTheAxis = 0x5BE5;  // makes its random numbers differ from the axis's
-/// Half the length of a 5 ns pulse. Echoes that are nearer to each other merge.
+/// Half the length of a 5 ns pulse. Echoes nearer to each other than this merge.
 constexpr double kSeparable_m = 0.75;
-/// Two places are on one surface if each lies this near to the other's tangent plane: slanting
-/// ground spreads one pulse over metres without splitting it.
+/// Two places are on one surface if each lies this near to the other's tangent plane. (Slanting
+/// ground spreads one pulse over metres without splitting it.)
 constexpr double kOnePlane_m = 0.15;
 
 double off_plane_m(const world::Hit& hit, const Eigen::Vector3d& at, const Eigen::Vector3d& other) {

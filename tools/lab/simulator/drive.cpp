@@ -23,7 +23,7 @@
 namespace terracut::simulator {
 namespace {
 
-// Objects are sorted again after so many firings (9 ms): nothing moves far in that time.
+// After this many firings (9 ms) objects are sorted again; nothing moves far in that time.
 constexpr std::int64_t kBatch = 192;
 // The beams start at most this far from the sensor's origin.
 constexpr double kBeamStarts_m = 0.5;
@@ -105,7 +105,7 @@ class Drive {
       return;
     }
     const double frame_period_s = 1 / config_.spin_hz;
-    // Beams lead and trail the head by some degrees.
+    // Beams point some degrees before and behind the head, perhaps into another frame.
     for (const std::int64_t cdeg : {begin.azimuth_cdeg - 1500, end.azimuth_cdeg + 1500}) {
       const std::int64_t frame = (cdeg - beams::wrap_cdeg(cdeg)) / beams::kRevolution_cdeg;
       if (!plan_.wants(frame)) continue;
@@ -169,7 +169,7 @@ class Drive {
   std::vector<Column> columns_;
 };
 
-/// The objects built from a valid configuration.
+/// The objects made from a configuration after it was checked.
 template <class EncoderTraits>
 struct DrivePlan {
   std::int64_t frames = 0;

@@ -29,8 +29,8 @@ struct DriveConfig {
   double duration_s = 5.0;       ///< Rounded to whole frames, at least one; (0, 3600].
   double spin_hz = 10.0;         ///< [5, 20]
   double speed_mps = -1;         ///< Speed of the vehicle, at most 60; < 0: the scene's usual.
-  /// Not 0: the vehicle turns at this constant rate, on an arc that follows the road in the middle
-  /// of the drive and leaves it towards both ends; [-1, 1], positive to the left.
+  /// If not 0, the vehicle turns at this constant rate, on an arc that follows the road in the
+  /// middle of the drive and leaves it towards both ends; [-1, 1], positive to the left.
   double yaw_rate_radps = 0;
   mount::Mount mount;
   SensorEffects effects;
@@ -53,13 +53,13 @@ template <class EncoderTraits>
 struct SimulatedColumn {
   typename EncoderTraits::Column wire;
   double time_s = 0;  ///< Time since the head first pointed straight ahead.
-  /// The place of each return in the sensor frame, noise included, before rounding to the wire's
-  /// counts. Meaningless where by_laser[i].raw == 0.
+  /// The point of each return in the sensor frame, with noise, before rounding to the wire's
+  /// counts. Meaningless where wire.by_laser[i].raw == 0.
   std::array<beams::Point, static_cast<std::size_t>(EncoderTraits::kLasers)> exact{};
 };
 
-/// Takes columns in firing order, whole packets in all; in dual return two per firing, in the
-/// sensor's order. An error ends the drive and is returned.
+/// Takes columns in the order of firing, whole packets in all; in dual return two per firing, in
+/// the sensor's order. An error ends the drive and is returned.
 template <class EncoderTraits>
 using ColumnSink = std::function<Status(const SimulatedColumn<EncoderTraits>&)>;
 
@@ -71,10 +71,11 @@ struct SimulationSummary {
 
 /// Simulates a drive and passes it to `sink`, column by column, on this thread.
 ///
-/// Azimuths are rounded to the wire's 0.01 degrees first and rays cast at the rounded azimuth plus
-/// firing advance, so that decoding the wire values gives `exact` back to within the rounding of
-/// the range. The head starts some 11 degrees before straight ahead and ends as much after the last
-/// frame; beams outside the whole frames have no return, so all frames are whole for every laser.
+/// Azimuths are first rounded to the wire's 0.01 degrees, and rays are cast at the rounded azimuth
+/// plus the firing advance, so that decoding the wire values gives `exact` back to within the
+/// rounding of the range. The head starts some 11 degrees before straight ahead and ends as much
+/// after the last frame; beams outside the whole frames have no return, so all frames are whole for
+/// every laser.
 ///
 /// In dual return a beam has a width: a surface behind an edge, a pole or a few leaves gives a
 /// second echo. If there is only one echo, the two returns are equal.
@@ -92,7 +93,8 @@ template <class EncoderTraits>
 [[nodiscard]] Expected<std::vector<vehicle::MotionSample>> simulated_motion(
     const SimulationConfig<EncoderTraits>& config, std::int64_t period_ns = 10'000'000);
 
-/// Returns T_world_vehicle by stamps of the drive. Fails as simulate_drive() does.
+/// Returns a function that gives T_world_vehicle for a stamp of the drive. Fails as
+/// simulate_drive() does.
 template <class EncoderTraits>
 [[nodiscard]] Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(
     const SimulationConfig<EncoderTraits>& config);

@@ -8,8 +8,9 @@
 namespace terracut::simulator {
 namespace {
 
-constexpr double kHalfSeenSignal = 1.5e-6;  // Per square metre; half of such echoes are seen.
-constexpr double kSignalSpread = 0.35;      // Spread of the logarithm around that.
+// Per square metre; with this signal half of the echoes are seen.
+constexpr double kHalfSeenSignal = 1.5e-6;
+constexpr double kSignalSpread = 0.35;  // Spread of the logarithm around that.
 
 bool is_seen(double signal, world::Random& random) noexcept {
   if (signal <= 0) return false;
@@ -30,8 +31,8 @@ std::optional<Echo> echo_from(const SensorEffects& effects, const world::Hit& hi
 
   double noise_m = effects.range_noise_m;
   if (effects.rough_surfaces) noise_m = std::hypot(noise_m, surface.roughness_m);
-  // The sensor raises its power with distance, so intensity depends on the surface more than on the
-  // range.
+  // The sensor raises its power with distance, so the intensity depends more on the surface than on
+  // the range.
   const double brightness = share * surface.reflectivity * (0.4 + 0.6 * cos_incidence);
   const double intensity = 255.0 * (0.04 + 0.75 * brightness) + 5.0 * random.normal();
   return Echo{noise_m * random.normal(),

@@ -11,15 +11,15 @@
 
 namespace terracut::simulator {
 
-/// The receiver's measurement of a surface.
+/// What the receiver measures of a surface.
 struct Echo {
   double range_error_m = 0;
-  std::uint8_t intensity = 0;  ///< Wire scale.
+  std::uint8_t intensity = 0;  ///< As on the wire.
   double signal = 0;           ///< Light that comes back; decides which of two echoes is stronger.
 };
 
-/// Returns nothing if the return is lost. `cos_incidence` in [0, 1]; `share` of the beam's light
-/// that falls on this surface, (0, 1].
+/// Returns the echo; nothing if the return is lost. `cos_incidence` is in [0, 1]; `share` is the
+/// part of the beam's light that falls on this surface, (0, 1].
 ///
 /// The probability of an echo falls with the returned light, reflectivity * cos(incidence) /
 /// range^2. With a sensor at 1.73 m asphalt is lost beyond some 50 m, a bright wall is still seen

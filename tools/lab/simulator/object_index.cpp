@@ -21,7 +21,7 @@ int sector_of(double azimuth_rad, int sectors) noexcept {
   return std::min(sector, sectors - 1);
 }
 
-/// Returns the way to a hit inside a shape; nothing if the line passes through.
+/// Returns the distance along the line to a hit inside a shape; nothing if the line passes through.
 std::optional<double> way_to_leaf_m(const world::Shape& shape, const world::Chord& chord,
                                     std::uint64_t leaf_key) noexcept {
   const double in_m = std::max(chord.in_m, 0.0);
@@ -118,7 +118,7 @@ std::optional<world::Hit> ObjectIndex::cast(const world::SightLine& line, double
       const std::optional<double> way_m = way_to_leaf_m(shape, *chord, leaf_key);
       if (!way_m || *way_m >= limit_m) continue;
       limit_m = *way_m;
-      // Leaves and wires lie in random directions, so they are assumed to face the beam.
+      // Leaves and wires have random directions, so they are assumed to face the beam.
       const Eigen::Vector3d normal = shape.density_per_m > 0
                                          ? Eigen::Vector3d(-line.direction)
                                          : placed.T_world_object.linear() * chord->normal;

@@ -12,19 +12,20 @@
 
 namespace terracut::simulator {
 
-/// The objects of a scene around one time and place, sorted by direction, so that a line of sight
-/// is tested against few of them.
+/// The objects of a scene around one time and position, sorted by direction, so that a line of
+/// sight is tested against only a few of them.
 class ObjectIndex {
  public:
   /// `scene` must outlive this object.
   explicit ObjectIndex(const scenes::Scene& scene);
 
-  /// Places all objects at `time_s` and sorts them as seen from `viewpoint`. Lines may then start
-  /// up to `window_s` later and up to `reach_m` from the viewpoint.
+  /// Places all objects as at `time_s` and sorts them as seen from `viewpoint`. Lines cast
+  /// afterwards may start up to `window_s` later and up to `reach_m` from the viewpoint.
   void update(double time_s, double window_s, const Eigen::Vector3d& viewpoint, double reach_m);
 
-  /// Returns the first surface on `line`, `after_s` after the time of update(), nearer than
-  /// `limit_m`. `ray_key` decides which leaf or wire is hit. Any number of threads between updates.
+  /// Returns the first surface on `line` nearer than `limit_m`, `after_s` after the time of
+  /// update(). `ray_key` decides which leaf or wire is hit. Any number of threads may call this
+  /// between updates.
   [[nodiscard]] std::optional<world::Hit> cast(const world::SightLine& line, double after_s,
                                                std::uint64_t ray_key,
                                                double limit_m) const noexcept;

@@ -14,8 +14,8 @@ namespace terracut::simulator {
 namespace {
 
 // Two-point corrections bend a beam by centimetres, so it meets a surface slightly beside its
-// straight ray. On surfaces seen at a smaller angle than this the difference would be large,
-// perhaps beyond the surface's edge: there the depth is kept instead.
+// straight ray. On a surface seen at a smaller angle than this the difference would be large,
+// perhaps beyond the surface's edge; so there the range along the straight ray is kept.
 constexpr double kSlantingGround = 0.01;
 constexpr double kSlantingObject = 0.2;
 
@@ -140,7 +140,7 @@ void ScanHead<EncoderTraits>::cast_single(const Beam& beam, const Moment& moment
   if (const auto measured = measure(beam, moment, *sighting)) put(*measured, beam.laser, column);
 }
 
-// Measures the beam's axis as in single return mode, so that a dual-return drive only adds second
+// Measures the beam's axis as in single return, so that a dual-return drive only adds second
 // echoes.
 template <class EncoderTraits>
 void ScanHead<EncoderTraits>::cast_dual(const Beam& beam, const Moment& moment,
@@ -162,7 +162,8 @@ void ScanHead<EncoderTraits>::cast_dual(const Beam& beam, const Moment& moment,
   if (!last) last = strongest;
   if (on_axis && beside) {
     if (beside->echo.signal > on_axis->echo.signal) std::swap(strongest, last);
-    if (strongest->wire.raw > last->wire.raw) last = strongest;  // the weaker one lies before it
+    // the weaker return lies before the strongest
+    if (strongest->wire.raw > last->wire.raw) last = strongest;
   }
   put(*strongest, beam.laser, columns[EncoderTraits::kStrongestFirst ? 0 : 1]);
   put(*last, beam.laser, columns[EncoderTraits::kStrongestFirst ? 1 : 0]);

@@ -37,20 +37,21 @@ class ScanHead {
   ScanHead(const SimulationConfig<EncoderTraits>& config, const world::Terrain& terrain,
            const drive::FiringPlan<EncoderTraits>& plan);
 
-  /// `moments` are for even and odd frames of the beams: they differ if the world stands still
-  /// during each frame. Fills in all fields of `columns`, one for each return of a firing.
+  /// `moments` has one element for even and one for odd frames of the beams; they differ if the
+  /// world stands still during each frame. Fills in all fields of `columns`, one for each return of
+  /// a firing.
   void cast(const drive::Firing& firing, const std::array<Moment, 2>& moments,
             std::span<Column> columns) const;
 
  private:
-  /// One laser when it fires.
+  /// A laser at the time when it fires.
   struct Beam {
     int laser = 0;
     double azimuth_rad = 0;
     std::uint64_t ray_key = 0;
     Eigen::Vector3d origin, direction;  ///< Ray in the sensor's frame.
   };
-  /// The surface that a beam meets in one direction.
+  /// The surface that a beam meets along one line of sight.
   struct Sighting {
     world::Hit hit;
     Echo echo;
@@ -70,8 +71,8 @@ class ScanHead {
   /// beam's axis.
   [[nodiscard]] std::optional<Measured> measure(const Beam& beam, const Moment& moment,
                                                 const Sighting& sighting) const;
-  /// Does what measure() does, but ignores the beam's bend; for surfaces of which only the depth
-  /// counts.
+  /// Measures as measure() does, but ignores the beam's bend; for surfaces of which only the range
+  /// matters.
   [[nodiscard]] std::optional<Measured> measure_along(const Beam& beam, const Sighting& sighting,
                                                       const Eigen::Vector3d& normal) const;
   void cast_single(const Beam& beam, const Moment& moment, Column& column) const;

@@ -11,11 +11,11 @@
 namespace terracut::simulator {
 
 /// Returns T_world_vehicle of the sensor's vehicle, which drives along the road on four wheels, at
-/// a time since the start of the drive (which may be negative).
+/// a time since the start of the drive (negative: before it).
 [[nodiscard]] Eigen::Isometry3d ego_pose(const scenes::Scene& scene, double time_s);
 
-/// Returns the readings of the vehicle's own sensors at that time, without a stamp. The vehicle's
-/// point that does not slip sideways is the one below the sensor.
+/// Returns the readings of the vehicle's own sensors at that time, without a stamp. The point of
+/// the vehicle that does not move sideways is the one below the sensor.
 [[nodiscard]] vehicle::MotionSample ego_motion(const scenes::Scene& scene, double time_s);
 
 /// Returns mount::T_vehicle_lidar() as an Eigen transform.

@@ -19,8 +19,8 @@ inline constexpr double kShortBumpShare = 0.25;
          kShortBumpShare * value_noise(~seed, x_m / kShortBump_m, y_m / kShortBump_m);
 }
 
-/// Returns an upper bound of the slope of bumps of height `bumps_m`. It is rarely reached, as it
-/// needs neighbouring extremes in both layers at once.
+/// Returns an upper bound of the slope of bumps of height `bumps_m`. It is rarely reached, as that
+/// takes neighbouring extremes in both layers at once.
 [[nodiscard]] constexpr double steepest_of_bumps(double bumps_m) noexcept {
   return bumps_m * 3.0 * ((1 - kShortBumpShare) / kLongBump_m + kShortBumpShare / kShortBump_m);
 }

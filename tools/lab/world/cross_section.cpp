@@ -11,10 +11,11 @@
 namespace terracut::world {
 namespace {
 
-// Half the length of a dropped kerb's lowest part, and the length of its ramp.
+// Half the length of a dropped kerb's lowest part, and the length of each ramp beside it.
 constexpr double kDroppedHalf_m = 1.8;
 constexpr double kDroppedRamp_m = 1.5;
-// Bumps grow to their full height over this distance, so that neighbouring strips join.
+// Bumps grow to their full height over this distance from a strip's edge, so that neighbouring
+// strips meet.
 constexpr double kBumpsJoin_m = 2.0;
 
 double smoothstep(double from, double to, double value) noexcept {

@@ -24,15 +24,17 @@ class CrossSection {
 
   [[nodiscard]] const Band& band_at(double distance_m) const noexcept;
 
-  /// Returns the height of `band` above the centre line without bumps, also beyond its edges.
+  /// Returns the height of `band` above the centre line, without bumps; also for places beyond its
+  /// edges.
   [[nodiscard]] double height_m(const Band& band, double s_m, double distance_m) const noexcept;
-  /// Returns the height of a band's bumps at a distance from the centre line. They fade in from
-  /// those of the band inside.
+  /// Returns the height of a band's bumps at a distance from the centre line. At its inner edge it
+  /// begins with the bumps of the band before.
   [[nodiscard]] static double bumps_m(const Band& band, double distance_m) noexcept;
 
-  /// Returns an upper bound of the slope of any band in any direction, without steps.
+  /// Returns an upper bound of the slope of all bands in any direction, without steps.
   [[nodiscard]] double steepest() const noexcept;
-  /// Returns how far steps alone lift or lower any place, at most, against the centre line.
+  /// Returns an upper bound of how far steps alone raise or lower a place, compared to the centre
+  /// line.
   [[nodiscard]] double highest_step_m() const noexcept;
 
  private:

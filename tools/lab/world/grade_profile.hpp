@@ -8,7 +8,8 @@
 namespace terracut::world {
 
 /// The height of a road along its length, as in road design: the grade (rise per metre) is given at
-/// knots and linear between them, so heights are smooth parabolas; constant grade beyond the ends.
+/// knots and is linear between them, so that heights are smooth parabolas. Beyond the ends the
+/// grade is constant.
 class GradeProfile {
  public:
   struct Knot {
@@ -18,7 +19,7 @@ class GradeProfile {
 
   /// Makes a road that is level everywhere.
   GradeProfile() = default;
-  /// Knots in ascending order of s_m; none means level. The height is 0 at s = 0.
+  /// Knots are in ascending order of s_m; without any the road is level. The height is 0 at s = 0.
   explicit GradeProfile(std::span<const Knot> knots);
 
   [[nodiscard]] double height_m(double s_m) const noexcept;

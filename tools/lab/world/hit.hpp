@@ -8,7 +8,7 @@
 
 namespace terracut::world {
 
-/// A straight line of sight; direction has length 1.
+/// A straight line of sight; its direction has length 1.
 struct SightLine {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
@@ -18,10 +18,11 @@ struct SightLine {
   }
 };
 
-/// Where a line of sight ends.
+/// The end of a line of sight, on a surface.
 struct Hit {
-  double way_m = 0;                                   ///< Distance from the line's origin.
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Of the surface, length 1, to the line.
+  double way_m = 0;  ///< Distance from the line's origin.
+  /// Of the surface, length 1, towards the line.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   Truth truth = Truth::kRoad;
   Material material = Material::kAsphalt;
 };

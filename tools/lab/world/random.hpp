@@ -29,9 +29,9 @@ namespace terracut::world {
 
 /// Seeded random numbers, the same on every platform (the distributions of <random> are not).
 ///
-/// Constructed from a key for each object or ray, so that no number depends on draws elsewhere:
-/// adding an object or a thread changes nothing else. Draw at most once among a call's arguments,
-/// whose order of evaluation differs between compilers.
+/// Constructed from a key for each object or ray, so that no number depends on numbers drawn
+/// elsewhere: adding an object or a thread changes nothing else. Draw at most once among a call's
+/// arguments, as their order of evaluation differs between compilers.
 class Random {
  public:
   explicit constexpr Random(std::uint64_t key) noexcept : key_(scramble(key)) {}

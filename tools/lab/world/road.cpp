@@ -22,8 +22,8 @@ double Road::heading_rad(double s_m) const noexcept {
   return std::atan(centre_slope(s_m));
 }
 
-// The distance from the centre line is measured at the same x. This is exact on straight roads and
-// on the centre line, and close enough in gentle bends. y_m() inverts it exactly.
+// Measures the distance from the centre line at the same x. This is exact on straight roads and on
+// the centre line, and close enough in gentle bends; y_m() inverts it exactly.
 Road::Location Road::locate(double x_m, double y_m) const noexcept {
   if (bend_m == 0) return {{x_m, y_m}, 0};
   const double wave = 2.0 * std::numbers::pi / bend_length_m;

@@ -18,7 +18,7 @@ struct RoadPoint {
 /// One band of ground that runs along the road. Bands follow each other outwards from the centre.
 struct Strip {
   double width_m = 0;  ///< > 0.3; ignored for the last of a side, which is endless.
-  double step_m = 0;   ///< Vertical face at the inner edge: a kerb when positive.
+  double step_m = 0;   ///< Height of the vertical face at the inner edge; positive for a kerb.
   double slope = 0;    ///< Rise per metre outwards.
   double bumps_m = 0;  ///< Greatest height of smooth random bumps.
   Truth truth = Truth::kRoad;
@@ -41,19 +41,19 @@ struct Road {
   RoadSide left, right;
   double lane_mark_d_m = -1;  ///< Dashed paint at this |d|; < 0 = none.
 
-  /// These return the centre line's y at s, and its slope there.
+  /// Return y and slope of the centre line at s.
   [[nodiscard]] double centre_y_m(double s_m) const noexcept;
   [[nodiscard]] double centre_slope(double s_m) const noexcept;
   /// Returns the road's direction at s, from the x axis to the left.
   [[nodiscard]] double heading_rad(double s_m) const noexcept;
 
-  /// The place of a world position on the road, and the centre line's slope at its s.
+  /// A position of the world in terms of the road, and the centre line's slope at its s.
   struct Location {
     RoadPoint place;
     double centre_slope = 0;
   };
   [[nodiscard]] Location locate(double x_m, double y_m) const noexcept;
-  /// Returns the world's y of a place; its x is s.
+  /// Returns the world's y of a road point; its x is s.
   [[nodiscard]] double y_m(const RoadPoint& place) const noexcept;
 };
 

@@ -20,7 +20,7 @@ BoundingSphere bounding_sphere(const SceneObject& object) {
 }
 
 Eigen::Isometry3d pose_at(const SceneObject& object, const Terrain& terrain, double time_s) {
-  // `place` is the position at time 0, or at the start of its motion if that is later.
+  // `place` is the position at time 0, or at the start of the motion if that is later.
   const double moving_s = std::clamp(time_s, object.moves_from_s, object.moves_until_s) -
                           std::max(0.0, object.moves_from_s);
   const RoadPoint place{object.place.s_m + moving_s * object.along_mps,

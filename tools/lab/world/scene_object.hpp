@@ -19,18 +19,18 @@ enum class Stance : std::uint8_t {
   kOnWheels,  ///< Follows the slope of the ground below its base.
 };
 
-/// A body in the world: shapes that move together along the road.
+/// An object of the world: shapes that move together along the road.
 struct SceneObject {
   std::vector<Shape> shapes;
   Stance stance = Stance::kUpright;
   double half_base_m = 1.0;  ///< Half the wheel base and track; for kOnWheels only.
   double half_track_m = 0.5;
-  RoadPoint place;         ///< At time 0, or until moves_from_s.
+  RoadPoint place;         ///< Position at time 0, or until moves_from_s.
   std::uint64_t key = 0;   ///< Key of its random numbers (which leaf is hit).
   double heading_rad = 0;  ///< Angle to the left of the road's direction at that place.
   double along_mps = 0;    ///< Speed along the road and to its left, while it moves.
   double across_mps = 0;
-  /// The object stands still before and after.
+  /// Before and after these times the object stands still.
   double moves_from_s = -std::numeric_limits<double>::infinity();
   double moves_until_s = std::numeric_limits<double>::infinity();
 

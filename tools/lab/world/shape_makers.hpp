@@ -13,7 +13,7 @@ struct Substance {
   double density_per_m = 0;  ///< See Shape::density_per_m.
 };
 
-/// These make shapes that stand on `bottom`, the middle of their foot.
+/// These make shapes whose foot has its middle at `bottom`.
 [[nodiscard]] inline Shape box(const Eigen::Vector3d& bottom, const Eigen::Vector3d& size,
                                const Substance& substance) {
   Shape shape;
@@ -40,7 +40,7 @@ struct Substance {
   return shape;
 }
 
-/// Makes a wheel with its axle along y; stands on `bottom`.
+/// Makes a wheel that stands on `bottom`, with its axle along y.
 [[nodiscard]] inline Shape wheel(const Eigen::Vector3d& bottom, double radius_m, double width_m,
                                  const Substance& substance) {
   Shape shape = box(bottom, {2 * radius_m, width_m, 2 * radius_m}, substance);

@@ -34,8 +34,8 @@ std::optional<Chord> clip_box(const Shape& shape, const Vector3d& from,
   Chord chord{-kForever, kForever, Vector3d::UnitZ()};
   const Vector3d& half = shape.half;
   const double height = 2 * half.z();
-  // Clips at a face that leans inwards: from its foot, at the distance `foot`, to its top by
-  // `inset`.
+  // Clips at a face that leans inwards: from the distance `foot` at its foot, by `inset` up to its
+  // top.
   const auto leaning = [&](const Vector3d& outwards, double foot, double inset) {
     const Vector3d normal = height * outwards + inset * Vector3d::UnitZ();
     return clip(chord, from, direction, normal, height * foot - inset * half.z());

@@ -22,7 +22,8 @@ struct Shape {
   ShapeKind kind = ShapeKind::kBox;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Vector3d half = Eigen::Vector3d::Ones();  ///< Half its size along x, y, z.
-  /// Boxes: insets of the top from the bottom at the front, the rear and both sides.
+  /// For boxes: by how much the top is smaller than the bottom at the front, the rear and both
+  /// sides.
   double front_inset_m = 0, rear_inset_m = 0, side_inset_m = 0;
   Truth truth = Truth::kBuilding;
   Material material = Material::kFacade;
@@ -30,9 +31,10 @@ struct Shape {
   double density_per_m = 0;
 };
 
-/// The part of a line inside a shape.
+/// The part of a line that lies inside a shape.
 struct Chord {
-  double in_m = 0, out_m = 0;  ///< Along the line; in_m may be negative (line starts inside).
+  /// Distances along the line; in_m is negative if the line starts inside.
+  double in_m = 0, out_m = 0;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Outward normal at the entry, length 1.
 };
 

@@ -15,7 +15,7 @@ namespace terracut::world {
 /// The ground of the simulated world: one height for every place, smooth except for the vertical
 /// faces between strips (kerbs). World frame: x along the road at s = 0, y left, z up, metres.
 ///
-/// Immutable; any thread may ask.
+/// Immutable; any thread may use it.
 class Terrain {
  public:
   Terrain(Road road, std::uint64_t seed);
@@ -31,7 +31,7 @@ class Terrain {
   [[nodiscard]] std::optional<Hit> cast(const SightLine& line, double limit_m) const noexcept;
 
  private:
-  /// The band and side of a place.
+  /// The side of the road on which a place lies, and its band.
   struct Zone {
     const CrossSection* side = nullptr;
     const CrossSection::Band* band = nullptr;
@@ -79,8 +79,8 @@ class Terrain {
   double highest_step_m_;
 };
 
-/// Returns the pose of an object with four wheels or a long base on the ground: origin on the
-/// ground in the middle, x along its heading, z away from the ground.
+/// Returns the pose of an object with four wheels or a long base on the ground: its origin is on
+/// the ground in the middle, x points along its heading, z away from the ground.
 [[nodiscard]] Eigen::Isometry3d stand_on(const Terrain& terrain, double x_m, double y_m,
                                          double heading_rad, double half_base_m,
                                          double half_track_m);

@@ -19,7 +19,7 @@ constexpr double kBendInPlan = 0.005;  // The most slope that a bend of the road
 
 }  // namespace
 
-/// Returns the rate at which a line's distance from the centre line grows.
+/// Returns how fast a line moves away from the centre line, per metre of the line.
 double Terrain::outwards(const Zone& zone, const SightLine& line, const Spot& spot) const noexcept {
   const double slope = spot.road.centre_slope;
   return (zone.side == &left_ ? 1.0 : -1.0) * (line.direction.y() - slope * line.direction.x()) /
@@ -48,7 +48,7 @@ double Terrain::safe_step_m(const Zone& zone, const SightLine& line, const Spot&
 }
 
 // The distance from the centre line is nearly linear along a line, so the secant method finds the
-// edge in a few rounds. If it stops short of it, the next step continues from there.
+// edge in a few rounds. If it stops before the edge, the next step continues from there.
 double Terrain::way_of_edge_m(const Zone& here, const SightLine& line, double inside_m,
                               double outside_m) const noexcept {
   const double side = here.side == &left_ ? 1.0 : -1.0;
@@ -68,7 +68,8 @@ double Terrain::way_of_edge_m(const Zone& here, const SightLine& line, double in
   return std::clamp(way_m + kEdgePrecision_m, inside_m, outside_m);
 }
 
-// Regula falsi with the Illinois rule: the clearance is nearly linear between two close places.
+// Finds the ground by regula falsi with the Illinois rule: the clearance is nearly linear between
+// two close places.
 Hit Terrain::ground_hit(const Zone& here, const SightLine& line, double above_m,
                         double below_m) const noexcept {
   double above = clearance_m(here, spot(line, above_m));

@@ -37,8 +37,8 @@ std::vector<std::string> interfaces_of(const SystemView& system, const Requests&
   return names;
 }
 
-/// Returns an interface's interrupt numbers: those that its device lists, or else those whose name
-/// in /proc/interrupts is the interface's.
+/// Returns an interface's interrupt numbers: those that its device lists or, if it lists none,
+/// those named like the interface in /proc/interrupts.
 std::set<int> interrupts_of(const SystemView& system, const std::string& interface) {
   std::set<int> numbers;
   for (const std::string& name : system.names_in(in_interface(interface, "device/msi_irqs"))) {
@@ -103,7 +103,7 @@ Finding check_interface(const SystemView& system, const Requests& requests) {
   }
   const std::string state =
       system.text(in_interface(requests.interface, "operstate")).value_or("unknown");
-  // Loopback and tunnels have no link that could be down, and report "unknown".
+  // Loopback and tunnels have no link, so their state is "unknown".
   if (state == "up" || state == "unknown") {
     return ok("interface", fmt::format("{} is {}", requests.interface, state));
   }
@@ -122,7 +122,7 @@ Finding check_receive_buffer(const SystemView& system, const Requests& requests)
   const std::string found = fmt::format("{} KiB (rmem_max {}) hold {:.0f} ms of packets",
                                         granted >> 10, *most, milliseconds(granted));
   if (*most >= requests.buffer_bytes) return ok("receive buffer", found);
-  // The doctor is often run by root, whose rights the service does not have.
+  // The doctor is often run by root, but the service does not have root's rights.
   const bool passes = has_capability(system, CAP_NET_ADMIN);
   const bool too_little = milliseconds(granted) < kLeastBuffered_ms;
   return {"receive buffer", too_little && !passes ? Verdict::kProblem : Verdict::kWarning,

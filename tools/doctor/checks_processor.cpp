@@ -95,7 +95,7 @@ Finding check_tickless_cores(const SystemView& system, const Requests& requests)
   if (!tickless.empty() && missing.empty()) {
     return ok("tickless cores", fmt::format("{}", fmt::join(tickless, ",")));
   }
-  // Tickless cores matter only if cores are isolated, which the check before this one asks for.
+  // Tickless cores matter only if cores are isolated, which the previous check is about.
   if (list_in(system, "isolated").empty()) return ok("tickless cores", "none");
   return {"tickless cores", Verdict::kWarning, cores_text(tickless, missing),
           "the kernel's tick and RCU interrupt the isolated cores up to a thousand times a second",

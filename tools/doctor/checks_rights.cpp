@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
 constexpr int kHighestPriority = 80;  // the default priority of the receive thread
-/// An upper bound of the memory that `terracut plan` reports, plus the process's own.
+/// An upper bound of the memory that `terracut plan` reports plus the process's own.
 constexpr std::int64_t kMemoryToLock = std::int64_t{512} << 20;
 constexpr double kLeastShare = 0.9;
 

@@ -20,7 +20,7 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 constexpr int kMostCores = 8192;  // the kernel's own limit
 
 std::optional<ClockState> clock_of_this_machine() {
-  timex state{};  // modes 0 only reads the clock
+  timex state{};  // modes is 0: only reads the clock
   const int answer = ::adjtimex(&state);
   if (answer < 0) return std::nullopt;
   return ClockState{.synchronised = answer != TIME_ERROR && (state.status & STA_UNSYNC) == 0,
@@ -40,7 +40,8 @@ std::optional<std::string> SystemView::text(std::string_view path) const {
   file.read(content.data(), static_cast<std::streamsize>(content.size()));
   if (file.bad() || (file.fail() && !file.eof())) return std::nullopt;
   content.resize(static_cast<std::size_t>(file.gcount()));
-  content.resize(content.find_last_not_of(" \t\r\n") + 1);  // npos + 1 is 0
+  // npos + 1 is 0: clears a text of white space
+  content.resize(content.find_last_not_of(" \t\r\n") + 1);
   return content;
 }
 

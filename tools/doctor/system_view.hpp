@@ -12,7 +12,7 @@
 
 namespace terracut::doctor {
 
-/// The kernel's state of its own clock.
+/// What the kernel knows about the error of its clock.
 struct ClockState {
   bool synchronised = false;
   double max_error_s = 0;
@@ -22,7 +22,7 @@ struct ClockState {
 /// tests replace. One thread.
 class SystemView {
  public:
-  /// `clock` is the result of adjtimex(), which is no file; none if unknown.
+  /// `clock` is the result of adjtimex(), which no file contains; none if unknown.
   explicit SystemView(std::filesystem::path root, std::optional<ClockState> clock = std::nullopt)
       : root_(std::move(root)), clock_(clock) {}
 
@@ -55,8 +55,8 @@ class SystemView {
 [[nodiscard]] std::vector<std::string> words_of(std::string_view line);
 /// Returns the numbers of a kernel list: 0, 1, 2, 5 for "0-2,5". Empty for anything else.
 [[nodiscard]] std::set<int> numbers_of_list(std::string_view list);
-/// Returns what follows `start` in the line of `text` that begins with `start`, without leading
-/// white space.
+/// Finds the line of `text` that begins with `start` and returns the rest of that line, without
+/// leading white space.
 [[nodiscard]] std::optional<std::string> line_after(std::string_view text, std::string_view start);
 
 }  // namespace terracut::doctor

@@ -6,7 +6,8 @@
 labels_in_numpy.py CAPTURE [PICTURE.png]: the picture needs matplotlib.
 """
 
-# %% Every frame of a capture, labelled: arrays are views of the frame's memory, nothing is copied.
+# %% Every frame of a capture, labelled. The arrays are views of the frame's memory; nothing is
+# copied.
 import sys
 from pathlib import Path
 
@@ -27,7 +28,8 @@ for frame in replay:
 summary = replay.report()["summary"]
 print(f"{summary['frames']} frames, p99 of all work {summary['ms']['total']['p99']:.1f} ms, losses {summary['losses']}")
 
-# %% The same points as a cloud of any source: here with each point's laser, in the sensor's frame.
+# %% The same points as a cloud from any source: with the laser of each point, in the sensor's
+# frame.
 height_m = summary["mount"]["height_m"]
 cloud = frame.points - np.float32([0, 0, height_m])
 segmenter = terracut.Segmenter(mount_height=height_m)

@@ -28,11 +28,12 @@ GROUND, OTHER_GROUND, OBSTACLE = 40, 49, 99
 
 
 class StreamError(Exception):
-    """Raised if the data are no stream of labelled frames, or end within one."""
+    """Raised if the data are not a stream of labelled frames, or end in the middle of one."""
 
 
 def connect(address):
-    """Returns a connected socket. ADDRESS:PORT, a port on this machine, or the path of a Unix socket."""
+    """Returns a connected socket. `address` is ADDRESS:PORT, a port on this machine, or the path of
+    a Unix socket."""
     if "/" in address:
         connection = socket.socket(socket.AF_UNIX)
         connection.connect(address)
@@ -85,13 +86,13 @@ def receive_frames(connection):
         header = decode_header(preamble + receive_all(connection, header_bytes - 8))
         stride = header["point_bytes"]
         points = receive_all(connection, header["points"] * stride)
-        if stride > POINT.size:  # a newer sender's points: fields unknown here are skipped
+        if stride > POINT.size:  # fields that a newer sender has added are skipped
             points = b"".join(points[n:n + POINT.size] for n in range(0, len(points), stride))
         yield header, points
 
 
 def describe(header, points):
-    """Returns one line for people."""
+    """Returns a frame as one line for people."""
     labels = points[13::POINT.size]
     obstacles = labels.count(OBSTACLE)
     ground = labels.count(GROUND) + labels.count(OTHER_GROUND)

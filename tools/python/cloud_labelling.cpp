@@ -25,7 +25,7 @@ std::string shape_of(const py::array& array) {
   return text_of(array.attr("shape"));
 }
 
-/// Returns an array without gaps: strides of any kind are copied.
+/// Returns a contiguous array; an array with other strides is copied.
 py::array contiguous(const py::array& array) {
   return py::module_::import("numpy").attr("ascontiguousarray")(array);
 }
@@ -58,7 +58,7 @@ std::optional<FieldType> field_type(const py::dtype& type) {
   return std::nullopt;
 }
 
-/// The cloud of an array, with the array that holds its points.
+/// A cloud, and the array that holds its points.
 struct ArrayCloud {
   py::array array;
   std::vector<std::string> names;
@@ -89,7 +89,8 @@ ArrayCloud cloud_of_records(const py::array& array) {
                           shape_of(array));
   }
   if (array.itemsize() == 0) {
-    throw py::value_error("points: expected records with fields x, y, z; found records of no bytes");
+    throw py::value_error(
+        "points: expected records with fields x, y, z; found records of no bytes");
   }
   ArrayCloud cloud{contiguous(array),
                    {},
@@ -150,7 +151,7 @@ std::vector<std::uint16_t> lasers_of(const py::object& laser, const ArrayCloud& 
   return lasers;
 }
 
-/// Returns the points with the lasers given by `lasers`.
+/// Returns the cloud with the laser numbers `lasers`.
 Cloud cloud_with_lasers(const ArrayCloud& cloud, const std::vector<std::uint16_t>& lasers,
                         std::vector<CloudPoint>& points) {
   points.resize(cloud.points());

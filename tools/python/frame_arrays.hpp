@@ -20,7 +20,7 @@ struct FrameData {
   std::vector<stream::WirePoint> points;
 };
 
-/// Frames whose memory is reused once Python has dropped the last array that refers to it.
+/// Reuses the memory of frames once Python has dropped the last array that refers to them.
 using FrameBuffers = memory::UsedAgain<FrameData>;
 
 void bind_frame(pybind11::module_& module);

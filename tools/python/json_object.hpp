@@ -10,7 +10,7 @@
 
 namespace terracut::python {
 
-/// Converts JSON to Python's dictionaries and lists, as Python would parse the report's file.
+/// Converts JSON to Python's dictionaries and lists, as Python's own parser would.
 [[nodiscard]] inline pybind11::object json_object(const nlohmann::ordered_json& json) {
   return pybind11::module_::import("json").attr("loads")(cli::json_text(json));
 }

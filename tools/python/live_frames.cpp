@@ -16,7 +16,7 @@ namespace terracut::python {
 namespace py = pybind11;
 namespace {
 
-/// True if a signal is pending whose handler raised an exception, which is then set.
+/// True if a signal came whose handler raised an exception; that exception is then set.
 bool is_interrupted() {
   const py::gil_scoped_acquire locked;
   return PyErr_Occurred() != nullptr || PyErr_CheckSignals() != 0;

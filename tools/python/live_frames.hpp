@@ -24,12 +24,12 @@ namespace terracut::python {
 /// counted.
 class LiveFrames {
  public:
-  /// `words` is a command line of `terracut live`. Returns when the sensor is heard; Ctrl-C ends
+  /// `words` is a command line of `terracut live`. Returns once the sensor is heard; Ctrl-C ends
   /// the wait.
   explicit LiveFrames(const std::vector<std::string>& words);
   ~LiveFrames();
 
-  /// Waits for the next frame; null when the run is over.
+  /// Waits for the next frame and returns it; null when the run is over.
   [[nodiscard]] std::shared_ptr<FrameData> next();
   void stop();
 

@@ -21,11 +21,11 @@ template <class T>
   return *std::move(expected);
 }
 
-/// Turns warnings into Python's and logs other lines to the logger "terracut". Throws a pending
-/// exception: a signal's, or of a warning that Python was told to raise.
+/// Raises warnings as Python's, and logs other lines to the logger "terracut". Throws a pending
+/// exception: that of a signal, or of a warning that Python was told to raise.
 void tell(const cli::HeardLines& lines);
 
-/// Runs `work` while other threads of the interpreter run.
+/// Runs `work` without the interpreter's lock, so that other threads can run.
 template <class Work>
 auto without_the_lock(Work&& work) {
   cli::HeardLines lines;

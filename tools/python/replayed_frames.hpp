@@ -19,7 +19,7 @@ class ReplayedFrames {
   /// `words` is a command line of `terracut replay`.
   explicit ReplayedFrames(const std::vector<std::string>& words);
 
-  /// Returns null at the end.
+  /// Returns the next frame; null at the end.
   [[nodiscard]] std::shared_ptr<FrameData> next();
   [[nodiscard]] nlohmann::ordered_json report();
 

@@ -37,7 +37,7 @@ def _settings(of_method: Optional[Mapping[str, Any]]) -> list[str]:
 
 
 def _words(command: str, arguments: list[Path], options: dict[str, Any]) -> list[str]:
-    """Returns the typed words; options that are None or False are left out."""
+    """Returns the words of a command line; options that are None or False are left out."""
     words = [command]
     for argument in arguments:
         path = os.fspath(argument)

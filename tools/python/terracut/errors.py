@@ -20,11 +20,11 @@ class Error(Exception):
 
 
 class InvalidArgument(Error, ValueError):
-    """A setting that does not exist or is out of its range."""
+    """Raised for a setting that does not exist or is out of its range."""
 
 
 class NotFound(Error, FileNotFoundError):
-    """A named file, folder or stream does not exist."""
+    """Raised if a named file, folder or stream does not exist."""
 
     def __str__(self) -> str:
         return self.args[0]

@@ -4,7 +4,8 @@
 
 
 def write_whole_file(path, text):
-    """Makes a missing folder. Raises OSError; an existing file is then left unchanged."""
+    """Writes `text` to `path`, making a missing folder. Raises OSError; an existing file is then
+    left unchanged."""
     path.parent.mkdir(parents=True, exist_ok=True)
     unfinished = path.with_name(path.name + ".part")
     try:

@@ -14,10 +14,11 @@
 
 namespace terracut::baselines {
 
-/// A method that is compared with ours. It works on whole frames only and remembers none.
+/// A method that ours is compared with. It works on whole frames only and keeps nothing from one
+/// frame to the next.
 class Baseline : public ground::FrameMethod {
  public:
-  /// Ignores the budget. Reports the stage of our method that is most like its own.
+  /// Ignores the budget. Reports the times of the stages of our method that its own resemble most.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, const min_cut::CutBudget& /*budget*/ = {},
       stage::StageObserver* observer = nullptr) noexcept override {

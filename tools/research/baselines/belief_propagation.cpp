@@ -46,8 +46,8 @@ void BeliefPropagation::add_up(std::size_t node, std::span<float> belief) const 
   }
 }
 
-/// Sends to every side: message(x) = min over x' of [belief(x') - the message from that side(x') +
-/// cost(x - x')], less its minimum.
+/// Sends the messages of a node. To each side: message(x) = min over x' of [belief(x') - the
+/// message from that side(x') + cost(x - x')], minus its least value.
 void BeliefPropagation::send_all(int row, int column) noexcept {
   const std::size_t here = node(row, column);
   const std::size_t count = labels();
@@ -73,7 +73,8 @@ void BeliefPropagation::send_all(int row, int column) noexcept {
     per_label[side] = step[side]->per_label;
     most_free = std::max(most_free, step[side]->free_labels);
   }
-  // Applies the free labels: takes the minimum of a window that widens by one label on both sides.
+  // Accounts for the free labels: takes the minimum over a window that widens by one label on both
+  // sides.
   for (int width = 0; width < most_free; ++width) {
     for (std::size_t l = 0; l < count; ++l) {
       const std::size_t lower = (l == 0 ? l : l - 1) * kSides;
@@ -86,7 +87,7 @@ void BeliefPropagation::send_all(int row, int column) noexcept {
     }
     std::swap(costs, wider);
   }
-  // Lowers each value to at most its neighbour's plus per_label: one pass goes up, one down.
+  // Lowers each value to at most its neighbour's plus per_label, in one pass up and one pass down.
   for (std::size_t i = kSides; i < count * kSides; i += kSides) {
     for (std::size_t side = 0; side < kSides; ++side) {
       costs[i + side] = std::min(costs[i + side], costs[i - kSides + side] + per_label[side]);
@@ -111,11 +112,11 @@ void BeliefPropagation::send_all(int row, int column) noexcept {
   }
 }
 
-/// Sends to the neighbour on side `to`, which receives it from the opposite side.
+/// Delivers messages to the neighbour on side `to`, which receives them from its opposite side.
 void BeliefPropagation::deliver(const FourCosts& costs, Side to, float limit,
                                 std::size_t neighbour) noexcept {
   constexpr std::array<Side, kSides> kOpposite{kAbove, kBelow, kRight, kLeft};
-  float least = costs[to];  // the cones have not changed the least
+  float least = costs[to];  // the passes above keep the least value
   for (std::size_t l = 1; l < labels(); ++l) least = std::min(least, costs[l * kSides + to]);
   float* message = message_.data() + neighbour * labels() * kSides + kOpposite[to];
   for (std::size_t l = 0; l < labels(); ++l) {
@@ -124,7 +125,7 @@ void BeliefPropagation::deliver(const FourCosts& costs, Side to, float limit,
 }
 
 /// Returns the label of the least belief. Within a free slope several labels may be equally good
-/// but for rounding; then returns the middle one.
+/// but for rounding; then returns their middle.
 int BeliefPropagation::least_label(std::span<const float> belief) const noexcept {
   constexpr float kEqual = 1e-4F;
   const auto least = std::min_element(belief.begin(), belief.end());

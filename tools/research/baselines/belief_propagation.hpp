@@ -12,12 +12,15 @@ namespace terracut::baselines {
 
 /// Min-sum loopy belief propagation over a grid of nodes with ordered labels, by the fast method of
 /// Felzenszwalb and Huttenlocher ("Efficient belief propagation for early vision", IJCV 70(1),
-/// 2006): nodes of one colour of the chequerboard send while the others receive, and a message
-/// takes time linear in the labels.
+/// 2006): as on a chequerboard, nodes of one colour send while the others receive, and a message
+/// takes time linear in the number of labels.
 ///
-/// Seeks labels x that make  sum data_cost(node, x) + sum step_cost(x - x')  small, the second sum
-/// over neighbours in a row and in a column of the grid. Exact on a chain after as many iterations
-/// as it has nodes; without guarantee on a grid.
+/// Seeks labels x that make
+///
+/// sum data_cost(node, x) + sum step_cost(x - x')
+///
+/// small, the second sum over neighbours in a row and in a column of the grid. On a chain it is
+/// exact after as many iterations as there are nodes; on a grid there is no guarantee.
 class BeliefPropagation {
  public:
   static constexpr int kMaxLabels = 128;
@@ -60,11 +63,11 @@ class BeliefPropagation {
   /// * labels).
   void run(int iterations) noexcept;
 
-  /// Returns the label of least belief, the middle one of several adjacent ones.
+  /// Returns the label of least belief; of several adjacent ones the middle one.
   [[nodiscard]] int label(int row, int column) const noexcept { return label_[node(row, column)]; }
 
  private:
-  /// The side that a message comes from, seen by the receiver; also the neighbour there.
+  /// The side from which the receiver gets a message; also the neighbour on that side.
   enum Side : std::uint8_t { kBelow, kAbove, kLeft, kRight, kSides };
   /// Values of all labels for the four sides, label by label: a processor runs four independent
   /// chains of additions in parallel.

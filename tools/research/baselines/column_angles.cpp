@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
-/// Mirrors a row index beyond the image at its edge.
+/// Mirrors a row index outside the image at the image's edge.
 int mirrored(int row, int rows) noexcept {
   if (row < 0) row = -row;
   if (row >= rows) row = 2 * (rows - 1) - row;
@@ -26,8 +26,9 @@ int mirrored(int row, int rows) noexcept {
 
 ColumnAngles::ColumnAngles(const Config& config, const mount::RingProfile&, frame::ImageShape shape,
                            std::size_t return_capacity, memory::FixedMemory& memory)
-    : Baseline(stage::Stage::kAdjacentPoints, elevation::RingElevationMap::Config().obstacle_height_m,
-               shape, return_capacity, memory),
+    : Baseline(stage::Stage::kAdjacentPoints,
+               elevation::RingElevationMap::Config().obstacle_height_m, shape, return_capacity,
+               memory),
       config_(config),
       shape_(shape),
       filter_(config.smoothing_window),
@@ -100,8 +101,7 @@ void ColumnAngles::measure_angles() noexcept {
             kDegreesPerRadian * std::atan2(std::fabs(z_m_[here + stride] - z_m_[here]),
                                            std::fabs(range_m_[here + stride] - range_m_[here]));
       } else if (row > 0) {
-        raw_deg_[here] =
-            raw_deg_[here - stride];  // nothing lies above: the line from below ends here
+        raw_deg_[here] = raw_deg_[here - stride];  // nothing lies above: uses the line from below
       }
     }
   }
@@ -155,7 +155,7 @@ void ColumnAngles::spread_from(std::uint32_t start) noexcept {
         column + 1 == columns ? here + 1 - columns : here + 1};
     for (const std::uint32_t next : neighbours) {
       if (next >= cells || ground_[next] != 0) continue;
-      // The comparison is also false for NaN, the angle of a cell without a value.
+      // This is also true for NaN, the angle of a cell without a value.
       if (!(std::fabs(angle_deg_[next] - angle_deg_[here]) < config_.same_ground_deg)) continue;
       ground_[next] = 1;
       queue_[put++] = next;

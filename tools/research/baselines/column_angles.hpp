@@ -15,10 +15,10 @@ namespace terracut::baselines {
 
 /// The range image method of Bogoslavskyi and Stachniss ("Efficient online segmentation for sparse
 /// 3D laser scans", PFG 85, 2017). For each return it computes the inclination of the line to the
-/// return above it in its column, smoothed along the column. Ground is reached from the lowest
-/// returns by steps to one of four neighbours over which that angle changes little. The method
-/// knows no ground height: `height_m` is 0 where the label is ground, else the height above the
-/// mount's ground plane. Reports kAdjacentPoints and kLabels.
+/// return above it in its column, smoothed along the column. Ground is what can be reached from the
+/// lowest returns by steps to one of four neighbours, if that angle changes little in each step.
+/// The method knows no ground height: `height_m` is 0 where the label is ground, else the height
+/// above the mount's ground plane. Reports kAdjacentPoints and kLabels.
 class ColumnAngles final : public Baseline {
  public:
   struct Config {
@@ -35,7 +35,7 @@ class ColumnAngles final : public Baseline {
                std::size_t return_capacity, memory::FixedMemory& memory);
 
   /// Returns the smoothed angle of each cell, degrees in [0, 90] (smoothing may overshoot); NaN for
-  /// cells without a return or a repaired hole.
+  /// a cell with neither a return nor a repaired hole.
   [[nodiscard]] std::span<const float> angle_deg() const noexcept { return angle_deg_; }
 
  private:

@@ -42,7 +42,7 @@ void FixedGridElevationMap::label_cells(const frame::RangeImage& image,
   if (observer != nullptr) observer->stage_done(stage::Stage::kElevationMap);
 }
 
-/// Sorts by counting: counts the returns of each square, finds where each square ends, then puts
+/// Sorts by counting: counts the returns of each square, computes where each square ends, then puts
 /// every return in place.
 void FixedGridElevationMap::sort_returns_into_squares(const frame::RangeImage& image) noexcept {
   std::fill(end_.begin(), end_.end(), 0U);
@@ -52,7 +52,7 @@ void FixedGridElevationMap::sort_returns_into_squares(const frame::RangeImage& i
   std::uint32_t sum = 0;
   for (std::uint32_t& end : end_) {
     const std::uint32_t count = end;
-    end = sum;  // where the square begins; moves to its end during filling
+    end = sum;  // where the square begins; moves to its end as the square is filled
     sum += count;
   }
   frame::for_each_return(image, [this](const frame::PlacedReturn& placed) {
@@ -92,7 +92,7 @@ FixedGridElevationMap::Square FixedGridElevationMap::fit(std::span<Sample> sampl
   square.kind = level ? SquareKind::kLevel : SquareKind::kVertical;
   square.elevation_m = samples.front().height_m;
   if (!level) return square;
-  // This mean equals the result of a Kalman filter updated by returns of equal variance. It is
+  // This mean equals the result of a Kalman filter updated by returns of these variances. It is
   // computed relative to the first height, so that few bits are lost.
   float weights = 0, weighted_m = 0;
   for (const Sample& sample : samples) {

@@ -73,8 +73,8 @@ void HeightFieldMrf::count_returns(const frame::RangeImage& image) noexcept {
   });
 }
 
-/// Goes through each sector from outside inwards: no ground lies above the lowest beam that passed
-/// through.
+/// Goes through each sector from outside inwards. No ground lies above the lowest beam that passed,
+/// so such heights cost more.
 void HeightFieldMrf::put_costs() noexcept {
   for (int sector = 0; sector < config_.sectors; ++sector) {
     float least_slope = std::numeric_limits<float>::infinity();
@@ -84,7 +84,7 @@ void HeightFieldMrf::put_costs() noexcept {
       least_slope = std::min(least_slope, least_slope_[map_cell(band, sector)]);
     }
   }
-  // The vehicle stands on the ground.
+  // Under the vehicle the ground is at height 0.
   const int level = label_of(0);
   for (int sector = 0; sector < config_.sectors; ++sector) {
     const auto cost = field_.data_cost(0, sector);
@@ -95,9 +95,9 @@ void HeightFieldMrf::put_costs() noexcept {
   }
 }
 
-/// Sets the costs of a cell's heights. A height is supported by returns at it and, nearly as well,
-/// by returns one step off. Returns above it would be obstacles; returns below it are hardly
-/// possible.
+/// Sets the costs of a cell's heights. A height is supported by returns at that height and, nearly
+/// as well, by returns one step above or below. Returns above it would be obstacles; returns below
+/// it are hardly possible.
 void HeightFieldMrf::put_cost(int band, int sector, float free_above_m) noexcept {
   const auto labels = static_cast<std::size_t>(config_.height_labels);
   const auto cost = field_.data_cost(band, sector);

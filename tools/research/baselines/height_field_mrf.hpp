@@ -15,12 +15,12 @@ namespace terracut::baselines {
 
 /// Models the ground as a multi-label Markov random field, after Zhang, Morris and Fu ("Ground
 /// segmentation based on loopy belief propagation for sparse 3D point clouds", 3DV 2015): each cell
-/// of a polar map gets one ground height of a list. A column's returns give each height a cost,
-/// without an assumed distribution. Neighbours cost more the more they differ beyond a possible
-/// slope, up to a limit for steps. Belief propagation solves the field; a return is ground if it is
-/// not far above its cell's height. docs/reference/evaluation.md names the sources and what they
-/// leave open. Reports kElevationMap when the costs are set, kMinCut when the field is solved, and
-/// kLabels.
+/// of a polar map gets one ground height from a list. A column's returns give each height a cost,
+/// without an assumed distribution. Two neighbours cost more the more their heights differ beyond a
+/// possible slope, up to a limit that allows steps. Belief propagation solves the field; a return
+/// is ground if it is not far above its cell's height. docs/reference/evaluation.md names the
+/// sources and what they leave open. Reports kElevationMap when the costs are set, kMinCut when the
+/// field is solved, and kLabels.
 class HeightFieldMrf final : public Baseline {
  public:
   struct Config {

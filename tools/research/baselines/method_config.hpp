@@ -37,14 +37,14 @@ struct MethodName {
 /// then our profiles.
 [[nodiscard]] std::span<const MethodName> method_names() noexcept;
 
-/// Returns the method of that name with default parameters. Fails with kInvalidArgument, naming
-/// all, for any other name.
+/// Returns the method of that name with default parameters. For any other name fails with
+/// kInvalidArgument; the message lists all.
 [[nodiscard]] Expected<MethodConfig> method_named(std::string_view name);
 
 /// True if the method needs the points of an image.
 [[nodiscard]] bool needs_all_points(const MethodConfig& config) noexcept;
 
-/// Returns the maker of the chosen method.
+/// Returns the function that makes the chosen method.
 [[nodiscard]] ground::MethodMaker maker_of(const MethodConfig& config);
 
 }  // namespace terracut::baselines

@@ -11,7 +11,7 @@
 namespace terracut::baselines {
 namespace {
 
-// The pair of functions that read and write one field of the configuration.
+// Makes the two functions that read and write one field of the configuration.
 #define TERRACUT_FIELD(path)                                                    \
   [](const MethodConfig& c) noexcept { return static_cast<double>(c.path); },   \
       [](MethodConfig& c, double value) noexcept {                              \

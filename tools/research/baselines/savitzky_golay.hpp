@@ -10,7 +10,7 @@
 namespace terracut::baselines {
 
 /// Weights of the Savitzky-Golay filter for the middle of a window: they give the value there of
-/// the best-fitting quadratic. Quadratics pass unchanged, noise is averaged.
+/// the quadratic that fits the window best. So quadratics pass unchanged, and noise is averaged.
 class SavitzkyGolay {
  public:
   static constexpr int kMaxWindow = 15;

@@ -14,7 +14,7 @@ MEASURES = {"iou_g": True, "recall_o": True, "iou_road": True, "ms": False}  # t
 
 
 class Refused(Exception):
-    """A message for people."""
+    """Raised with a message for people."""
 
 
 @dataclass(frozen=True)
@@ -33,11 +33,11 @@ class Change:
     before: float
     after: float
     frames: PairedTest  # signed-rank test over frames, after - before
-    # Sign-flip test over the means of sequences: successive frames look alike, so the test over frames finds too much.
-    # None below two sequences.
+    # Sign-flip test over the means of sequences. Successive frames look alike, so the test over
+    # frames finds differences too easily. None if there are fewer than two sequences.
     sequences: Optional[PairedTest]
-    # The values that eval prints: means over sequences, computed from all points of a sequence together. None for times,
-    # and if the reports are not of the same frames.
+    # The values that eval prints: means over sequences, computed from all points of a sequence
+    # together. None for times, or if the two reports are not of the same frames.
     eval_before: Optional[float]
     eval_after: Optional[float]
 
@@ -104,8 +104,8 @@ class Comparison:
     measures: dict  # {measure: Change}
 
     def worse(self, significance):
-        """Returns the measures that got significantly worse by the test over frames. Never times: those of two runs
-        on a shared machine differ by themselves."""
+        """Returns the measures that got significantly worse by the test over frames. Times are left
+        out: on a shared machine they differ between any two runs."""
         return [
             measure
             for measure, change in self.measures.items()

@@ -10,7 +10,7 @@ from pathlib import Path
 from comparison.comparison import Compared, Refused, compare, text
 from whole_file import write_whole_file
 
-# The codes of the program (tools/cli/exit_codes.hpp) mean the same.
+# Exit codes, with the same meaning as the program's (tools/cli/exit_codes.hpp).
 DONE, INPUT_REFUSED, OUTPUT_FAILED, GOT_WORSE = 0, 3, 4, 8
 
 

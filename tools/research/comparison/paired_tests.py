@@ -35,14 +35,15 @@ def signed_rank_test(differences):
         return test_of(differences, 1)
     exact = len(some) <= MOST_EXACT_PAIRS and len(numpy.unique(abs(some))) == len(some)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # no warning that few pairs with ties have only the approximation
-        # By position: SciPy 1.9 renamed the last parameter.
+        warnings.simplefilter("ignore")  # with few pairs and ties SciPy warns that it approximates
+        # Passed by position, because SciPy 1.9 renamed the last parameter.
         _, p = stats.wilcoxon(some, None, "wilcox", True, "two-sided", "exact" if exact else "approx")
     return test_of(differences, p)
 
 
 def sign_flip_test(differences):
-    """Sign-flip test of the mean (Fisher 1935): the share of sign patterns that lead to as large a mean."""
+    """Sign-flip test of the mean (Fisher 1935): the share of sign patterns whose mean is at least
+    as large."""
     differences = numpy.asarray(differences, dtype=float)
     tried = stats.permutation_test(
         (differences,), numpy.mean, permutation_type="samples", n_resamples=MOST_RESAMPLES, random_state=0

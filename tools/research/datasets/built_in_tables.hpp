@@ -17,8 +17,8 @@ struct BuiltInTable {
 
 [[nodiscard]] const std::vector<BuiltInTable>& built_in_tables();
 
-/// Returns the table of a dataset. Fails with kInvalidArgument, naming the existing ones, for any
-/// other name.
+/// Returns the table of a dataset. For any other name fails with kInvalidArgument; the message
+/// lists the existing ones.
 [[nodiscard]] Expected<ClassTable> built_in_table(std::string_view dataset);
 
 }  // namespace terracut::datasets

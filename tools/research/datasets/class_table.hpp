@@ -42,8 +42,8 @@ struct ClassEntry {
   }
 };
 
-/// Describes a dataset: where its files lie, its classes, and the role of each class. It is read
-/// from a YAML file that users can copy and edit (format:
+/// Describes a dataset: where its files lie, its classes, and the role of each class. Read from a
+/// YAML file that users can copy and edit (format:
 /// tools/research/datasets/semantickitti_classes.yaml).
 class ClassTable {
  public:
@@ -53,11 +53,11 @@ class ClassTable {
   [[nodiscard]] static Expected<ClassTable> parse(std::string_view text, const std::string& name);
   [[nodiscard]] static Expected<ClassTable> read(const std::filesystem::path& path);
 
-  /// Returns where the dataset's files lie; nothing if the table has only classes.
+  /// Returns where the dataset's files lie; nothing if the table states only classes.
   [[nodiscard]] const std::optional<CloudLayout>& layout() const noexcept { return layout_; }
   /// Returns a note to users of the dataset; mostly empty.
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
-  /// Takes layout and note of `other`, unless this table has a layout.
+  /// Takes layout and note from `other` if this table has no layout.
   void take_layout(const ClassTable& other);
   /// Returns the entries in order of ids.
   [[nodiscard]] const std::vector<ClassEntry>& entries() const noexcept { return entries_; }

@@ -41,7 +41,7 @@ bool decode(const YAML::Node& node, int least, int most, int& to) {
   return YAML::convert<int>::decode(node, to) && least <= to && to <= most;
 }
 
-/// Sets a key. Returns an empty text if the value was set, the expected values if it was wrong, and
+/// Sets a key. Returns an empty text if the value is valid, the expected values if it is not, and
 /// nothing if the key is unknown.
 std::optional<std::string> take(CloudLayout& layout, std::string_view key, const YAML::Node& node) {
   constexpr const char* kPattern = "a relative path with one `*`, in its last part";

@@ -16,7 +16,8 @@ namespace terracut::datasets {
 /// Labelled clouds on disk, in their layout.
 class Dataset {
  public:
-  /// Fails with kUnsupported if rings follow from the order and the sensor lacks 64 of them.
+  /// Fails with kUnsupported if the layout takes rings from the order of points and the sensor has
+  /// not 64 of them.
   [[nodiscard]] static Expected<Dataset> at(const CloudLayout& layout, std::filesystem::path root);
 
   /// Returns the names of the sequences with labels, sorted. Fails with kNotFound if there is none.

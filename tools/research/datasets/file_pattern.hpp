@@ -10,7 +10,7 @@
 
 namespace terracut::datasets {
 
-/// Files or folders of one folder whose names differ in one part: "velodyne/*.bin".
+/// The files or folders in a folder whose names differ in one part: "velodyne/*.bin".
 class FilePattern {
  public:
   FilePattern() = default;
@@ -23,8 +23,8 @@ class FilePattern {
   [[nodiscard]] std::filesystem::path path(const std::string& name) const {
     return folder_ / (before_ + name + after_);
   }
-  /// Returns the part for the `*` of every matching entry of `root`, sorted; none if there is no
-  /// such folder.
+  /// Returns what the `*` stands for in every matching entry of `root`, sorted; nothing if there is
+  /// no such folder.
   [[nodiscard]] std::vector<std::string> names_in(const std::filesystem::path& root) const;
 
  private:

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using scan::ScanPoint;
 
-/// Checks that all values are whole numbers in [0, most].
+/// Fails unless all values are whole numbers in [0, most].
 template <class T>
 Status check_whole(std::span<const T> values, const std::string& file, std::string_view name,
                    double most) {

@@ -9,11 +9,11 @@
 #include "cloud_layout.hpp"
 #include "rt/error.hpp"
 
-// Only for .cpp files of this folder: keeps yaml-cpp out of other includes.
+// Only for .cpp files of this folder, so that no other file includes yaml-cpp.
 namespace terracut::datasets {
 
-/// Fails with kMalformed, and the line in `name`, for an unknown or missing key, an invalid value,
-/// or an impossible combination.
+/// Reads a layout. Fails with kMalformed, naming the line in `name`, for an unknown or missing key,
+/// an invalid value, or an impossible combination.
 [[nodiscard]] Expected<CloudLayout> layout_from_yaml(const YAML::Node& node,
                                                      const std::string& name);
 

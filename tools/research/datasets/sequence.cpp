@@ -14,7 +14,7 @@ namespace terracut::datasets {
 namespace fs = std::filesystem;
 namespace {
 
-/// Sets `rings` of a scan whose points have laser numbers.
+/// Sets `scan.rings` from the laser numbers of the points.
 void find_rings(const cloud::RingOfLaser& ring_of_laser, LabelledScan& scan) {
   scan::RingRecovery& rings = scan.rings;
   std::vector<bool> met(ring_of_laser.size());
@@ -120,7 +120,7 @@ Status Sequence::fit_lasers() {
                                    return cloud::CloudView{scan.scan.points, scan.laser_of_point};
                                  });
   if (!fitted) {
-    // Errors of reading already name their file.
+    // An error of reading a file names that file already.
     const bool of_file = fitted.error().message.starts_with(folder_.string());
     return fail(fitted.error().code,
                 (of_file ? "" : folder_.string() + ": ") + fitted.error().message);

@@ -17,10 +17,10 @@
 
 namespace terracut::datasets {
 
-/// The frames of one unit, in order of names.
+/// The frames of one sensor, in order of names.
 class Sequence {
  public:
-  /// Lists the frames in `folder` and learns the rings of the unit. Errors name file or folder.
+  /// Lists the frames in `folder` and learns the rings of their sensor. Errors name file or folder.
   /// Fails with kNotFound if there are no frames, with the error of reading if no frame can be
   /// read, and with kMalformed if the points of a laser do not lie on its cone around the origin,
   /// as in a map's frame.
@@ -40,7 +40,7 @@ class Sequence {
   [[nodiscard]] Status check_whole() const;
   /// Returns the unit's rings, as far as the frames show them.
   [[nodiscard]] const scan::RingTable& rings() const { return table_; }
-  /// Returns the spin of an HDL-64E's head, as far as the frames show it.
+  /// Returns the spin rate of an HDL-64E's head, as far as the frames show it.
   [[nodiscard]] const encode::RecordedSpin& spin() const { return spin_; }
   /// Returns the shape of an image for a frame.
   [[nodiscard]] frame::ImageShape shape() const { return {layout_.rings, layout_.columns}; }

@@ -41,7 +41,8 @@ Colour colour_of(datasets::Role truth, Label label, bool changed) noexcept {
   return is_right(truth, label) ? kRight : kWrong;
 }
 
-/// Returns the side of a square around the sensor that holds nine tenths of the changed returns.
+/// Returns the side, in metres, of a square around the sensor that holds nine tenths of the changed
+/// returns.
 double side_around(std::vector<double>& distances_m) {
   constexpr double kLeast_m = 40, kMost_m = 120, kStep_m = 10, kShare = 0.9;
   const auto place = distances_m.begin() +

@@ -17,10 +17,10 @@
 
 namespace terracut::eval {
 
-/// Keeps one frame for every method but the first, as a picture from above: the frame in which most
+/// For every method but the first, keeps one frame as a picture from above: the frame in which most
 /// returns are ground to one of the two methods and obstacle to the other. The left half shows the
 /// method, the right half the first one; returns with equal labels are dim, the others green where
-/// right, red where wrong, white where their class is ignored. From any thread.
+/// right, red where wrong, white where their class is ignored. For any thread.
 class ChangedFrames {
  public:
   static constexpr int kSide = 320;  ///< Pixels of each half.
@@ -28,8 +28,8 @@ class ChangedFrames {
   /// Both arguments must outlive this object.
   ChangedFrames(std::span<const MethodChoice> methods, const datasets::ClassTable& classes);
 
-  /// Looks at a frame. The order of calls does not matter: if frames are equal, the first by name
-  /// is kept.
+  /// Looks at a frame. The order of calls does not matter: of equal frames the first by name is
+  /// kept.
   void look(const LabelledByAll& frame);
 
   /// Writes `<folder>/<method>.png` for every method that ever differed, and changes.json: the

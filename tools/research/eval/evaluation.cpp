@@ -30,14 +30,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A sequence that can be evaluated.
+/// A sequence that has been opened for evaluation.
 struct OpenSequence {
   std::string name;
   datasets::Sequence scans;
   mount::RingProfile profile;
   std::optional<encode::SensorMotion> motion;  ///< Set if there are poses beside the frames.
 
-  /// Returns the motion from frame `scan` to frame `before`; nothing unless they are successive.
+  /// Returns the motion from frame `scan` to frame `before`; nothing unless `before` comes just
+  /// before `scan`.
   [[nodiscard]] std::optional<encode::RigidMotion> motion_since(std::size_t before,
                                                                 std::size_t scan) const {
     const auto from = rt::number_of<std::uint32_t>(scans.frame(scan));
@@ -55,12 +56,12 @@ struct Work {
   [[nodiscard]] fs::path file() const { return sequence->scans.file(scan); }
 };
 
-/// Frames that one thread labels in order: results that carry over to the next frame do not depend
-/// on the distribution of work.
+/// Frames that one thread labels in order, so that results that carry over from frame to frame do
+/// not depend on how work is distributed.
 using FrameRun = std::vector<Work>;
 constexpr std::size_t kLongestRun = 32;
 
-/// Estimates the mount from up to ten scans, evenly spaced over the sequence, as a run would.
+/// Estimates the mount as a run does, from up to ten scans evenly spaced over the sequence.
 Expected<mount::FoundMount> mount_of(const datasets::Sequence& sequence) {
   memory::FixedMemory memory;
   DirectWay way(sequence.shape(), mount::kAtTheSensor, memory);
@@ -133,7 +134,7 @@ class Run {
         OpenSequence{name, *std::move(scans), profile, motion_of(name)}));
   }
 
-  /// Missing poses are no fault; unreadable ones are.
+  /// Missing poses are no fault, but unreadable ones are.
   std::optional<encode::SensorMotion> motion_of(const std::string& name) {
     const fs::path folder = dataset_.folder(name);
     const fs::path poses = folder / "poses.txt", times = folder / "times.txt";
@@ -169,7 +170,7 @@ class Run {
           pin_this_thread(fmt::format("tc-eval-{}", i), cores, i);
           label_some();
         });
-      } catch (const std::system_error&) {  // no thread is left: the work takes longer
+      } catch (const std::system_error&) {  // no thread is left: those that run do all the work
         break;
       }
     }

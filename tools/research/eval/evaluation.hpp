@@ -37,13 +37,13 @@ struct EvaluationConfig {
   bool find_mount = false;  ///< Finds the mount of each sequence; else uses `mount`.
   bool through_packets = false;
   int jobs = 0;  ///< Threads, each on its own core; 0: one per core.
-  /// Tells tall and immobile classes; null: neither is counted. Must outlive the run.
+  /// States which classes are tall or immobile; if null, neither is counted. Must outlive the run.
   const datasets::ClassTable* classes = nullptr;
   std::filesystem::path predictions;  ///< Folder; empty: none are written.
   LabelledByAllSink on_labelled;  ///< Receives every frame that all methods label; may be empty.
 };
 
-/// A failure to evaluate something.
+/// A frame, file or sequence that could not be evaluated.
 struct Fault {
   std::string where;  ///< File or folder.
   std::string what;
@@ -56,11 +56,11 @@ struct EvaluationOutcome {
   bool interrupted = false;
 };
 
-/// Labels every frame of a dataset with every method and counts the labels. A sequence without a
-/// found mount is a fault as a whole. An unreadable file is a fault, and the work goes on. Results
-/// in `journal` are kept; their frames are labelled again only if the same run of 32 successive
-/// frames, which one thread labels in order, has others to be labelled, because methods remember
-/// earlier frames. Faulty frames are not in the journal. Predictions are written to
+/// Labels every frame of a dataset with every method and counts the labels. A sequence whose mount
+/// is not found is a fault as a whole. An unreadable file is a fault, and the work goes on. Results
+/// in `journal` are kept. Methods remember earlier frames, so one thread labels 32 successive
+/// frames in order; if any of the 32 is not in the journal, all of them are labelled again. Faulty
+/// frames are not in the journal. Predictions are written to
 /// `<predictions>/<method>/sequences/NN/predictions/NNNNNN.label`.
 ///
 /// `on_progress(done, of)` is called from any thread, one call at a time; `stop_wanted()` is asked

@@ -86,7 +86,7 @@ double milliseconds(std::int64_t ns) {
   return static_cast<double>(ns / 1000) / 1000.0;
 }
 
-/// Returns {mean, p50, p99, max} by nearest rank.
+/// Returns {mean, p50, p99, max}; percentiles are by nearest rank.
 Json times_json(std::vector<std::int64_t> times_ns) {
   if (times_ns.empty()) return nullptr;
   std::ranges::sort(times_ns);
@@ -169,7 +169,8 @@ class MethodJson {
     return json;
   }
 
-  /// Returns the measures that `judge` gives on the same points: their means, and by sequence.
+  /// Returns the measures of the qualities that `judge` gives for the same points: means, and each
+  /// sequence's.
   template <class Judge>
   [[nodiscard]] Json oracle(Judge&& judge) const {
     Json json = means(judge);
@@ -184,7 +185,8 @@ class MethodJson {
   }
 
  private:
-  /// Returns every measure in every scope: its mean over sequences of what `judge` gives.
+  /// Returns every measure in every scope: the mean over sequences of the qualities that `judge`
+  /// gives.
   template <class Judge>
   [[nodiscard]] Json means(Judge&& judge) const {
     Json json = Json::object();
@@ -394,7 +396,7 @@ Json evaluation_json(const EvaluationFacts& facts, const datasets::ClassTable& c
   for (const MethodChoice& method : facts.methods) {
     const MethodJson of_method(method, classes, outcome.results);
     json["methods"][method.name] = of_method.json();
-    if (json.contains("oracles")) continue;  // the same for each method's frames
+    if (json.contains("oracles")) continue;  // the oracles are the same for every method
     json["oracles"] = {{"everything_ground", of_method.oracle(statistics::everything_ground)},
                        {"perfect_ground", of_method.oracle(statistics::perfect_ground)}};
   }

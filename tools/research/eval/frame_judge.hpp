@@ -17,18 +17,20 @@
 
 namespace terracut::eval {
 
-/// Counts facts beyond a point's class: its height above the true ground, and whether its label
-/// equals that of the previous frame. One thread, frames in order.
+/// Counts what needs more than a point's class: its height above the true ground, and whether its
+/// label equals that of the previous frame. One thread, frames in order.
 class FrameJudge {
  public:
   /// `classes` must outlive this object.
   FrameJudge(const datasets::ClassTable& classes, std::size_t methods)
       : classes_(classes), ground_(classes), flips_(classes, methods) {}
 
-  /// Sets the frame to judge; keep `scan` unchanged. `before_this`: see LabelFlips::look_at().
+  /// Sets the frame to judge; `scan` must stay unchanged until the next. `before_this`: see
+  /// LabelFlips::look_at().
   void look_at(const scan::KittiScan& scan, const std::optional<encode::RigidMotion>& before_this);
 
-  /// Fills `tall` and `flips`. `labels` has one per point. Call once per method and frame.
+  /// Fills in `tall` and `flips` of the result. `labels` has one per point. Call this once per
+  /// method and frame.
   void judge(std::size_t method, std::span<const frame::Label> labels, FrameResult& result);
 
  private:

@@ -16,27 +16,27 @@
 
 namespace terracut::eval {
 
-/// Labels scans of one unit with several methods and counts the labels. Scans are
-/// independent. One thread.
+/// Labels scans of one sensor with several methods and counts the labels. Each scan is labelled
+/// independently. One thread.
 class FrameLabeller {
  public:
   /// `methods` must outlive this object. Takes all memory.
   FrameLabeller(std::span<const MethodChoice> methods, const datasets::Sequence& sequence,
                 const mount::RingProfile& profile, bool through_packets);
 
-  /// Sets the scan for label(); both arguments must not change meanwhile. Fails with the errors of
-  /// PacketWay::place().
+  /// Sets the scan for label(); neither argument may change until the next scan. Fails with the
+  /// errors of PacketWay::place().
   [[nodiscard]] Status place(const scan::KittiScan& scan, const scan::RingRecovery& rings);
 
   /// Labels the scan with methods[index]; points() then returns the labels until the next call.
   [[nodiscard]] FrameResult label(std::size_t index);
 
-  /// Returns one label per point of the file: kNone for invalid points; kObstacle, the safe side,
-  /// for points lost on the way.
+  /// Returns one label per point of the file: kNone for points without a valid position; kObstacle,
+  /// the safe side, for points lost on the way to the image.
   [[nodiscard]] std::span<const frame::Label> points() const noexcept { return labels_; }
 
-  /// Returns the scan as seen by the methods, and the labels of methods[index] by return index of
-  /// its image; all methods' labels are valid until the next scan.
+  /// placed() returns the scan as the methods see it. The next function returns the labels of
+  /// methods[index], by return index of that image, valid until the next scan.
   [[nodiscard]] const PlacedScan& placed() const noexcept { return placed_; }
   [[nodiscard]] std::span<const frame::Label> returns(std::size_t index) const {
     return bench_->labels(index);

@@ -21,7 +21,7 @@ struct FrameKey {
   friend auto operator<=>(const FrameKey&, const FrameKey&) = default;
 };
 
-/// Processor time in nanoseconds of the working thread.
+/// Processor time of the working thread, in nanoseconds.
 struct FrameTimes {
   std::array<std::int64_t, stage::kStages> stage_ns{};  ///< All 0 for methods without stages.
   std::int64_t decode_ns = 0;                           ///< Time of decoding; 0 without packets.

@@ -31,7 +31,7 @@ Error write_failed(const std::filesystem::path& path) {
 }
 
 Status append(const std::filesystem::path& path, int file, const std::string& line) {
-  // One call per line: a killed process leaves whole lines, or an incomplete one at the end.
+  // Makes one call per line: a killed process leaves only whole lines, except perhaps the last.
   const std::string text = line + "\n";
   std::size_t done = 0;
   while (done < text.size()) {
@@ -52,7 +52,8 @@ std::vector<std::string> words_of(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// Returns the words of `text` missing from `other`, as many as a person wants to read.
+/// Returns those words of `text` that are missing from `other`, but no more than a person wants to
+/// read.
 std::string words_missing(const std::string& text, const std::string& other) {
   constexpr std::size_t kShown = 8;
   const std::vector<std::string> others = words_of(other);
@@ -149,7 +150,7 @@ Expected<std::pair<FrameKey, FrameResult>> parse_journal_line(const std::string&
 }
 
 Expected<Journal> Journal::open(const std::filesystem::path& path, const std::string& settings) {
-  std::error_code ignored;  // the open() below reports errors better
+  std::error_code ignored;  // a failure shows when the file is opened below
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
   files::OwnedDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
   if (file.get() < 0) return tl::unexpected(write_failed(path));

@@ -14,15 +14,16 @@
 
 namespace terracut::eval {
 
-/// Keeps results on disk as they come, one line of JSON each, so that a killed run can continue: at
-/// most the frames in work are lost. The first line states what was run; a journal of another run
-/// is refused.
+/// Keeps results on disk as they come, one line of JSON each, so that a killed run can be
+/// continued: at most the frames being labelled are lost. The first line states the run's settings;
+/// a journal with other settings is refused.
 class Journal {
  public:
-  /// Reads the existing lines, cuts off an incomplete one, and appends after it. `settings` is all
-  /// that results depend on, words in one line of text. Fails with kInvalidArgument if the file has
-  /// other settings (the message names the words that differ) or another process is writing it;
-  /// kMalformed if a whole line is no result; kWriteFailed if the file cannot be written.
+  /// Reads the existing lines, cuts off an incomplete one, and appends after them. `settings` is
+  /// everything that results depend on, as words in one line of text. Fails with kInvalidArgument
+  /// if the file has other settings (the message names the words that differ) or another process is
+  /// writing it; kMalformed if a whole line is no result; kWriteFailed if the file cannot be
+  /// written.
   [[nodiscard]] static Expected<Journal> open(const std::filesystem::path& path,
                                               const std::string& settings);
 
@@ -43,9 +44,9 @@ class Journal {
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
 };
 
-/// Returns one line of the journal, without its end; also used by reports.
+/// Returns the line of a result without its line end; reports use it, too.
 [[nodiscard]] std::string journal_line(const FrameKey& key, const FrameResult& result);
-/// Fails with kMalformed if a line is invalid.
+/// Parses journal_line(). Fails with kMalformed if the line is invalid.
 [[nodiscard]] Expected<std::pair<FrameKey, FrameResult>> parse_journal_line(
     const std::string& line);
 

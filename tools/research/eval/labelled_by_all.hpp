@@ -13,7 +13,7 @@
 
 namespace terracut::eval {
 
-/// A frame labelled by every method; all data by return index of `image`.
+/// A frame that every method has labelled; all data is by return index of `image`.
 struct LabelledByAll {
   const std::string& sequence;
   const std::string& frame;

@@ -11,7 +11,7 @@
 namespace terracut::eval {
 namespace {
 
-/// True if a folder can have this name.
+/// True if `name` can be the name of a folder.
 bool is_name(std::string_view name) {
   return !name.empty() && std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||

@@ -9,7 +9,7 @@
 namespace terracut::eval {
 
 /// Names the calling thread and pins it to cores[index modulo their number]
-/// (threads::allowed_cores()). If refused, only the accuracy of times suffers.
+/// (threads::allowed_cores()). If the system refuses, only times become less accurate.
 void pin_this_thread(const std::string& name, const std::vector<int>& cores, std::size_t index);
 
 }  // namespace terracut::eval

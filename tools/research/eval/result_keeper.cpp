@@ -31,7 +31,8 @@ std::vector<std::size_t> ResultKeeper::methods_left(const std::string& sequence,
   const std::scoped_lock lock(mutex_);
   for (std::size_t i = 0; i < methods_.size(); ++i) {
     const FrameKey key{sequence, frame, methods_[i].name};
-    std::error_code ignored;  // an unreadable path counts as missing: writing it reports the error
+    // an unreadable path counts as missing; writing to it reports the error
+    std::error_code ignored;
     const bool done = results_.contains(key) &&
                       (predictions_.empty() || std::filesystem::exists(prediction(key), ignored));
     if (!done) left.push_back(i);

@@ -24,20 +24,20 @@ namespace terracut::eval {
 class ResultKeeper {
  public:
   /// Starts with the results of these methods in `journal`, which may be null; it and `methods`
-  /// must outlive this object. `predictions` empty: none are written.
+  /// must outlive this object. If `predictions` is empty, none are written.
   ResultKeeper(std::span<const MethodChoice> methods, std::filesystem::path predictions,
                Journal* journal);
 
-  /// Notes that a frame belongs to this run. take_results() returns only such frames, whatever the
-  /// journal holds.
+  /// Notes that a frame belongs to this run. take_results() returns only frames noted so; the
+  /// journal may hold others.
   void expect(const std::string& sequence, const std::string& frame);
 
-  /// Returns the methods, by index, that have not labelled this frame yet, or whose wanted
+  /// Returns the indices of the methods that have not labelled this frame yet, or whose requested
   /// prediction is missing.
   [[nodiscard]] std::vector<std::size_t> methods_left(const std::string& sequence,
                                                       const std::string& frame) const;
 
-  /// Returns false once something could not be written: see failure().
+  /// Keeps a result. Returns false once something could not be written: see failure().
   bool keep(const FrameKey& key, std::span<const frame::Label> labels, FrameResult result);
 
   [[nodiscard]] std::optional<Error> failure() const;

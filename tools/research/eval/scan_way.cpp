@@ -53,7 +53,7 @@ Status PacketWay::encode(std::span<const scan::ScanPoint> points,
     packets_.emplace_back(bytes.begin(), bytes.end());
     columns.clear();
   };
-  // Returns are numbered in order of arrival: firing after firing, laser after laser.
+  // Returns are numbered in order of arrival: by firing, then by laser.
   const auto take = [&](const EncodedFiring& firing) -> Status {
     for (const EncodedFiring::Source& source : firing.sources) {
       if (source.frame == 0) point_of_return_.push_back(source.point);

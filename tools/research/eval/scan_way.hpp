@@ -25,14 +25,15 @@ struct PlacedScan {
   std::int64_t decode_ns = 0;                      ///< Processor time; 0 without packets.
 };
 
-/// Places a scan directly in the image.
+/// Places scans directly in the image.
 class DirectWay {
  public:
   DirectWay(const frame::ImageShape& shape, const mount::Mount& mount, memory::FixedMemory& memory);
 
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return image_.shape(); }
   [[nodiscard]] std::size_t return_capacity() const noexcept { return image_.return_capacity(); }
-  /// Places a scan; valid until the next call. Never fails, unlike PacketWay::place().
+  /// Places a scan; the result is valid until the next call. Never fails, unlike
+  /// PacketWay::place().
   [[nodiscard]] Expected<PlacedScan> place(std::span<const scan::ScanPoint> points,
                                            std::span<const std::int16_t> ring_of_point);
 
@@ -41,17 +42,17 @@ class DirectWay {
   scan::ScanToImage scan_to_image_;
 };
 
-/// Places a scan through packets: encoded as one frame's packets, which the decoder decodes.
+/// Places scans through packets: encodes each as the packets of one frame, and decodes these.
 class PacketWay {
  public:
-  /// `spin` is that of the recording head.
+  /// `spin` is the spin rate of the recording head.
   PacketWay(const hdl64e::Hdl64eCalibration& calibration, const encode::RecordedSpin& spin,
             const mount::Mount& mount, memory::FixedMemory& memory);
 
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return decoder_.shape(); }
   [[nodiscard]] std::size_t return_capacity() const noexcept { return decoder_.return_capacity(); }
-  /// Places a scan; valid until the next call. Fails with kMalformed if the decoder does not make
-  /// exactly one frame of it.
+  /// Places a scan; the result is valid until the next call. Fails with kMalformed if the decoder
+  /// does not make exactly one frame of it.
   [[nodiscard]] Expected<PlacedScan> place(std::span<const scan::ScanPoint> points,
                                            std::span<const std::int16_t> ring_of_point);
 

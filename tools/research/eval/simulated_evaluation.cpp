@@ -48,7 +48,7 @@ std::string name_of(std::size_t frame) {
   return fmt::format("{:06}", frame);
 }
 
-/// Checks the names before the simulation, which takes long.
+/// Checks the names first, because the simulation takes long.
 Status check_scenes(const std::vector<std::string>& scenes) {
   const auto known = scenes::scene_names();
   for (auto scene = scenes.begin(); scene != scenes.end(); ++scene) {
@@ -71,7 +71,7 @@ decode::Decoder::Config decoder_config(int columns) {
   return config;
 }
 
-/// Estimates the mount from the first ten frames of the drive, as a run would.
+/// Estimates the mount as a run does, from the first ten frames of the drive.
 Expected<mount::FoundMount> mount_of(const fs::path& capture,
                                      const calib::SensorCalibration& calibration, int columns) {
   auto source = capture::PcapSource::open(capture);
@@ -93,7 +93,7 @@ Expected<mount::FoundMount> mount_of(const fs::path& capture,
   return search.found();
 }
 
-/// One drive on disk, from packets to counts. Used by one thread.
+/// Evaluates one drive on disk, from packets to counts. Used by one thread.
 class DriveEvaluation {
  public:
   DriveEvaluation(const SimulatedConfig& config, const mount::Mount& mount, std::string scene,
@@ -196,7 +196,7 @@ class DriveEvaluation {
   std::int64_t resumed_ns_ = 0;  ///< Start of the current decoding.
 };
 
-/// All drives of one kind of sensor, one after the other.
+/// Evaluates all drives of one kind of sensor, one after the other.
 template <class EncoderTraits>
 class Run {
  public:
@@ -265,8 +265,8 @@ class Run {
     DriveEvaluation drive(config_, mount, scene, drive::truth_folder_of(capture), calibration,
                           columns, keeper_, [this] { progress_.evaluated(++done_, frames()); });
     Status status;
-    // The drive runs on a thread that is pinned to one core. It ends before the next drive is
-    // simulated, which needs all cores.
+    // Evaluates the drive on a thread that is pinned to one core. The thread ends before the next
+    // drive is simulated, which uses all cores.
     std::thread([&] {
       pin_this_thread("tc-eval-0", threads::allowed_cores(), 0);
       status = drive.run(capture, stop_wanted_);
@@ -279,7 +279,7 @@ class Run {
     return config_.drives.dual_return ? ReturnMode::kDual : ReturnMode::kSingle;
   }
 
-  /// Returns false if it was interrupted.
+  /// Simulates a drive. Returns false if it was interrupted.
   Expected<bool> simulate(const std::string& scene, const fs::path& capture,
                           const typename EncoderTraits::Calibration& calibration) {
     simulator::SimulationConfig<EncoderTraits> config;

@@ -32,12 +32,12 @@ struct SimulatedConfig {
   FrameRange frames;
   std::vector<MethodChoice> methods;
   mount::Mount mount;       ///< Mount of the simulated sensor.
-  bool find_mount = false;  ///< Labels with the mount estimated from the drive's first frames.
+  bool find_mount = false;  ///< True: uses the mount estimated from the drive's first frames.
   std::filesystem::path predictions;  ///< As EvaluationConfig::predictions: one label per return.
   LabelledByAllSink on_labelled;      ///< As EvaluationConfig::on_labelled.
 };
 
-/// Called from the calling thread or another, one at a time.
+/// Functions called from any thread, one call at a time.
 struct SimulatedProgress {
   std::function<void(double, double)> simulated_s;          ///< Seconds done, seconds in all.
   std::function<void(std::size_t, std::size_t)> evaluated;  ///< Frames done, frames in all.

@@ -32,7 +32,7 @@ Sphere sphere_around(const Hazard& hazard) {
   return {box.center(), box.diagonal().norm() / 2};
 }
 
-/// Returns where the line first meets one of the shapes; infinity if it does not.
+/// Returns the distance at which the line first meets one of the shapes; infinity if it meets none.
 double nearest_m(std::span<const world::Shape> shapes, const world::SightLine& line,
                  world::Random& random) {
   double nearest_m = INFINITY;
@@ -46,8 +46,8 @@ double nearest_m(std::span<const world::Shape> shapes, const world::SightLine& l
   return nearest_m;
 }
 
-/// Returns the way to the wall or bottom of the hole; none if the line does not enter it through
-/// its upper end before `range_m`.
+/// Returns the distance to the wall or bottom of the hole; none if the line does not enter it
+/// through its upper end before `range_m`.
 std::optional<double> way_into(const world::Shape& hole, const world::SightLine& line,
                                double range_m) {
   constexpr double kUneven_m = 0.3;  // tolerance along a flat beam, because the ground is uneven
@@ -64,7 +64,8 @@ MovedReturns put_in(const LabelledFrame& frame, const Hazard& hazard,
   const Sphere sphere = sphere_around(hazard);
   const Eigen::Isometry3d T_hazard_vehicle = T_vehicle_hazard.inverse();
   const Eigen::Vector3d centre = T_vehicle_hazard * sphere.centre - frame.sensor;
-  // A beam meets the sphere if its part towards the centre is at least as long as the tangent.
+  // A beam can only meet the sphere if its part towards the centre is at least as long as the
+  // tangent.
   const double near_way_m2 = centre.squaredNorm() - sphere.radius_m * sphere.radius_m;
   const double least_m = near_way_m2 > 0 ? std::sqrt(near_way_m2) : -INFINITY;
   MovedReturns moved;

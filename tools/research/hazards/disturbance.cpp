@@ -12,8 +12,9 @@ namespace {
 
 using world::Random;
 
-/// Moves a share of the low returns, which are nearer than 40 m and more than 1.2 m below the
-/// sensor (below 0.53 m for a sensor 1.73 m high), 1.1 to 1.6 times as far along their beam.
+/// Moves a share of the low returns to 1.1 to 1.6 times their distance along the beam. Low returns
+/// are nearer than 40 m and more than 1.2 m below the sensor (below 0.53 m for a sensor 1.73 m
+/// high).
 template <int kPerMille>
 bool ghost(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedReturn& moved) {
   constexpr double kLow_m = 1.2, kFarthest_m = 40;
@@ -25,7 +26,8 @@ bool ghost(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedRet
   return true;
 }
 
-/// Moves half of the ground returns of two puddles, ahead and behind, 1.3 to 2.5 times as far.
+/// Moves half of the ground returns in two puddles, ahead and behind, to 1.3 to 2.5 times their
+/// distance.
 bool puddle(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedReturn& moved) {
   constexpr double kNearest_m = 6, kFarthest_m = 14, kHalfWidth_m = 2.2;
   const double ahead_m = std::abs(frame.at[i].x());
@@ -37,7 +39,7 @@ bool puddle(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedRe
   return true;
 }
 
-/// Ends three of ten beams in a cloud of droplets 6 to 14 m ahead, 3 m wide and 1.5 m high.
+/// Lets three of ten beams end in a cloud of droplets 6 to 14 m ahead, 3 m wide and 1.5 m high.
 bool spray(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedReturn& moved) {
   constexpr double kNearest_m = 6, kFarthest_m = 14, kHalfWidth_m = 1.5, kHeight_m = 1.5;
   const Eigen::Vector3d& beam = frame.beam[i];
@@ -52,7 +54,7 @@ bool spray(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedRet
   return true;
 }
 
-/// Ends a share of the beams at flakes 2 to 20 m away.
+/// Lets a share of the beams end at flakes 2 to 20 m away.
 template <int kPercent>
 bool snow(const LabelledFrame& frame, std::uint32_t i, Random& random, MovedReturn& moved) {
   constexpr double kNearest_m = 2, kFarthest_m = 20;

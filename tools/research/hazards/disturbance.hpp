@@ -12,7 +12,7 @@
 
 namespace terracut::hazards {
 
-/// Changes a whole frame without an obstacle: ghosts, snow, dirt.
+/// A change of a whole frame that adds no obstacle: ghosts, snow, dirt.
 struct Disturbance {
   std::string_view word;  ///< "ghosts_1"
   /// Sets `moved.range_m` for one return; false if the return stays.
@@ -23,7 +23,7 @@ struct Disturbance {
 /// Returns all disturbances.
 [[nodiscard]] std::span<const Disturbance> disturbances() noexcept;
 
-/// Returns the returns that a disturbance moves. `key` seeds the choice.
+/// Returns the returns that a disturbance moves. `key` decides which ones.
 [[nodiscard]] MovedReturns disturbed(const LabelledFrame& frame, const Disturbance& disturbance,
                                      std::uint64_t key);
 

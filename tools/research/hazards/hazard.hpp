@@ -9,12 +9,12 @@
 
 namespace terracut::hazards {
 
-/// An object or a hole where a vehicle may drive. The frame of its shapes has its origin on the
-/// ground, x along the heading, y left and z away from the ground, metres.
+/// An object or a hole where a vehicle may drive. In the frame of its shapes the origin is on the
+/// ground, x points along the heading, y to the left and z away from the ground, metres.
 struct Hazard {
   std::vector<world::Shape> body{};
-  /// Shapes that hide the ground behind them and are not part of the hazard, as the truck of a tail
-  /// lift.
+  /// Shapes that hide the ground behind them but are not part of the hazard, such as the truck of a
+  /// tail lift.
   std::vector<world::Shape> beside{};
   /// A shaft below the ground with an open upper end, if the hazard is a hole.
   std::optional<world::Shape> hole{};

@@ -22,8 +22,8 @@ struct HazardChoice {
   std::uint64_t seed = 1;
 };
 
-/// Sets kinds and disturbances by their words; without words, to all. Fails with kInvalidArgument,
-/// naming the known words, for an unknown one.
+/// Sets kinds and disturbances by their words; without words, sets all. Fails with kInvalidArgument
+/// for an unknown word; the message lists the known ones.
 [[nodiscard]] Status choose(std::span<const std::string> words, HazardChoice& choice);
 
 }  // namespace terracut::hazards

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using statistics::iou_g, statistics::mean, statistics::recall_o;
 
-/// Returns the measures as means over `parts`.
+/// Returns the mean of each measure over `parts`.
 Json elsewhere_json(const std::vector<Elsewhere>& parts) {
   std::vector<Json> iou_before, iou_after, recall_before, recall_after;
   for (const Elsewhere& part : parts) {
@@ -38,14 +38,14 @@ std::string percent(const Json& share) {
   return share.is_null() ? "-" : fmt::format("{:.2f}", 100 * share.get<double>());
 }
 
-/// Returns after - before in percent points: "+0.01".
+/// Returns `after` minus `before` in percent points: "+0.01".
 std::string change_text(const Json& measure) {
   if (measure.at("after").is_null() || measure.at("before").is_null()) return "-";
   return fmt::format(
       "{:+.2f}", 100 * (measure.at("after").get<double>() - measure.at("before").get<double>()));
 }
 
-/// A line of the table: one kind of hazard on one ground. It has a cell for each range bin and the
+/// A line of the table, for one kind of hazard on one ground: a cell for each range bin, and the
 /// mean change elsewhere over all trials.
 class HazardRow {
  public:

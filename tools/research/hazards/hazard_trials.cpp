@@ -97,7 +97,7 @@ class FrameTrials {
     }
   }
 
-  /// Completes `scan`, which has only the end of its name and no sequence.
+  /// Writes a scan. `scan` has only the end of its name; the rest is filled in here.
   void write(WrittenScan scan, const MovedReturns& moved) const {
     if (writer_ == nullptr) return;
     scan.sequence = seen_.sequence;

@@ -20,7 +20,7 @@
 
 namespace terracut::hazards {
 
-/// Trials with the same key are counted together.
+/// Identifies the trials that are counted together.
 struct TrialKey {
   std::size_t kind = 0;  ///< Index in HazardChoice::kinds.
   GroundKind ground = GroundKind::kRoad;
@@ -31,17 +31,17 @@ struct TrialKey {
 /// The trials of one method.
 struct MethodTrials {
   std::map<TrialKey, TrialCounts> hazards;
-  /// Keyed by the index in HazardChoice::disturbances, then by sequence.
+  /// The keys are the index in HazardChoice::disturbances, then the sequence.
   std::map<std::size_t, std::map<std::string, Elsewhere>> disturbances;
 };
 
 /// Puts hazards and disturbances into labelled frames, one at a time, and counts how methods label
-/// them. The random numbers depend only on the seed, on the names of sequence and frame and on the
+/// them. Random numbers depend only on the seed, on the names of sequence and frame, and on the
 /// word of the hazard, so the order of frames does not matter. For any thread.
 class HazardTrials {
  public:
-  /// `methods`, `classes` and `writer` must outlive this object. Unless null, `writer` gets every
-  /// frame as it was and with each hazard and disturbance.
+  /// `methods`, `classes` and `writer` must outlive this object. `writer`, which may be null, gets
+  /// every frame without and with each hazard and disturbance.
   HazardTrials(std::span<const eval::MethodChoice> methods, const datasets::ClassTable& classes,
                HazardChoice choice, ScanWriter* writer = nullptr)
       : methods_(methods),
@@ -54,9 +54,9 @@ class HazardTrials {
   void look(const eval::LabelledByAll& frame);
 
   [[nodiscard]] const HazardChoice& choice() const noexcept { return choice_; }
-  /// Returns the trials by method. Not during look().
+  /// Returns the trials by method. Must not be called during look().
   [[nodiscard]] const std::vector<MethodTrials>& trials() const noexcept { return trials_; }
-  /// True if no trial was possible in any frame. Not during look().
+  /// True if no trial was possible in any frame. Must not be called during look().
   [[nodiscard]] bool is_empty() const;
   /// Returns the number of frames without any labelled ground 5 to 60 m away.
   [[nodiscard]] std::size_t frames_without_ground() const noexcept {

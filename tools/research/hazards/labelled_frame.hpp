@@ -43,7 +43,7 @@ struct LabelledFrame {
   }
 };
 
-/// `truth` has the class of every return of `image`, as in label files.
+/// Makes the frame from `image`. `truth` has the class of every return, as in label files.
 [[nodiscard]] LabelledFrame labelled_frame(const frame::RangeImage& image,
                                            std::span<const std::uint32_t> truth,
                                            const mount::Mount& mount,

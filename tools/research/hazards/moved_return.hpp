@@ -14,7 +14,7 @@ struct MovedReturn {
   bool counts = false;      ///< True if it belongs to the hazard and should be an obstacle.
 };
 
-/// In order of return index, each at most once.
+/// Moved returns in order of return index, each at most once.
 using MovedReturns = std::vector<MovedReturn>;
 
 }  // namespace terracut::hazards

@@ -9,13 +9,13 @@
 
 namespace terracut::hazards {
 
-/// The returns of a frame by squares of a metre, up to 80 m away.
+/// The returns of a frame up to 80 m away, sorted into squares of 1 m x 1 m.
 class ReturnsByPlace {
  public:
   /// `frame` must outlive this object.
   explicit ReturnsByPlace(const LabelledFrame& frame);
 
-  /// Calls `visit(index)` for every return within `radius_m` of (x, y), horizontally.
+  /// Calls `visit(index)` for every return within `radius_m` of (x, y), measured horizontally.
   template <class Visitor>
   void around(double x_m, double y_m, double radius_m, Visitor&& visit) const {
     const Bounds x = bounds(x_m, radius_m), y = bounds(y_m, radius_m);

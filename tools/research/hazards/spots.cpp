@@ -65,7 +65,7 @@ std::optional<Eigen::Isometry3d> Spots::draw(const Hazard& hazard, GroundKind gr
                                              std::size_t bin, world::Random& random) const {
   constexpr int kDraws = 40;
   constexpr double kLeastAround_m = 1.5,
-                   kAroundShare = 0.08;  // share of the distance: far rows lie apart
+                   kAroundShare = 0.08;  // share of the distance: far rows lie farther apart
   constexpr double kOffGround_m = 0.1, kFacing_rad = 15 * std::numbers::pi / 180;
   const auto& candidates = candidates_[static_cast<std::size_t>(ground)][bin];
   const double from_m = std::max(kRangeBins[bin].from_m, hazard.nearest_m);

@@ -17,7 +17,7 @@
 
 namespace terracut::hazards {
 
-/// Horizontal distances from the sensor, metres: [from, to).
+/// A range of horizontal distances from the sensor, [from, to).
 struct RangeBin {
   double from_m = 0, to_m = 0;
 };
@@ -36,7 +36,7 @@ class Spots {
   /// Returns T_vehicle_hazard at a random place: on a ground return of that kind, at a distance
   /// uniform in the bin, upright on the plane of the ground around it. Within 0.2 m of the hazard
   /// all returns are ground, and at most a tenth of them ground of other kinds. Returns none if 40
-  /// draws find no such place.
+  /// random places do not meet this.
   [[nodiscard]] std::optional<Eigen::Isometry3d> draw(const Hazard& hazard, GroundKind ground,
                                                       std::size_t bin, world::Random& random) const;
 
@@ -45,7 +45,8 @@ class Spots {
     double range_m;
     std::uint32_t index;
   };
-  /// Returns a random candidate within 5 % of that distance; none if there is none.
+  /// Returns a random candidate whose distance differs from `range_m` by at most 5 %; none if there
+  /// is no such candidate.
   [[nodiscard]] std::optional<std::uint32_t> near(const std::vector<Candidate>& candidates,
                                                   double range_m, world::Random& random) const;
   [[nodiscard]] bool is_free(const Hazard::Extent& extent, GroundKind ground,
@@ -54,7 +55,7 @@ class Spots {
   const LabelledFrame& frame_;
   ReturnsByPlace places_;
   bool has_ground_ = false;
-  /// Ground returns by kind and bin, in order of distance.
+  /// Ground returns by kind and range bin, in order of distance.
   std::array<std::array<std::vector<Candidate>, kRangeBins.size()>, kGroundKinds.size()>
       candidates_;
 };

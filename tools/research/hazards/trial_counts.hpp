@@ -13,10 +13,10 @@ namespace terracut::hazards {
 
 struct LabelledFrame;
 
-/// Least number of counting returns of a trial.
+/// The least number of returns that count in a trial.
 inline constexpr std::uint64_t kFewestReturns = 4;
 
-/// The counting returns of one hazard.
+/// The returns of one hazard that count.
 struct SeenHazard {
   std::uint64_t returns = 0, as_obstacle = 0;
 
@@ -29,7 +29,8 @@ struct SeenHazard {
 [[nodiscard]] SeenHazard seen_hazard(const MovedReturns& moved,
                                      std::span<const frame::Label> labels) noexcept;
 
-/// The quality of the returns that a trial does not move, labelled without and with it.
+/// The quality of the returns that a trial does not move, labelled before and after it moves
+/// others.
 struct Elsewhere {
   quality::Quality before, after;
 
@@ -47,7 +48,7 @@ struct Elsewhere {
 /// Trials of one kind of hazard on one kind of ground in one range bin.
 struct TrialCounts {
   std::uint64_t trials = 0, found = 0;
-  std::uint64_t unseen = 0;  ///< Trials with not one return called obstacle.
+  std::uint64_t unseen = 0;  ///< Trials in which no return was called obstacle.
   std::uint64_t returns = 0, as_obstacle = 0;
   Elsewhere elsewhere;
 

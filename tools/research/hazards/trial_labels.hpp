@@ -17,7 +17,8 @@
 
 namespace terracut::hazards {
 
-/// Labels one frame repeatedly, with different returns moved. Each time is independent.
+/// Labels one frame repeatedly, each time with other returns moved, and independently of the times
+/// before.
 class TrialLabels {
  public:
   /// The first two arguments must outlive this object.

@@ -20,7 +20,7 @@ DONE, INPUT_REFUSED, OUTPUT_FAILED = 0, 3, 4
 
 
 class Refused(Exception):
-    """An error with a message for people and the exit code."""
+    """An error with a message for people and an exit code."""
 
 
 def read_evaluation(path):
@@ -58,8 +58,8 @@ def age(path):
 
 
 def evaluate(folder, arguments):
-    """Runs `terracut eval` and prints its output, without its hint to draw the page. Returns its exit code, and
-    whether it wrote a report."""
+    """Runs `terracut eval` and prints its output, except for its hint to draw the page. Returns its
+    exit code, and whether it wrote a report."""
     program = os.environ.get("TERRACUT", str(REPOSITORY / "build/release/terracut"))
     before = age(folder / "evaluation.json")
     try:

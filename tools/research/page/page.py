@@ -15,7 +15,7 @@ HERE = Path(__file__).parent
 
 
 class Facts:
-    """The functions that the template calls on an evaluation."""
+    """The functions of an evaluation that the template calls."""
 
     def __init__(self, evaluation):
         self.evaluation = evaluation

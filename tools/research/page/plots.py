@@ -12,7 +12,7 @@ from markupsafe import Markup, escape
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-# Distinguishable with red-green colour blindness (Okabe, Ito).
+# Colours that are distinguishable with red-green colour blindness (Okabe, Ito).
 METHOD_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#444444", "#882255"]
 STYLE = {
     "svg.fonttype": "none",  # text is kept as text
@@ -40,7 +40,8 @@ def colour_of_method(place):
 
 
 class Plot:
-    """A figure in the page's style. Tips are shown by a browser when the pointer rests on an artist."""
+    """A figure in the page's style. A browser shows an artist's tip when the pointer rests on the
+    artist."""
 
     def __init__(self, name, height, alternative, below=0.45):
         """Heights are in inches; `below` is left free under the axes."""
@@ -63,7 +64,8 @@ class Plot:
             self.figure.savefig(file, format="svg", metadata=no_metadata)
         text = file.getvalue()
         text = text[text.index("<svg") :]
-        # Numbered ids would repeat in each plot and are removed; referenced ids are hashes of this plot's name.
+        # Removes numbered ids, which would repeat in each plot; ids that are referenced are hashes
+        # of this plot's name.
         text = re.sub(r' id="[\w.]+_\d+"', "", text)
         for key, tip in self.tips.items():
             text = text.replace(f'<g id="{key}">', f'<g id="{key}"><title>{escape(tip)}</title>')
@@ -110,7 +112,8 @@ def times(method, results, place):
     plot = Plot(f"times-{method}", 2.6, f"Time of every frame, and how the times are distributed: {method}")
     with rc_context(STYLE):
         series, histogram = plot.figure.subplots(1, 2, gridspec_kw={"width_ratios": [2, 1]})
-        # If there is no room for every frame, neighbours share a stroke from their least to their largest time.
+        # If there is no room for every frame, neighbours share a stroke from their least to their
+        # greatest time.
         strokes = numpy.array_split(numpy.arange(len(values)), min(MOST_STROKES, len(values)))
         middles = [stroke.mean() for stroke in strokes]
         lows, highs = ([pick(values[stroke]) for stroke in strokes] for pick in (numpy.min, numpy.max))
@@ -141,7 +144,7 @@ def name_sequences(axes, sequences):
         count = len(list(group))
         if start:
             axes.axvline(start - 0.5, color="#d9dee5", linewidth=1, zorder=0.5)  # behind what is plotted
-        if count >= 0.03 * len(sequences):  # only if there is room for its name
+        if count >= 0.03 * len(sequences):  # its name is drawn only if there is room
             middles.append(start + (count - 1) / 2)
             names.append(name)
         start += count

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Makes table cells of numbers. A number of the evaluation has its place there as a JSON pointer in the attribute
-`data-path`, so that anybody can check the page against the JSON. A missing number is a dash."""
+"""Makes table cells of numbers. The attribute `data-path` of a cell states, as a JSON pointer,
+where its number is in the evaluation, so that anybody can check the page against the JSON. A
+missing number is a dash."""
 
 from markupsafe import Markup
 

@@ -23,7 +23,7 @@ from .programs import Peer
 from .sources import PEERS, build
 
 ROWS = 64
-# (n, k): of every n rows, row k is kept; rows are counted upwards from 0, the lowest one
+# (n, k): keeps row k of every n rows, counted upwards from 0, the lowest one.
 KEPT = ((1, 0), (2, 0), (2, 1), (4, 0), (4, 2))
 
 

@@ -11,7 +11,7 @@ namespace {
 using depth_clustering::Cloud;
 using depth_clustering::ProjectionParams;
 
-/// Keeps the depth image without ground.
+/// Keeps the depth image from which the method has removed the ground.
 class Listener : public depth_clustering::AbstractClient<Cloud> {
  public:
   void OnNewObjectReceived(const Cloud& cloud, int) override {
@@ -31,7 +31,7 @@ class DepthClustering {
     return scan;
   }
   void prepare(const Scan& scan) { cloud_ = std::make_unique<Cloud>(*scan); }
-  /// The projection is timed as well, because the method's input is an image.
+  /// The projection is part of the time, because the method's input is an image.
   void segment(const Scan&) {
     cloud_->InitProjection(*params_);
     remover_.OnNewObjectReceived(*cloud_, 0);

@@ -21,7 +21,7 @@ class DipgSeg {
     return scan;
   }
   void prepare(const Scan& scan) {
-    cloud_ = scan;  // the method may change its cloud, so it gets a copy
+    cloud_ = scan;  // a copy, because the method may change its cloud
     ground_.clear();
     others_.clear();
     is_ground_.assign(scan.size(), 0);

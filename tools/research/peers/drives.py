@@ -29,7 +29,8 @@ def kitti_scan(pcd):
     return scan.tobytes()
 
 
-MOUNT = ["--mount-height", SENSOR_HEIGHT_M, "--mount-roll", 0, "--mount-pitch", 0]  # the peers get the same height
+# the height that the peers are told
+MOUNT = ["--mount-height", SENSOR_HEIGHT_M, "--mount-roll", 0, "--mount-pitch", 0]
 
 
 class Drive:

@@ -9,9 +9,9 @@ namespace {
 using groundgrid::GroundSegmentation;
 using Cloud = pcl::PointCloud<GroundSegmentation::PCLPoint>;
 
-// The height above the vehicle's frame, by its launch files.
+// The sensor's height above the vehicle's frame, as in the method's launch files.
 constexpr float kSensorHeight_m = 1.73F;
-constexpr float kMap_m = 120, kCell_m = .33F;  // by GroundGrid.h
+constexpr float kMap_m = 120, kCell_m = .33F;  // as in GroundGrid.h
 
 class GroundGrid {
  public:
@@ -26,7 +26,7 @@ class GroundGrid {
     sensor_.z = kSensorHeight_m;
   }
   /// Returns the points in the vehicle's frame. All rings are 0: the method only compares them with
-  /// a limit, which its defaults do not set.
+  /// a limit, which is not set by default.
   static Scan scan_of(const std::vector<terracut::peers::Point>& points) {
     Scan scan(new Cloud);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -48,8 +48,8 @@ class GroundGrid {
     map_["maxGroundHeight"].setConstant(-100);
   }
   void segment(const Scan& scan) { labelled_ = method_.filter_cloud(scan, sensor_, {}, map_); }
-  /// The method returns a cloud without point numbers, so points are found by their coordinates.
-  /// Ground has the value 49.
+  /// The method returns a cloud without the points' indices, so points are found by their
+  /// coordinates. Ground has the value 49.
   std::vector<bool> is_ground(const Scan& scan) {
     const auto key = [](const GroundSegmentation::PCLPoint& p) {
       return std::array<float, 3>{p.x, p.y, p.z};

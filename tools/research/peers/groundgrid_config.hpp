@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-/// The result of GroundGrid's build for its cfg/GroundGrid.cfg, with its defaults; one thread.
+/// What GroundGrid's build makes of its cfg/GroundGrid.cfg: the default values, but one thread.
 namespace groundgrid {
 struct GroundGridConfig {
   int point_count_cell_variance_threshold = 10;

@@ -13,7 +13,7 @@ SHOWS_HAZARD = 1  # the instance of returns that show a hazard (tools/research/h
 
 
 class Scans:
-    """The scans of a folder, as a drive of Peer."""
+    """The scans of a folder, in the form of a drive for Peer."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -26,7 +26,8 @@ class Scans:
 
 
 def written(program, root, kinds, trials, scratch):
-    """Yields the scans of one frame after the other of a SemanticKITTI root; each is removed when the next is asked for."""
+    """Yields the scans of a SemanticKITTI root, frame after frame; the files of a frame are removed
+    when the next one is asked for."""
     folder = scratch / "hazards"
     for sequence in sorted((root / "sequences").glob("*")):
         for number in range(len(list((sequence / "labels").glob("*.label")))):
@@ -37,7 +38,7 @@ def written(program, root, kinds, trials, scratch):
 
 
 class Found:
-    """What a program makes of hazards, as `terracut eval hazards` counts it."""
+    """Counts what a program finds of hazards, as `terracut eval hazards` counts it."""
 
     def __init__(self):
         self.trials = defaultdict(Counter)  # by (what, ground, from_m, to_m)
@@ -68,7 +69,8 @@ class Found:
 
 
 def hazard_rows(founds):
-    """Returns found / not one return, in percent, of each program; the title has the number of trials."""
+    """Returns a row for each program, "found / no return called obstacle" in percent; the title has
+    the number of trials."""
     for key in sorted({key for found in founds for key in found.trials}):
         what, ground, from_m, to_m = key
         counts = [found.trials[key] for found in founds]
@@ -79,7 +81,7 @@ def hazard_rows(founds):
 
 
 def disturbance_rows(founds, role_of, cell):
-    """Returns cell(IoU_g, Recall_o) of the returns that did not move, means over sequences."""
+    """Returns cell(IoU_g, Recall_o) of the returns that did not move: means over sequences."""
     for what in sorted({what for found in founds for what in found.elsewhere}):
         scores = [[score_of(counts, role_of) for counts in found.elsewhere[what].values()] for found in founds]
         yield what or "nothing", [cell(of_sequences) for of_sequences in scores]

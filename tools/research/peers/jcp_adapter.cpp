@@ -14,8 +14,8 @@ class Jcp {
 
   /// The default configuration equals the method's processor.param.yaml.
   Jcp() { method_.config({}); }
-  /// Returns points without rings: the method then computes rows from elevations, which takes an
-  /// arctangent for each point.
+  /// Returns points without rings: the method then computes rows from elevations, an arctangent for
+  /// each point.
   static Scan scan_of(const std::vector<terracut::peers::Point>& points) {
     Scan scan;
     for (const auto& p : points) scan.push_back({p[0], p[1], p[2], p[3]});

@@ -2,9 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-/// Stands in for the header that includes all of OpenCV, also under its names before version 4. It
-/// includes the real functions that peers use, and replaces those that open windows by functions
-/// that do nothing.
+/// Replaces the header that includes all of OpenCV, also under its names before version 4. Includes
+/// the real functions that peers use, and replaces those that open windows by functions that do
+/// nothing.
 #include <opencv2/core/core_c.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-/// Replaces PCL's headers for peers that use its clouds only as vectors of points: PCL brings 427
-/// packages. Points are aligned as in PCL; the standard headers are those that PCL includes.
+/// Replaces PCL's headers for peers that use its clouds only as vectors of points, because PCL
+/// brings 427 packages. Points are aligned as in PCL, and the same standard headers are included.
 namespace pcl {
 
 struct PCLHeader {};

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-/// Shared code of the peers' adapters. It is built beside a peer, never by this project
-/// (docs/reference/benchmark.md, "Beside its peers"), and so includes nothing of it.
+/// Code shared by the peers' adapters. An adapter is built with its peer, never by this project
+/// (docs/reference/benchmark.md, "Beside its peers"), so it includes nothing of this project.
 namespace terracut::peers {
 
 using Point = std::array<float, 4>;  ///< x, y, z in metres, remission; as in the file.
@@ -38,7 +38,8 @@ inline std::vector<Point> read_scan(const char* path) {
   return file ? points : std::vector<Point>{};
 }
 
-/// Writes SemanticKITTI ids; all points not called ground, removed ones too, are obstacles.
+/// Writes SemanticKITTI ids. All points that are not called ground are obstacles, including points
+/// that the peer removed.
 inline bool write_labels(const std::string& path, const std::vector<bool>& is_ground) {
   constexpr std::uint32_t kGround = 40, kObstacle = 50;
   std::vector<std::uint32_t> labels;

@@ -7,8 +7,8 @@
 
 #include "pcl_stub.hpp"
 
-/// Replaces the headers of ROS for peers that only log through it or fill messages for a display
-/// that is off: nothing here does anything.
+/// Replaces the headers of ROS for peers that only log through it, or fill messages for a display
+/// that is off. Nothing here does anything.
 #define ROS_INFO(...)
 #define ROS_WARN(...)
 #define ROS_ERROR(...)
@@ -80,7 +80,7 @@ struct Marker {
 }  // namespace visualization_msgs
 
 namespace tf2 {
-/// The identity, which suffices for a vehicle at the map's origin.
+/// Returns the point unchanged, which is right for a vehicle at the map's origin.
 inline void doTransform(const geometry_msgs::PointStamped& in, geometry_msgs::PointStamped& out,
                         const geometry_msgs::TransformStamped&) {
   out = in;

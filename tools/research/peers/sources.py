@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ADAPTERS = Path(__file__).resolve().parent
-# -march=native -O3 gave the best times of those tried; terracut is built as users build it.
+# -march=native -O3 gave the best times of the flags tried for peers; terracut is built as users
+# build it.
 FLAGS = "-std=c++17 -O3 -march=native -DNDEBUG -w -isystem /usr/include/eigen3 -isystem /usr/include/opencv4"
-# Headers of PCL, ROS and all of OpenCV that peers include, and their replacements.
+# Headers of PCL, ROS and all of OpenCV that peers include, by the file that replaces them.
 STAND_INS = {
     "pcl_stub.hpp": [
         "pcl/point_cloud.h", "pcl/point_types.h", "pcl/common/centroid.h", "pcl/filters/filter.h",
@@ -134,7 +135,7 @@ def fetch(source, folder):
     what = f"{source.repository}@{source.commit[:7]} cannot be fetched"
     place.mkdir(parents=True, exist_ok=True)
     run(["git", "init", "-q"], place, what)
-    # Without files (most are pictures); they are fetched when needed.
+    # Fetches no files at first (most are pictures); git fetches them when needed.
     run(["git", "config", "remote.origin.url", f"https://github.com/{source.repository}"], place, what)
     run(["git", "config", "remote.origin.promisor", "true"], place, what)
     run(["git", "config", "remote.origin.partialclonefilter", "blob:none"], place, what)
@@ -155,8 +156,8 @@ def write_stand_ins(folder):
 
 
 def build(peer, folder):
-    """Returns the program of a peer, built below `folder` unless it is newer than its adapter's files. Raises
-    Unavailable."""
+    """Returns the program of a peer, built below `folder` if it is missing or older than its
+    adapter's files. Raises Unavailable."""
     if peer.needs and not Path(peer.needs).is_file():
         raise Unavailable(f"{peer.needs} is missing; ./tools/setup --peers installs it")
     for source in peer.sources:

@@ -19,13 +19,14 @@ struct ChosenFrame {
 /// Returns the method whose worst frames are shown: `terracut` if measured, otherwise the first.
 [[nodiscard]] std::string method_in_question(const Json& evaluation);
 
-/// `method` is one of the evaluation's `methods`; its frames are ordered by sequence.
+/// In the functions below `method` is one of the evaluation's `methods`; its frames are ordered by
+/// sequence.
 
 /// Returns the middle frame of every sequence.
 [[nodiscard]] std::vector<ChosenFrame> middle_frames(const Json& method);
 /// Returns each sequence's frame with the lowest Recall_o and its frame with the lowest IoU_g (all
-/// ground), which may be the same. If frames are equal, the first one counts. An undefined measure
-/// is never the lowest.
+/// ground), which may be the same. Of equal frames the first counts. An undefined measure is never
+/// the lowest.
 [[nodiscard]] std::vector<ChosenFrame> worst_frames(const Json& method);
 
 }  // namespace terracut::report

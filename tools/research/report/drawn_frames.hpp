@@ -23,15 +23,16 @@ class DrawnFrames {
         on_frame_(std::move(on_frame)) {}
 
   /// Draws the truth and every method side by side (as in the paper's Fig. 13, 14). Returns a list
-  /// of sequence, frame, why, side_m, and the files truth and methods{name}; an unreadable frame
-  /// has a fault instead.
+  /// with sequence, frame, why, side_m, and the files truth and methods{name}; a frame that cannot
+  /// be read has a fault instead.
   [[nodiscard]] Expected<Json> side_by_side(const std::vector<ChosenFrame>& frames);
-  /// Draws frames of method_in_question() (as in the paper's Fig. 16, 17), with the files truth,
-  /// result and panorama.
+  /// Draws frames of method_in_question() (as in the paper's Fig. 16, 17). Returns a list with the
+  /// files truth, result and panorama.
   [[nodiscard]] Expected<Json> worst(const std::vector<ChosenFrame>& frames);
 
  private:
-  /// Returns the beginning of a frame's entry, with a fault if there is nothing to draw.
+  /// Opens a frame and returns the beginning of its entry, with a fault if there is nothing to
+  /// draw.
   [[nodiscard]] Json opened(const ChosenFrame& frame);
   /// Writes the picture and puts the file's name into `entry`.
   [[nodiscard]] Status draw(const pictures::Picture& picture, const std::string& name, Json& entry);

@@ -13,7 +13,7 @@
 namespace terracut::report {
 namespace {
 
-/// Adds the parts of the report for which frames are read again.
+/// Adds those parts of the report for which frames must be read again.
 Status add_frames(const std::filesystem::path& folder, const ReportInput& input, Json& report,
                   const std::function<void(std::size_t, std::size_t)>& on_progress) {
   const Json& methods = input.evaluation.at("methods");

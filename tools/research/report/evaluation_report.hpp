@@ -18,8 +18,8 @@ struct ReportInput {
   const nlohmann::ordered_json& evaluation;  ///< evaluation_json()
   const eval::EvaluationConfig& config;      ///< Used to read and label frames again for pictures.
   const datasets::ClassTable& classes;
-  /// False: no files exist from which frames could be read again (simulated drives). The report
-  /// then has no pictures.
+  /// False if there are no files from which frames could be read again (simulated drives). The
+  /// report then has no pictures.
   bool on_disk = true;
 };
 

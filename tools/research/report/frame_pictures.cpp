@@ -19,7 +19,7 @@ using pictures::Picture;
 
 namespace {
 
-/// Returns the drawing order: the most important verdict is on top.
+/// Returns the level of a verdict in the drawing: the most important one is on top.
 std::uint8_t level_of(Verdict verdict) noexcept {
   switch (verdict) {
     case Verdict::kMissedKey:
@@ -156,7 +156,7 @@ pictures::BirdEyeView FramePictures::view_of_misses(std::string_view method, int
 Picture FramePictures::marked_result(std::string_view method, const pictures::BirdEyeView& view) {
   constexpr double kRadius = 9;  // pixels
   Picture picture = result(method, view);
-  std::set<std::pair<int, int>> marked;  // one ring for several close together
+  std::set<std::pair<int, int>> marked;  // several misses close together share a ring
   for (const frame::Return& missed : missed_key()) {
     const double x = picture.width() / 2.0 - static_cast<double>(missed.y_m) * view.pixels_per_m;
     const double y = picture.height() / 2.0 - static_cast<double>(missed.x_m) * view.pixels_per_m;

@@ -14,7 +14,7 @@
 
 namespace terracut::report {
 
-/// The comparison of a return's label with its truth, for its colour.
+/// How a return's label compares with its truth; decides its colour.
 enum class Verdict : std::uint8_t {
   kGround,          ///< Ground, called ground.
   kOtherGround,     ///< Ground, labelled as no road surface.
@@ -27,9 +27,9 @@ enum class Verdict : std::uint8_t {
 
 [[nodiscard]] Verdict verdict_of(datasets::Role truth, frame::Label label) noexcept;
 [[nodiscard]] pictures::Colour colour_of(Verdict verdict) noexcept;
-/// Returns the colour of the truth alone: ground, ordinary obstacle, key obstacle.
+/// Returns the colour of a return by its truth alone: ground, ordinary obstacle, key obstacle.
 [[nodiscard]] pictures::Colour colour_of(datasets::Role truth) noexcept;
-/// Colour of ground that is road, in pictures of methods that tell road.
+/// The colour of ground that is road, in pictures of methods that tell road from other ground.
 inline constexpr pictures::Colour kTrueRoadColour{150, 92, 158};
 
 /// Pictures of single frames: the truth, and the results of methods.
@@ -51,8 +51,8 @@ class FramePictures {
   /// Returns a view that shows all key obstacles that the method missed: the sensor in the middle,
   /// 60 to 160 m wide, drawn in about `side` pixels.
   [[nodiscard]] pictures::BirdEyeView view_of_misses(std::string_view method, int side);
-  /// Draws what result() draws, with a ring around missed key obstacles: single returns are hard to
-  /// see.
+  /// Draws what result() draws, and a ring around missed key obstacles, because single returns are
+  /// hard to see.
   [[nodiscard]] pictures::Picture marked_result(std::string_view method,
                                                 const pictures::BirdEyeView& view);
   /// Draws the labels as a panorama (range_image_picture.hpp); missed obstacles are red, false ones
@@ -61,7 +61,7 @@ class FramePictures {
 
  private:
   void label(std::string_view method);
-  /// Returns where the last label() missed key obstacles.
+  /// Returns the key obstacles' returns that the last label() missed.
   [[nodiscard]] std::vector<frame::Return> missed_key() const;
 
   const eval::EvaluationConfig& config_;

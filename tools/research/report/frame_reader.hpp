@@ -21,7 +21,7 @@
 namespace terracut::report {
 
 /// Reads single frames of an evaluated dataset again, for pictures. Places them directly in the
-/// range image, with the rings of the evaluation.
+/// range image, with the same rings as in the evaluation.
 class FrameReader {
  public:
   /// `dataset` and `classes` must outlive this object.
@@ -33,7 +33,7 @@ class FrameReader {
   /// kNotFound if there is no such sequence or frame, otherwise as Sequence::read() does.
   [[nodiscard]] Status read(const std::string& sequence, const std::string& frame);
 
-  /// Returns the image of the last frame; valid until the next.
+  /// Returns the image of the frame read last; valid until the next is read.
   [[nodiscard]] const frame::RangeImage& image() const noexcept { return *placed_.image; }
   /// Returns the role of each return, by return index of image(). All physical ground counts as
   /// ground.

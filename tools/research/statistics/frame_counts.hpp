@@ -12,7 +12,7 @@
 
 namespace terracut::statistics {
 
-/// Horizontal distance from the sensor: below 20 m, 20 to 40 m, beyond.
+/// The bands of horizontal distance from the sensor: below 20 m, 20 to 40 m, beyond.
 inline constexpr std::size_t kRangeBands = 3;
 inline constexpr std::array<std::string_view, kRangeBands> kRangeBandNames{"<20m", "20-40m",
                                                                            ">40m"};
@@ -35,7 +35,7 @@ struct LabelCounts {
 };
 
 /// Counts the points of key obstacles that lie more than 0.30 m above the true ground around them
-/// (if there is any), and how many of these were called ground.
+/// (points without ground around them are left out), and how many of these were called ground.
 struct TallCounts {
   std::uint64_t returns = 0, as_ground = 0;
 
@@ -48,7 +48,7 @@ struct TallCounts {
 };
 
 /// Counts the points of immobile classes for which the previous frame has a point within 10 cm, and
-/// how many of these changed from ground to obstacle or back: by their labels and in truth.
+/// how many of these changed from ground to obstacle or back: in their labels, and in truth.
 struct FlipCounts {
   std::uint64_t returns = 0, flips = 0, true_flips = 0;
 

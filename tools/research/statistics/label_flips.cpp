@@ -66,7 +66,7 @@ std::uint32_t LabelFlips::nearest_before(const Place& place) const {
   for (std::int64_t at_x = x[0]; at_x <= x[1]; ++at_x) {
     for (std::int64_t at_y = y[0]; at_y <= y[1]; ++at_y) {
       for (std::int64_t at_z = z[0]; at_z <= z[1]; ++at_z) {
-        // Two voxels may share a list; the points of the other voxel are too far away to change the
+        // Two voxels may share a list. Points of the other voxel are too far away to change the
         // result.
         for (std::uint32_t i = first_in_voxel_[hash_of(at_x, at_y, at_z)]; i != kNone;
              i = next_in_voxel_[i]) {

@@ -17,9 +17,9 @@
 
 namespace terracut::statistics {
 
-/// Measures the steadiness of labels: every point is compared with the nearest point of the
-/// previous frame, within 10 cm, after removal of the sensor's motion. Both points must be of a
-/// class that is in the table, is not ignored and does not move (SemanticKITTI's "moving-..." do).
+/// Measures how steady labels are: compares every point with the nearest point of the previous
+/// frame, within 10 cm, after removing the sensor's motion. Both points must be of a class that is
+/// in the table, is not ignored and does not move (SemanticKITTI's "moving-..." do).
 class LabelFlips {
  public:
   LabelFlips(const datasets::ClassTable& classes, std::size_t methods);
@@ -45,10 +45,11 @@ class LabelFlips {
   const datasets::ClassTable& classes_;
   std::vector<Place> places_, places_before_;
   std::vector<Truth> truth_, truth_before_;
-  std::vector<std::vector<frame::Label>> labels_;  ///< Per method, of the latest counted frame.
-  std::vector<std::uint32_t> partners_;            ///< By point: partner in the previous frame.
+  /// Indexed by method, for the frame counted last.
+  std::vector<std::vector<frame::Label>> labels_;
+  std::vector<std::uint32_t> partners_;  ///< By point: partner in the previous frame.
 
-  // Points of the previous frame by voxel: linked lists, starting at their voxel's hash.
+  // The points of the previous frame by voxel, as linked lists that start at the voxel's hash.
   std::vector<std::uint32_t> first_in_voxel_, next_in_voxel_;
 };
 

@@ -5,7 +5,8 @@
 namespace terracut::statistics {
 namespace {
 
-/// Scores the counts with other labels: `labels_of(entry, counts)` returns those to use.
+/// Returns the quality of the counts with other labels: `labels_of(entry, counts)` returns the
+/// labels to use.
 template <class LabelsOf>
 quality::Quality score(const FrameCounts& counts, const datasets::ClassTable& classes,
                        const Scope& scope, LabelsOf&& labels_of) {

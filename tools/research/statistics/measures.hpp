@@ -22,13 +22,13 @@ struct Scope {
 [[nodiscard]] quality::Quality quality_of(const FrameCounts& counts,
                                           const datasets::ClassTable& classes, const Scope& scope);
 
-/// Returns the score of the same points if all were called ground.
+/// Returns the score of the same points if all of them were called ground.
 [[nodiscard]] quality::Quality everything_ground(const FrameCounts& counts,
                                                  const datasets::ClassTable& classes,
                                                  const Scope& scope);
 /// Returns the score of a detector that finds all physical ground (GroundDefinition::kAll) and
-/// nothing else: under kRoad, the ceiling of all methods that do not see kerbs. Points ignored
-/// under kAll are taken as found correctly.
+/// nothing else. Under kRoad this is the most that a method can reach without seeing kerbs. Points
+/// ignored under kAll count as found correctly.
 [[nodiscard]] quality::Quality perfect_ground(const FrameCounts& counts,
                                               const datasets::ClassTable& classes,
                                               const Scope& scope);

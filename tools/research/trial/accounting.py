@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Accounts for every datagram: each one sent is received or dropped by the kernel, and each one received is decoded or
-counted by its cause."""
+"""Checks that every datagram is accounted for: each one sent is received or dropped by the kernel,
+and each one received is decoded or counted by its cause."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ from .report import Report
 
 HARD = {"seeds.ground_share": 1, "min_cut.max_unknown": 262144}
 SETTINGS = [f"--set={key}={value}" for key, value in HARD.items()]
-SEVERAL_TIMES = 3  # least time of the hard cut relative to the usual one
+SEVERAL_TIMES = 3  # how many times longer than the usual cut the hard one must take
 WAKING_UP_MS = 1.5  # from the last packet to the segmenter
 SHARES_OF_CUT = [0.8, 0.25]  # the shares of the cut's time that the deadline leaves
 LOOPS = 2

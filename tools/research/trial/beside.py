@@ -12,7 +12,8 @@ from pathlib import Path
 
 from . import machine
 
-# Between the priorities of the segmenting and the receiving thread, so that cyclictest is delayed as they are.
+# Lies between the priorities of the segmenting and the receiving thread, so that cyclictest is
+# delayed as they are.
 CYCLICTEST_PRIORITY = 75
 LONGEST_US = 200_000
 
@@ -51,7 +52,7 @@ class CyclicTest:
 
 
 class Stress:
-    """Computes, moves memory and writes to the disk on every core, at normal priority."""
+    """Loads every core, at normal priority: computes, moves memory and writes to the disk."""
 
     def __init__(self, scratch: Path, seconds: float):
         folder = scratch / "stress"
@@ -63,7 +64,7 @@ class Stress:
         self.process = subprocess.Popen(self.command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def stop(self) -> None:
-        """Ends it with its workers."""
+        """Ends stress-ng with its workers."""
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
         self.process.wait(timeout=60)

@@ -14,7 +14,8 @@ from pathlib import Path
 FILE_HEADER_BYTES = 24
 RECORD_HEADER = struct.Struct("<IIII")
 MICROSECOND_MAGIC = 0xA1B2C3D4
-# Offset of the port in a record of terracut: its header, Ethernet, IPv4 without options, UDP.
+# Offset of the UDP destination port in a record that terracut writes: after the record's header,
+# Ethernet, IPv4 without options and the source port.
 PORT_AT = RECORD_HEADER.size + 14 + 20 + 2
 PAYLOAD_AT = RECORD_HEADER.size + 14 + 20 + 8
 
@@ -55,7 +56,7 @@ def cut_beginning(pcap: Path, packets: int, into: Path) -> int:
 
 
 def payloads(pcap: Path, for_s: float) -> list[bytes]:
-    """Returns the data packets of the first seconds: those to the busiest port."""
+    """Returns the data packets of the first seconds: those to the port with most packets."""
     found: list[tuple[int, bytes]] = []
     for number, (stamp_ns, record) in enumerate(records(pcap)):
         begin_ns = stamp_ns if number == 0 else begin_ns
@@ -73,7 +74,7 @@ def labels_of(folder: Path) -> dict[int, str]:
 
 
 def fresh_folder(folder: Path) -> Path:
-    """Returns the folder, emptied."""
+    """Makes the folder or empties it, and returns it."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
     return folder

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Attacks a live process in all ways possible from outside at once: its messages, its port, its disks and each of its
-doors. The sensor's frames must still be labelled, memory must not grow, and refusals must be counted."""
+"""Attacks a live process at once in all ways that are possible from outside: its messages, its
+port, its disks, and each of its doors (the ports that it serves). The sensor's frames must still be
+labelled, memory must not grow, and refusals must be counted."""
 
 from __future__ import annotations
 
@@ -28,14 +29,15 @@ from .tiny_disk import TinyDisk
 
 MOST_GROWTH_MIB = 32
 RECORDING_MIB = 56  # the recording's queue (pipeline/mcap/mcap_sink.hpp), which fills where the disk is too slow for it
-IDLE_CONNECTIONS = 1000  # at each door
+IDLE_CONNECTIONS = 1000  # for each door
 BABBLERS = [f"127.0.1.{number}" for number in range(1, 69)]
 TWIN = "127.0.0.2"
-IN_TIME = 0.95  # least share of frames
+IN_TIME = 0.95  # least share of frames that must be in time
 DOORS_AGAIN_S = 30  # the longest time until all doors are served again; a door waits 10 s between two tries
 ANSWERS_AGAIN_S = 30
 CHUNK = 1 << 16
-AT_ONCE, PAUSE_S = 20, 0.01  # connections to a door; more would overflow the host's own queue (netdev_max_backlog)
+# connections to a door at a time; more would overflow the host's own queue (netdev_max_backlog)
+AT_ONCE, PAUSE_S = 20, 0.01
 
 
 def hold(program: Program, report: Report, drive: Drive, seconds: float, deadline_ms: float) -> None:
@@ -53,7 +55,7 @@ def hold(program: Program, report: Report, drive: Drive, seconds: float, deadlin
 
 
 def learn_the_sensor(program: Program, drive: Drive) -> None:
-    """Makes an earlier run, which stores the sensor's address."""
+    """Makes an earlier run, so that the sensor's address is stored."""
     with Live(program, drive, limit_s=60) as live:
         live.interrupt()
         live.process.wait(timeout=60)
@@ -100,7 +102,7 @@ MESSAGES = {
 
 
 class Ports:
-    """The addresses of its doors, reserved for this trial until they are given back."""
+    """The addresses of the run's doors, reserved for this trial until they are given back."""
 
     NAMES = ("metrics", "view", "foxglove", "stream")
     HTTP = NAMES[:3]
@@ -117,7 +119,7 @@ class Ports:
             held.close()
 
     def await_open(self) -> float:
-        """Waits until all are served; returns the seconds."""
+        """Waits until all doors are served; returns the seconds that this took."""
         begun = time.monotonic()
         for name, port in self.of.items():
             while not is_open(port):
@@ -140,7 +142,8 @@ def is_open(port: int) -> bool:
 
 @contextlib.contextmanager
 def babblers_and_twin(drive: Drive, to: str):
-    """Sends one byte from each of many addresses, and a second sensor at the first one's rate."""
+    """Sends one byte from each of many addresses, and the packets of a second sensor at the first
+    one's rate."""
     host, port = to.rsplit(":", 1)
     for address in BABBLERS:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as babbler:
@@ -165,7 +168,7 @@ def babblers_and_twin(drive: Drive, to: str):
 
 
 def idle_connection(port: int) -> socket.socket:
-    """Starts a connection without waiting for its acceptance."""
+    """Starts a connection without waiting until it is accepted."""
     connection = socket.socket()
     connection.setblocking(False)
     with contextlib.suppress(BlockingIOError):
@@ -246,7 +249,7 @@ def answers(port: int) -> bool:
 
 
 def frames_in(live: Live, seconds: float, at_each: object = lambda: None) -> tuple[int, float]:
-    """Returns the frames labelled within that time, and the revolutions of the head."""
+    """Returns the number of frames labelled within that time, and of revolutions of the head."""
     begun, before = time.monotonic(), labelled(live.figures())
     while time.monotonic() - begun < seconds:
         at_each()

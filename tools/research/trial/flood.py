@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Sends datagrams at a rate of its own, like an attacker or a second sensor. A separate process, which shares only the
-machine with the trial: `python3 flood.py TO RATE SECONDS PAYLOADS FROM...`."""
+"""Sends datagrams at a given rate, like an attacker or a second sensor. Runs as a separate process,
+so that it shares only the machine with the trial: `python3 flood.py TO RATE SECONDS PAYLOADS
+FROM...`."""
 
 from __future__ import annotations
 
@@ -47,7 +48,8 @@ def garbage(packets: list[bytes], count: int = 2000) -> list[bytes]:
 
 
 def send(to: tuple[str, int], rate: float, seconds: float, payloads: list[bytes], addresses: list[str]) -> dict:
-    """Sends at the rate per millisecond, catching up after delays by a busy machine. 0 s: until SIGINT."""
+    """Sends at that rate per millisecond, and catches up after delays on a busy machine. With 0 s
+    it runs until SIGINT."""
     sockets = []
     for address in addresses:
         sockets.append(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))

@@ -55,13 +55,14 @@ class Attack:
 
 
 def reboots(seconds: float) -> str:
-    """Returns faults: every two seconds it is silent for 0.3 s and its clock starts again."""
+    """Returns faults: every two seconds the sensor is silent for 0.3 s, and its clock starts
+    again."""
     times = itertools.takewhile(lambda at: at + 0.3 < seconds, itertools.count(2, 2))
     return " ".join(f"pause@{at}s:0.3s clock@{at + 0.3:.1f}s:-2s" for at in times)
 
 
 def clock_steps(seconds: float) -> str:
-    """Returns faults: twice a second, a small or large step, forward and back."""
+    """Returns faults: twice a second the clock steps, a little or much, forward and back."""
     steps = itertools.cycle(["+0.05s", "-0.05s", "+2s", "-2s", "+1800s", "-1800s"])
     times = itertools.takewhile(lambda at: at < seconds, itertools.count(0.75, 0.5))
     return " ".join(f"clock@{at:.2f}s:{step}" for at, step in zip(times, steps))
@@ -81,8 +82,8 @@ ATTACKS = [
 
 
 def hold(program: Program, report: Report, seconds: float, sensors: list[str], short: bool) -> None:
-    """`short` selects a deadline for busy machines, where the rate of other senders and the effect of packets
-    dropped or frames skipped on labels are not judged."""
+    """Runs all disturbances. `short` selects a deadline for busy machines; then neither the rate of
+    other senders is judged, nor how dropped packets and skipped frames change labels."""
     if seconds < LEAST_S:
         raise TrialError(f"{seconds:g} s of each: a sensor that reboots every two seconds needs at least {LEAST_S}")
     deadline_ms = SHORT_DEADLINE_MS if short else DEADLINE_MS
@@ -144,13 +145,15 @@ def judge_frames(report: Report, of: str, attack: Attack, undisturbed: Undisturb
 
 
 def touched_by(fault: dict, undisturbed: UndisturbedFrames) -> set[int]:
-    """Returns the frames that a script's fault changes; for a clock step, the one with the step."""
+    """Returns the frames that a fault of a script changes; for a clock step, the frame with the
+    step."""
     is_step = fault["fault"].startswith("clock")
     return set().union(*(undisturbed.of(first, 1 if is_step else count) for first, count in fault["runs"]))
 
 
 def judge_causes(report: Report, of: str, summary: dict, lost: int) -> None:
-    """Checks that every miss has a cause, and that no frame is lost or changed without a counted loss."""
+    """Checks that every miss has a cause, and that frames are lost or changed only where a loss was
+    counted."""
     causes = Counter(summary["misses"]["causes"])
     report.equal(of + "misses by all causes together", causes.total(), summary["misses"]["total"])
     named = sum(losses(summary).values())

@@ -23,12 +23,12 @@ from . import machine
 from .capture import Drive, cut_beginning
 from .program import MOUNT, Program, TrialError
 
-# Enough to recognise a sensor, and few enough for the smallest receive buffer.
+# Enough packets to recognise a sensor, and few enough for the smallest receive buffer.
 WAKE_UP_PACKETS = 120
 WAKE_UP_NS = 1_000_000_000  # their duration: live recognises a sensor after 0.3 s
 LONGEST_WAIT_S = 200
-# Below the priority of the live threads, so that the sender does not displace them. Above that of all programs that load
-# the machine, because they would not delay a real sensor.
+# Lower than the priority of the live threads, so that the sender does not displace them. Higher
+# than that of all programs that load the machine, because they would not delay a real sensor.
 SENDER_PRIORITY = 60
 
 Others = Callable[[str], contextlib.AbstractContextManager]
@@ -91,7 +91,8 @@ class Live:
     def __enter__(self) -> "Live":
         guard = ["timeout", "--foreground", "-k", "5", str(int(self.limit_s))]  # FIFO threads must always be stoppable
         with self.log.open("w") as log:
-            # The file in which live remembers its sensor is not shared with other trials.
+            # Gives live a file of its own in which to remember its sensor, not shared with other
+            # trials.
             environment = {**os.environ, "STATE_DIRECTORY": str(self.program.scratch)}
             to = log if self.messages_to is None else self.messages_to
             self.process = subprocess.Popen([*self.prefix, *guard, str(self.program.path), *self.command], stdout=to,
@@ -115,7 +116,8 @@ class Live:
     # --- Start ---
 
     def port_after(self, words: str) -> int:
-        """Returns the port of the address that it prints after these words, once it does."""
+        """Returns the port of the address that live prints after these words, as soon as it
+        does."""
         line = re.compile(re.escape(words) + r"\S*:(\d+)\b.*\n")
         self._await(lambda: line.search(self.messages()), "said: " + words)
         return int(line.search(self.messages())[1])
@@ -126,7 +128,8 @@ class Live:
     def _wake(self) -> None:
         first = self.program.scratch / "wake_up.pcap"
         span_ns = cut_beginning(self.drive.pcap, WAKE_UP_PACKETS, first)
-        # Live is stopped while packets are sent, so that all of them are there when it continues: none is counted later.
+        # Stops live while packets are sent, so that all of them are there when it continues, and
+        # none is counted later.
         os.kill(self.pid(), signal.SIGSTOP)
         try:
             with self.others(self.sends_to):
@@ -160,7 +163,7 @@ class Live:
     # --- While it runs ---
 
     def pid(self) -> int:
-        """Returns the process id of terracut itself, not of its guard."""
+        """Returns the process id of terracut itself, not that of its guard."""
         pid = self.process.pid
         while children := Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
             pid = int(children[0])
@@ -187,7 +190,8 @@ class Live:
         return seen[0]
 
     def settled(self) -> dict:
-        """Returns the figures once all sent packets are processed: neither they nor the queues change."""
+        """Returns the figures after all sent packets are processed: neither figures nor queues
+        change any more."""
 
         def counts(figures: dict | None) -> object:
             return figures and (figures["link"]["packets"], figures["frames"]["count"], figures["losses"])
@@ -201,7 +205,8 @@ class Live:
         return now
 
     def used(self) -> tuple[float, int]:
-        """Returns the processor seconds of all its threads, and the number of their wake-ups."""
+        """Returns the processor seconds of all threads of live, and the number of their
+        wake-ups."""
         seconds, wake_ups = 0.0, 0
         for task in Path(f"/proc/{self.pid()}/task").iterdir():
             seconds += int((task / "schedstat").read_text().split()[0]) / 1e9
@@ -210,7 +215,7 @@ class Live:
         return seconds, wake_ups
 
     def unread_bytes(self) -> int:
-        """Returns the bytes of unread packets in its socket."""
+        """Returns the number of bytes waiting in the socket of live."""
         with (Path(f"/proc/{self.pid()}") / "net/udp").open() as table:
             rows = [line.split() for line in table][1:]
         return sum(int(row[4].split(":")[1], 16) for row in rows if int(row[1].split(":")[1], 16) == self.port)
@@ -228,7 +233,7 @@ class Live:
             self.process.send_signal(signal.SIGINT)
 
     def stop(self) -> dict:
-        """Returns its summary, after all sent packets are processed."""
+        """Returns the summary of live, after all sent packets are processed."""
         if self.runs():
             self.settled()
         self.interrupt()

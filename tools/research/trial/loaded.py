@@ -119,7 +119,7 @@ def without_rights(program: Program, report: Report, minutes: float, name: str) 
 
 
 def own_skips(summary: dict) -> int:
-    """Returns the number of skipped frames not explained by a miss of another cause."""
+    """Returns the number of skipped frames that no miss of another cause explains."""
     causes = summary["misses"]["causes"]
     others = sum(count for cause, count in causes.items() if cause != "own_work")
     return max(0, summary["frames"]["levels"]["skipped"] - others)

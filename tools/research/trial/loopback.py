@@ -77,10 +77,11 @@ def judge(report: Report, sensor: Sensor, summary: dict, sent: dict, loops: int,
     report.equal(of + "datagrams sent", (sent["sent"], sent["failed"]), (loops * packets, 0))
     judge_accounting(report, of, summary, sent["sent"])
     report.equal(of + "packets taken in", summary["link"]["packets"], sent["sent"])
-    # The drive's clock starts again with every pass while its head rotates on: one clock jump per pass.
+    # With every pass the drive's clock starts again while the head rotates on: one clock jump per
+    # pass.
     expected = {"clock_jumps": loops - 1} if loops > 1 else {}
     report.equal(of + "losses by cause, but for the clock of a drive that is repeated", losses(summary), expected)
-    # The end of the last revolution is unknown: no packet follows it.
+    # The end of the last revolution is unknown, because no packet follows it.
     report.check(of + f"frames of {revolutions} revolutions sent", revolutions - 2 <= frames["count"] <= revolutions, frames["count"])
     report.equal(of + "frames skipped", frames["levels"]["skipped"], 0)
     report.equal(of + "page faults of both real-time threads", faults(summary), 0)

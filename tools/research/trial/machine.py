@@ -44,7 +44,8 @@ def has_realtime_rights() -> bool:
 
 
 def lacks(*programs: str) -> str:
-    """Returns which of these programs are missing, as a reason to skip; empty if none."""
+    """Returns a reason to skip that names those of these programs that are missing; empty if none
+    is."""
     missing = [program for program in programs if shutil.which(program) is None]
     return f"not installed: {', '.join(missing)} (./tools/setup --trial)" if missing else ""
 

@@ -27,7 +27,7 @@ class Output:
     name: str
     options: list[object]
     reader: Callable[[Live], object] | None  # None: it writes files
-    left_out: tuple[str, ...]  # causes that count the frames dropped for this output
+    left_out: tuple[str, ...]  # causes under which frames dropped for this output are counted
 
 
 def outputs(program: Program, folder: Path) -> list[Output]:

@@ -11,12 +11,13 @@ from pathlib import Path
 from .capture import Drive
 
 
-# The drives' mount. It is stated, because a live run would estimate it from other frames than the replay it is compared to.
+# The mount of all drives. It is stated, because a live run would estimate it from other frames than
+# the replay with which it is compared.
 MOUNT = ["--mount-height", "1.73", "--mount-roll", "0", "--mount-pitch", "0"]
 
 
 class TrialError(Exception):
-    """The trial could not be run; the message gives the reason."""
+    """Raised if the trial could not be run; the message gives the reason."""
 
 
 class Program:
@@ -38,7 +39,8 @@ class Program:
         return done.stdout
 
     def drive(self, sensor: str, returns: str, scene: str, seconds: float) -> Drive:
-        """Returns a drive, simulated once and then kept: delete the folder after a change of the simulator."""
+        """Returns a drive, which is simulated once and then kept: after a change of the simulator,
+        delete the folder."""
         pcap = self.scratch / "drives" / f"{sensor}-{returns}-{scene}-{seconds:g}s.pcap"
         table = pcap.with_suffix(".calibration." + ("csv" if sensor == "ruby128" else "xml"))
         drive = Drive(pcap, table, pcap.with_suffix(".truth"))

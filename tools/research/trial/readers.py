@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Readers of a live run's outputs: one for each output, which can be stalled."""
+"""Readers of a live run's outputs, one for each output; each can be stalled."""
 
 from __future__ import annotations
 
@@ -51,7 +51,8 @@ class SocketReader:
 
 
 class NodeReader:
-    """A `terracut node` that receives the published clouds: another process, by DDS alone."""
+    """Runs a `terracut node` that receives the published clouds, as another process that knows only
+    DDS."""
 
     bytes = 0  # the bytes that a process reads from DDS are not visible from outside
     clouds = 0  # labelled ones; known once it has ended
@@ -114,7 +115,7 @@ def read_foxglove(live: Live) -> SocketReader:
 
 
 def text_message(file) -> bytes:
-    """Returns the next message of a WebSocket's server, assembled from its frames (RFC 6455, 5.2)."""
+    """Returns the next message of a WebSocket server, assembled from its frames (RFC 6455, 5.2)."""
     text, is_last = b"", 0
     while not is_last:
         first, length = file.read(2)
@@ -128,5 +129,5 @@ def text_message(file) -> bytes:
 
 
 def masked(text: bytes) -> bytes:
-    """Returns the text as sent by a client; the mask of zeros leaves it unchanged."""
+    """Returns a text as a WebSocket's client sends it; the mask of zeros leaves it unchanged."""
     return b"\x81" + struct.pack(">BH", 0x80 | 126, len(text)) + bytes(4) + text

@@ -12,7 +12,7 @@ from . import machine
 
 
 class Report:
-    """Collects one trial's findings. `command` repeats it."""
+    """Collects one trial's findings. `command` is the command line that repeats it."""
 
     def __init__(self, trial: str, command: str):
         self.trial = trial

@@ -16,19 +16,21 @@ from .live import Live, losses
 from .program import Program, TrialError
 from .report import Report
 
-# Labels are compared, so the deadline must be too long to cut a frame short.
+# Labels are compared, so the deadline must be so long that no frame is cut short.
 DEADLINE_MS = 10_000
 STRANGER = "127.0.0.2"
 # The recorder has room for the densest sensor; an HDL-64E's packets fill it less than a third as fast.
 RECORDER_S = 6
 COLUMNS_A_PACKET = 6  # of an HDL-64E
-# The drive's frames begin every 100 ms. Faults are in the middle of a frame, and two frames apart.
+# The drive's frames begin every 100 ms. The first fault is in the middle of a frame, and faults are
+# two frames apart.
 FIRST_S, APART_S = 0.54, 0.2
 
 
 @dataclass(frozen=True)
 class Fault:
-    """`counters` are increments for each affected packet reported by `send`; `once` for the whole fault."""
+    """A fault with its effects: `counters` are increments for each affected packet that `send`
+    reports, `once` those for the whole fault."""
 
     name: str
     kind: str
@@ -58,7 +60,8 @@ FAULTS = [
 
 
 def hold(program: Program, report: Report, together: bool) -> None:
-    """Makes one run per fault, or a single run if `together`, which is faster but does not tell which one failed."""
+    """Makes one run per fault. With `together`, makes a single run, which is faster but does not
+    tell which fault failed."""
     seconds = FIRST_S + APART_S * len(FAULTS) + 1
     drive = program.drive("hdl64e", "single", "street", round(seconds, 1))
     undisturbed = UndisturbedFrames(program, drive)
@@ -71,7 +74,7 @@ def hold(program: Program, report: Report, together: bool) -> None:
 
 
 class UndisturbedFrames:
-    """The drive's frames, undisturbed: their begins and labels."""
+    """The undisturbed frames of the drive: when each begins, and its labels."""
 
     def __init__(self, program: Program, drive: Drive):
         folder = fresh_folder(program.scratch / "labels_replay")
@@ -98,7 +101,7 @@ def run(program: Program, report: Report, drive: Drive, undisturbed: Undisturbed
     options = ["--labels", labels, "--recorder-folder", dumps, "--recorder-seconds", RECORDER_S]
     with Live(program, drive, *options, deadline_ms=DEADLINE_MS, limit_s=120) as live:
         sent = live.send("--faults", script, *stranger).wait()
-        live.settled()  # the last packets may still be collecting
+        live.settled()  # packets may still be gathering
         program.must("dump", live.name)
         summary = live.stop()
 
@@ -115,7 +118,8 @@ def run(program: Program, report: Report, drive: Drive, undisturbed: Undisturbed
     expected = expected_losses(faults, had)
     found = losses(summary)
     if "azimuth_hole_columns" in expected:
-        # A frame has a fractional number of columns: one may count for its neighbour.
+        # A frame has a fractional number of columns, so one column may be counted for its
+        # neighbour.
         holes, columns = found.pop("azimuth_hole_columns", 0), expected.pop("azimuth_hole_columns")
         report.check(of + "columns missing", abs(holes - columns) <= len(touched), f"{holes} of {columns}")
     report.equal(of + "losses by cause", found, expected)
@@ -141,7 +145,8 @@ def expected_losses(faults: list[Fault], had: list[int]) -> dict[str, int]:
 
 
 def unmatched(sent: list[str], touched: set[int], received: dict[int, str]) -> list[int]:
-    """Returns untouched frames whose labels are not among the received ones, in order of number."""
+    """Returns those untouched frames whose labels are not among the received ones, in order of
+    number."""
     number_of = {labels: number for number, labels in received.items()}
     missing, newest = [], -1
     for frame, labels in enumerate(sent):

@@ -23,7 +23,7 @@ RETURN_BYTES = 4
 
 
 class FrozenDisk:
-    """A file system whose writes can be blocked, like those of a hanging disk."""
+    """A file system whose writes can be blocked, like that of a hanging disk."""
 
     def __init__(self, scratch: Path, megabytes: int = 512):
         self.image, self.folder = scratch / "disk.img", scratch / "disk"
@@ -36,7 +36,7 @@ class FrozenDisk:
 
     @staticmethod
     def impossible() -> str:
-        """Returns why this machine cannot have one; empty if it can."""
+        """Returns why this machine cannot have such a file system; empty if it can."""
         if not machine.is_root():
             return "needs root, to mount and freeze a file system"
         if not Path("/dev/loop-control").exists():
@@ -89,7 +89,8 @@ class DeafReaders:
 
 
 def whole_labels(folder: Path, returns: dict[int, int]) -> list[str]:
-    """Returns the names of label files without exactly one label per return, and of all other files there."""
+    """Returns the names of label files whose number of labels is not the number of returns, and of
+    all other files there."""
     wrong = []
     for path in sorted(folder.iterdir()):
         if path.name == ".label.terracut":  # the list of the run's own files
@@ -105,7 +106,7 @@ def line_with(text: str, words: str) -> str:
 
 
 def returns_of(report: dict) -> dict[int, int]:
-    """Returns the returns of every frame of a replay."""
+    """Returns the number of returns of every frame of a replay."""
     return {frame["frame"]: frame["returns_labelled"] for frame in report["frames"]}
 
 
@@ -179,7 +180,7 @@ def never_thawed(program: Program, report: Report, seconds: float) -> list:
         sent = sending.stop()
         live.settled()
         live.interrupt()
-        # It has ended except for the thread that the kernel holds until the disk answers.
+        # The process has ended except for the thread that the kernel holds until the disk answers.
         end = time.monotonic() + 20
         while "disk does not answer" not in live.messages() and time.monotonic() < end:
             time.sleep(0.1)

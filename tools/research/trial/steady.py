@@ -23,7 +23,7 @@ ROWS = 12
 
 @dataclass(frozen=True)
 class Sample:
-    """The kernel's figures of a process, at some seconds after the first packet."""
+    """The kernel's figures about a process, some seconds after the first packet."""
 
     at_s: float
     resident_kib: int
@@ -89,7 +89,7 @@ def judge_samples(report: Report, of: str, steady: list[Sample], minutes: float)
 
 
 def spread(samples: list[Sample]) -> list[Sample]:
-    """Returns the first, the last, and some at equal distances between them."""
+    """Returns the first and the last sample, and some at equal distances between them."""
     step = max(1, len(samples) // ROWS)
     chosen = samples[::step]
     return chosen if chosen[-1] is samples[-1] else [*chosen, samples[-1]]

@@ -27,7 +27,8 @@ using SensorCalibration = std::variant<hdl64e::Hdl64eCalibration, ruby128::Ruby1
 /// Returns the model that `calibration` belongs to; kHdl64e for an HDL-64E of any generation.
 [[nodiscard]] sensor::SensorModel model_of(const SensorCalibration& calibration) noexcept;
 
-/// Each of these calls the function (or reads the member) of the same name of the calibration held.
+/// Each of these functions asks the table in the variant: for its fingerprint(), its `origin` or
+/// its ring_profile().
 [[nodiscard]] inline std::uint64_t fingerprint(const SensorCalibration& calibration) {
   return std::visit([](const auto& unit) { return fingerprint(unit); }, calibration);
 }

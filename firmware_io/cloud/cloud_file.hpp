@@ -13,7 +13,7 @@ namespace terracut::cloud {
 
 /// True if the file's name ends in .bin, .pcd or .ply, in either case.
 [[nodiscard]] bool is_cloud_file(const std::filesystem::path& path);
-/// Which files of a folder are clouds, and the formats in words.
+/// Tells which files of a folder are clouds, and names their formats for messages.
 inline constexpr scan::ScanKind kCloudFiles{
     is_cloud_file, "KITTI's .bin (float32 x y z remission), nuScenes' .pcd.bin, .pcd or .ply"};
 

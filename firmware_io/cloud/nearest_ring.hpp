@@ -24,7 +24,7 @@ class NearestRing {
 
  private:
   struct Line {
-    /// most_off: largest accepted vertical distance from the line, per metre of distance.
+    /// `most_off` is the largest accepted vertical distance from the line, per metre of distance.
     float slope, offset_m, most_off;
   };
 

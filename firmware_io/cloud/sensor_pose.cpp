@@ -132,7 +132,7 @@ class PoseFit {
       squares[laser] += weight * d * d;
       sums[laser] += weight * d * f;
     }
-    // the laser's slope is an unknown, too: eliminate it
+    // Eliminates the laser's slope, which is an unknown, too.
     for (std::size_t laser = 0; laser < lasers_; ++laser) {
       if (squares[laser] <= 0) continue;
       for (std::size_t row = 0; row < kUnknowns; ++row) {
@@ -142,7 +142,7 @@ class PoseFit {
         right[row] += of_slope[laser][row] * sums[laser] / squares[laser];
       }
     }
-    // relative to a sample's weight; holds unknowns that the points do not show
+    // Relative to a sample's weight; keeps unknowns that the points do not show as they are.
     constexpr double kDamping = 1e-3;
     for (std::size_t i = 0; i < kUnknowns; ++i) {
       normal[i][i] += kDamping * static_cast<double>(samples_.size());

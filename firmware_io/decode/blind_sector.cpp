@@ -65,8 +65,8 @@ BlindSector::Verdict BlindSector::beside_sector(const Gap& gap) noexcept {
           std::clamp<std::int64_t>(before + after - gap.rejected, 0, gap.packets)};
 }
 
-/// Narrows the sector to `common`, and widens the tolerance at either end by what the sector lost
-/// there.
+/// Narrows the sector to the interval `common`. Widens the tolerance at either end by what the
+/// sector loses there.
 void BlindSector::move_to(const packet::RotorInterval& common) noexcept {
   const packet::RotorInterval blind = sector_.next(common.from_ticks);
   const std::int64_t later_ticks = std::max<std::int64_t>(0, common.from_ticks - blind.from_ticks);

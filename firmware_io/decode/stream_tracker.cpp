@@ -275,8 +275,9 @@ void StreamTracker::measure_period(std::int64_t step_us, frame::LossCounters& lo
 }
 
 void StreamTracker::average_in(std::int64_t step_us) noexcept {
-  // Stamps are whole microseconds and gaps up to thousands of periods, so only a long mean is exact
-  // enough. Halving it at times lets it follow the unit's drift.
+  // Stamps are whole microseconds and gaps last up to thousands of periods, so only the mean of
+  // many steps is exact enough. Halving both sums now and then lets the mean follow the unit's
+  // drift.
   averaged_us_ += step_us;
   if (++averaged_steps_ == kPeriodMean_packets) {
     averaged_us_ /= 2;

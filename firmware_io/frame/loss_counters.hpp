@@ -39,8 +39,8 @@ struct LossCounters {
   std::array<std::uint64_t, kRejectReasons> rejected{};  ///< Packets rejected, by reason.
   /// Returns for which the frame's overflow list had no room.
   std::uint64_t overflow_full_returns = 0;
-  /// Returns of a packet with a blind sector inside, from before the sector, that came too late for
-  /// their frame; their firings also count as holes.
+  /// Returns that came too late for their frame, because their packet has a blind sector inside and
+  /// was completed after it. Their firings also count as holes.
   std::uint64_t late_returns = 0;
   std::uint64_t skipped_frames = 0;  ///< Frames not segmented for lack of time.
   std::uint64_t clock_jumps = 0;  ///< Jumps of device stamps without a loss (replay loop, reset).

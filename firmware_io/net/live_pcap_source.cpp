@@ -153,7 +153,7 @@ std::span<const packet::Datagram> LivePcapSource::receive(std::int64_t timeout_n
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
     if (const std::size_t count = read_batch(); count > 0) {
-      // the socket was empty when the link was found down, so it has come up since
+      // The socket was empty when the link was found down, so the link has come up since.
       link_ = LinkState::kUp;
       return datagrams_.first(count);
     }

@@ -15,8 +15,8 @@ struct Datagram {
   std::uint32_t destination_address = 0;
   std::uint16_t source_port = 0;
   std::uint16_t destination_port = 0;
-  /// VLAN, [1, 4094]; of stacked tags the innermost two, OUTER << 12
-  /// INNER. 0: none or unknown, as on a socket.
+  /// VLAN id, [1, 4094]. Of stacked tags the innermost two: OUTER << 12 | INNER. 0 means none, or
+  /// unknown, as on a socket.
   std::uint32_t vlan = 0;
   std::uint64_t source_mac = 0;  ///< 48-bit link-layer address of the last sender; 0: unknown.
 };

@@ -80,7 +80,7 @@ class Directions {
 class AlignmentCost {
  public:
   static constexpr double kCap_rad = 0.02;
-  // cost of two segments that are one ring torn in two, which is rare
+  // The cost of taking two segments for one ring torn in two, which is rare.
   static constexpr double kTorn_rad = 0.001;
   /// Giving two lasers the same ring costs more than moving all others by a ring.
   static constexpr double kSameDirections_rad = kScanRings * kCap_rad;

@@ -68,7 +68,7 @@ class HeardSenders {
   /// Most senders kept: more are probably a port scan.
   static constexpr std::size_t kMostSenders = 64;
   static constexpr std::uint64_t kSteady_packets = 50;
-  /// Most that others() names; it counts further ones.
+  /// The most senders that others() describes; it only counts further ones.
   static constexpr std::size_t kMostNamed = 4;
 
   /// The datagrams of one address.

@@ -63,8 +63,8 @@ inline constexpr int kCapacityScale = 1024;
 /// Upper limit of edge weights: twice the largest B of Eq. 14, and low enough that a residual
 /// capacity, which can reach 2 * weight, fits 16 bits.
 inline constexpr int kMaxEdgeWeight = 2 * kCapacityScale;
-/// Costs are clamped to [0, kMaxTerminalCost], also in the reported energy; the sum of a cost and 8
-/// folded edges stays far inside 32 bits.
+/// Costs are clamped to [0, kMaxTerminalCost], also in the reported energy. A cost plus the weights
+/// of edges to eight seeds stays far inside 32 bits.
 inline constexpr std::int32_t kMaxTerminalCost = 1 << 28;
 
 /// The energy of paper Eq. 6-15 in integers scaled by kCapacityScale, in the caller's memory.

@@ -20,7 +20,7 @@ struct FrameTiming {
   double duration_s = 0;              ///< Time from the first packet to the last.
   std::span<const float> beam_turns;  ///< decode::Decoder::beam_turns(), one per row, or empty.
 
-  /// Returns the timing of a frame, given the beams of the decoder that made the frame.
+  /// Returns the timing of a frame. `beam_turns` is that of the decoder that made the frame.
   [[nodiscard]] static FrameTiming of(const frame::FrameInfo& info,
                                       std::span<const float> beam_turns) noexcept {
     constexpr double kSecond_ns = 1e9;

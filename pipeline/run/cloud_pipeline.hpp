@@ -55,7 +55,8 @@ class CloudPipeline {
   [[nodiscard]] const scan::ScanToImage::Summary& placed() const noexcept {
     return placement_.placed();
   }
-  /// Returns the truth of each return, by return index; empty if `truth`, by point, is empty.
+  /// Converts the truth of the cloud's points to that of its returns, by return index; empty for
+  /// empty `truth`.
   [[nodiscard]] std::span<const std::uint32_t> truth_of_returns(
       std::span<const std::uint32_t> truth);
 

@@ -14,7 +14,7 @@ double portable_log(double x) noexcept {
     mantissa *= 2;
     --exponent;
   }
-  // ln(m) = 2 atanh(s) with s = (m - 1) / (m + 1), |s| < 0.172: seven terms reach 1e-12.
+  // Uses ln(m) = 2 atanh(s) with s = (m - 1) / (m + 1), |s| < 0.172: seven terms reach 1e-12.
   const double s = (mantissa - 1) / (mantissa + 1);
   const double s2 = s * s;
   double series = 0;

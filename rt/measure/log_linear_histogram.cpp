@@ -10,7 +10,7 @@ namespace terracut::measure {
 
 std::size_t LogLinearHistogram::bucket_of(std::uint64_t value) noexcept TERRACUT_NONBLOCKING {
   if (value < 2 * kHalf) return static_cast<std::size_t>(value);
-  // value >> shift lies in [kHalf, 2 kHalf): its leading kLinearBits bits.
+  // The leading kLinearBits bits of the value: value >> shift lies in [kHalf, 2 kHalf).
   const auto shift = static_cast<std::size_t>(std::bit_width(value) - kLinearBits);
   return shift * kHalf + static_cast<std::size_t>(value >> shift);
 }

@@ -40,7 +40,7 @@ std::optional<std::string> SystemView::text(std::string_view path) const {
   file.read(content.data(), static_cast<std::streamsize>(content.size()));
   if (file.bad() || (file.fail() && !file.eof())) return std::nullopt;
   content.resize(static_cast<std::size_t>(file.gcount()));
-  // npos + 1 is 0: clears a text of white space
+  // For a text of white space alone this is npos + 1, which is 0.
   content.resize(content.find_last_not_of(" \t\r\n") + 1);
   return content;
 }

@@ -42,8 +42,7 @@ struct Parts {
   PcapSource source;
   send::FaultScript faults;
   send::PortSenders sensor;
-  std::optional<send::PortSenders> stranger;  ///< Set if foreign packets have a sender of their
-                                              ///< own.
+  std::optional<send::PortSenders> stranger;  ///< Set if foreign packets have their own sender.
 };
 
 Expected<Parts> open_parts(const Options& options, memory::FixedMemory& memory) {
@@ -104,7 +103,7 @@ class Send {
         stamps_.next_pass();
       }
       const bool go_on = play_once();
-      // a pass without packets: later ones have none either
+      // After a pass without packets, later passes have none either.
       if (!go_on || stamps_.packets() == 0) break;
     }
     injector_.finish();

@@ -93,7 +93,7 @@ ExitCode watch(const Reader& page, const std::string& name, double interval_s) {
   const bool terminal = ::isatty(STDOUT_FILENO) == 1;
   if (terminal) print_out("\x1b[2J");
   for (;;) {
-    // asked before reading, so that a process's last figures are shown
+    // Asked before the figures are read, so that a process's last figures are shown.
     const bool lives = page.publisher_lives();
     if (const auto figures = page.read()) {
       if (!status::are_possible(*figures)) return refuse_figures(page, name);

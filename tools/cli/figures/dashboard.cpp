@@ -17,7 +17,7 @@ namespace {
 using measure::milliseconds;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-// a running process writes its page many times a second
+// A running process writes its page many times a second, so an older page means that it hangs.
 constexpr std::int64_t kStale_ns = 3 * kSecond_ns;
 
 /// Returns "2 d 03:04:05".

@@ -25,9 +25,9 @@ namespace terracut::cli {
 inline constexpr std::string_view kDriveFacts = "terracut.json";
 inline constexpr std::string_view kDriveSums = "SHA256SUMS";
 
-/// Returns the facts in terracut.json, or null unless the files in SHA256SUMS are present and have
-/// the number and sizes stated there. Figures in the facts are then whole numbers. Does not read
-/// labels: `sha256sum -c` finds changes that keep the length.
+/// Returns the facts in terracut.json, or null unless the files in SHA256SUMS are present and their
+/// number and total size are those in the facts. Figures in the facts are then whole numbers. Does
+/// not read labels: `sha256sum -c` finds changes that keep the length.
 [[nodiscard]] nlohmann::ordered_json facts_of_whole(const std::filesystem::path& folder);
 
 /// Completes a folder of finished files: writes `facts` with the number and size of the files, and

@@ -171,7 +171,7 @@ class Client final : public HttpGuest, public std::enable_shared_from_this<Clien
   }
 
   void subscribe(const FoxgloveRequest::Subscription& wish) {
-    // a number of 0 wraps to a large one
+    // The invalid channel id 0 wraps to a large number.
     const std::size_t topic = wish.channel_id - kFirstChannelId;
     if (topic >= kTopics || !shared_.config.topics[topic]) return complain("no such channel");
     // One subscription per topic is allowed, so that a client that stops reading keeps at most one

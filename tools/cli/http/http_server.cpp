@@ -65,7 +65,8 @@ HttpRequest told(const http::request<http::string_body>& request) {
           .page = field(request, "X-Terracut-Page")};
 }
 
-/// State shared by all visits; used on the server's thread, except for the figures.
+/// State shared by all connections being answered; used on the server's thread, except for the
+/// figures.
 struct Shared {
   HttpServer::Config config;
   HttpResponder respond;

@@ -27,8 +27,8 @@ struct MountChoice {
 [[nodiscard]] MountChoice filled_in(const MountOptions& stated, const mount::FoundMount& found);
 
 /// Takes figures that were not stated from `finder`, and prints them. If they are too uncertain for
-/// labels, fails with kMountNotFound; with MountOptions::may_guess, warns instead and uses those of
-/// a level mount at 1.73 m.
+/// labels, fails with kMountNotFound. With MountOptions::may_guess it warns instead, and the
+/// figures that are too uncertain become those of a level mount at 1.73 m.
 [[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
                                                  const mount::MountFinder& finder);
 /// Finds the figures that are not stated from frames of the recording. Fails as the function above

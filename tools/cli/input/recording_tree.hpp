@@ -25,11 +25,11 @@ struct RecordingTree {
 };
 
 /// Searches all of `root`, a canonical path. Captures are recognised by their names
-/// (capture::capture_stem) or first bytes, clouds by their names. A link to a folder is followed if
-/// the folder is not found without it or by another link and does not contain `root`: there are no
+/// (capture::capture_stem) or first bytes, clouds by their names. A link to a folder is followed
+/// only if the folder does not contain `root` and is not found in any other way, so there are no
 /// loops and no duplicates. Skipped are names that begin with a dot and folders that file servers
-/// keep for themselves (@eaDir). Left out, with a reason, are paths that cannot be opened, packed
-/// or unsupported files, and names that are not UTF-8, which a manifest cannot hold.
+/// keep for their own use (@eaDir). Left out, with a reason, are paths that cannot be opened,
+/// packed or unsupported files, and names that are not UTF-8, which a manifest cannot hold.
 [[nodiscard]] RecordingTree find_recordings(const std::filesystem::path& root);
 
 }  // namespace terracut::cli

@@ -31,8 +31,8 @@ std::optional<std::int64_t> number_in(const char* name) {
 std::optional<std::int64_t> watchdog_of_environment() {
   const std::optional<std::int64_t> time_us = number_in("WATCHDOG_USEC");
   if (!time_us || *time_us <= 0 || *time_us > INT64_MAX / 1000) return std::nullopt;
-  // Child processes inherit these variables, but systemd watches only the process named by
-  // WATCHDOG_PID.
+  // WATCHDOG_PID names the only process that systemd watches; child processes inherit the
+  // variables, too.
   if (!environment("WATCHDOG_PID").empty() && number_in("WATCHDOG_PID") != ::getpid()) {
     return std::nullopt;
   }

@@ -126,7 +126,7 @@ void CloudNode::set_up() {
   }
   news_.set_sensor(labeller_.sensor());
   for (Job& job : first) {
-    // no deadline: nothing can be labelled before the sensor is known
+    // There is no deadline, because nothing can be labelled before the sensor is known.
     job.record.info.last_packet_ns = 0;
     if (read(*job.cloud)) label(std::move(job));
   }
@@ -152,7 +152,7 @@ void CloudNode::refuse_rows(const Error& error) {
 }
 
 void CloudNode::say_once(const std::string& what) {
-  // messages contain numbers, so there is no limit to their kinds
+  // Messages contain numbers, so there is no limit to their kinds.
   constexpr std::size_t kMostKinds = 16;
   if (said_.size() >= kMostKinds || std::ranges::count(said_, what) > 0) return;
   said_.push_back(what);

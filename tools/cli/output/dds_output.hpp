@@ -18,7 +18,7 @@ struct DdsTopics {
 };
 [[nodiscard]] DdsTopics dds_topics_of(const DdsOptions& options);
 
-/// Fails with kUnsupported, and what to install, if the program was built without DDS.
+/// Fails with kUnsupported if the program was built without DDS; the message says what to install.
 [[nodiscard]] Status check_dds();
 /// Opens the output of --dds and prints its topics. Fails with the errors of check_dds() and of
 /// dds::DdsSink::open().

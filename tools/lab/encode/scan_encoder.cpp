@@ -159,7 +159,7 @@ void ScanEncoder::encode(std::int32_t frame, int laser, const Wanted& wanted, Pl
       planned.when.azimuth_cdeg, hdl64e::firing_advance_ticks(planned.when.step_ticks, laser));
   const auto exact = geometry_.raw_for_range(laser, rotor_rad, wanted.range_m);
   const double raw = std::round(exact.value_or(0.0));
-  // possible only at the ends of the range of raw distances
+  // Possible only at the ends of the range of raw distances.
   if (raw < 1 || raw > beams::kMaxRawCounts) {
     count(wanted.range_m < 10.0 ? NotEncoded::kTooNear : NotEncoded::kTooFar);
     return;

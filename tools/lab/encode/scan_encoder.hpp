@@ -31,8 +31,7 @@ enum class NotEncoded : std::uint8_t {
   kTooNear,      ///< Its distance is below the calibration's range (raw count < 1).
   kTooFar,       ///< Its distance is beyond the wire's 65535 counts.
   kSeam,         ///< The beam that hits it belongs to the previous or next frame.
-  kCollision,    ///< All firings of its laser near enough are taken: a laser measures once
-                 /// per firing, so a sensor would not have sent it.
+  kCollision,    ///< All firings of its laser near enough are taken by other points.
   kCount,
 };
 inline constexpr std::size_t kNotEncodedReasons = static_cast<std::size_t>(NotEncoded::kCount);

@@ -160,8 +160,7 @@ class Drive {
   Eigen::Isometry3d T_vehicle_lidar_;
   drive::FiringPlan<EncoderTraits> plan_;
   ScanHead<EncoderTraits> head_;
-  std::array<ObjectIndex, 2> objects_;  ///< Even and odd frames; only the first is used with
-                                        ///< motion.
+  std::array<ObjectIndex, 2> objects_;  ///< For even and odd frames; with motion only the first.
   std::array<Moment, 2> frame_moments_{};
   std::array<double, 2> still_time_s_{};
   double batch_time_s_ = 0;

@@ -162,7 +162,7 @@ void ScanHead<EncoderTraits>::cast_dual(const Beam& beam, const Moment& moment,
   if (!last) last = strongest;
   if (on_axis && beside) {
     if (beside->echo.signal > on_axis->echo.signal) std::swap(strongest, last);
-    // the weaker return lies before the strongest
+    // The weaker return lies before the strongest.
     if (strongest->wire.raw > last->wire.raw) last = strongest;
   }
   put(*strongest, beam.laser, columns[EncoderTraits::kStrongestFirst ? 0 : 1]);

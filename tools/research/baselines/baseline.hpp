@@ -18,7 +18,8 @@ namespace terracut::baselines {
 /// frame to the next.
 class Baseline : public ground::FrameMethod {
  public:
-  /// Ignores the budget. Reports the times of the stages of our method that its own resemble most.
+  /// Ignores the budget. Reports the stage of our method that this method resembles most as the
+  /// last one.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, const min_cut::CutBudget& /*budget*/ = {},
       stage::StageObserver* observer = nullptr) noexcept override {

@@ -31,7 +31,7 @@ std::vector<std::size_t> ResultKeeper::methods_left(const std::string& sequence,
   const std::scoped_lock lock(mutex_);
   for (std::size_t i = 0; i < methods_.size(); ++i) {
     const FrameKey key{sequence, frame, methods_[i].name};
-    // an unreadable path counts as missing; writing to it reports the error
+    // An unreadable path counts as missing; the error is reported when it is written to.
     std::error_code ignored;
     const bool done = results_.contains(key) &&
                       (predictions_.empty() || std::filesystem::exists(prediction(key), ignored));

@@ -29,7 +29,7 @@ def kitti_scan(pcd):
     return scan.tobytes()
 
 
-# the height that the peers are told
+# The mount of every drive: the peers are told the same height.
 MOUNT = ["--mount-height", SENSOR_HEIGHT_M, "--mount-roll", 0, "--mount-pitch", 0]
 
 

@@ -36,7 +36,7 @@ IN_TIME = 0.95  # least share of frames that must be in time
 DOORS_AGAIN_S = 30  # the longest time until all doors are served again; a door waits 10 s between two tries
 ANSWERS_AGAIN_S = 30
 CHUNK = 1 << 16
-# connections to a door at a time; more would overflow the host's own queue (netdev_max_backlog)
+# Connections to a door at a time; more would overflow the host's own queue (netdev_max_backlog).
 AT_ONCE, PAUSE_S = 20, 0.01
 
 

@@ -59,6 +59,7 @@ void DeadlineMonitor::judge(FrameRecord& frame) noexcept TERRACUT_NONBLOCKING {
   MonitorSnapshot& figures = *snapshot_;
   ++figures.frames;
   figures.returns += frame.info.returns;
+  figures.returns_below += frame.segmentation.below;
   if (frame.level < Level::kCount) ++figures.levels[static_cast<std::size_t>(frame.level)];
 
   judge_latency(frame);

@@ -163,6 +163,10 @@ void add_frames(const MonitorSnapshot& f, Table& table) {
      {"frames", "{:.2f} a second", Shown::kIfAny}},
     {"returns", f.returns, {"terracut_returns_total", "Returns in these frames."},
      {"frames", "{} returns"}},
+    {"returns_below", f.returns_below,
+     {"terracut_ghost_returns_total", "Returns two obstacle heights or more below the ground: ghosts "
+      "of a wet road or of glass, or a hole."},
+     {"frames", "{} below the ground", Shown::kIfAny}},
     {"unjudged", f.unjudged,
      {"terracut_unjudged_frames_total", "Frames whose latency is not known: without stamps, or come "
       "before a node knew its sensor."},

@@ -52,7 +52,7 @@ struct ThreadStatus {
 /// to_string are safe even then.
 struct MonitorSnapshot {
   /// The version of the layout; increase it with every change.
-  static constexpr std::uint32_t kLayout = 9;
+  static constexpr std::uint32_t kLayout = 10;
   static constexpr std::size_t kMaxLosses = 64;
   static constexpr std::size_t kMaxOutcomes = 24;
   static constexpr std::size_t kMaxThreads = 4;
@@ -76,10 +76,11 @@ struct MonitorSnapshot {
   /// equal if no such sector is known.
   std::int32_t blind_from_cdeg = 0, blind_to_cdeg = 0;
 
-  std::uint64_t frames = 0;    ///< Judged frames of any level.
-  std::uint64_t returns = 0;   ///< Returns in these frames.
-  std::uint64_t unjudged = 0;  ///< Frames whose stamps give no latency.
-  double frames_per_s = 0;     ///< Over the last few seconds of packet stamps; 0: stopped.
+  std::uint64_t frames = 0;         ///< Judged frames of any level.
+  std::uint64_t returns = 0;        ///< Returns in these frames.
+  std::uint64_t returns_below = 0;  ///< Those far below the ground (SegmentationReport::below).
+  std::uint64_t unjudged = 0;       ///< Frames whose stamps give no latency.
+  double frames_per_s = 0;          ///< Over the last few seconds of packet stamps; 0: stopped.
   std::array<std::uint64_t, kLevels> levels{};
   std::array<std::uint64_t, kMissCauses> misses{};  ///< Misses of the deadline, by cause.
   std::uint64_t consecutive_misses = 0;             ///< Misses in a row up to the newest frame.

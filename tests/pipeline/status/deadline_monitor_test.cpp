@@ -23,6 +23,7 @@ FrameRecord frame_of(std::uint32_t number, std::int64_t latency_ms) {
   FrameRecord frame;
   frame.info.number = number;
   frame.info.returns = 1000;
+  frame.segmentation.below = 7;
   frame.info.last_packet_ns = kStart_ns + number * 100 * kMs;
   frame.closing_packet_ns = frame.info.last_packet_ns;
   frame.handed_over_ns = frame.info.last_packet_ns + 1 * kMs;
@@ -186,6 +187,7 @@ TEST_F(DeadlineMonitorOf50Ms, AddsUpReturnsOverFrames) {
   skipped.level = Level::kSkipped;
   judged(skipped);
   EXPECT_EQ(monitor_.snapshot().returns, 2000U);
+  EXPECT_EQ(monitor_.snapshot().returns_below, 14U);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, LeavesAStageThatDidNotRunOutOfItsHistogram) {

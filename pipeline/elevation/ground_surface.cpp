@@ -98,7 +98,7 @@ GroundSurface::GroundSurface(const Config& config, float obstacle_height_m, cons
     const auto i = static_cast<std::size_t>(band);
     const float sector_m = sector_rad * grid.center_m(band);
     const float sectors_wide = config.regain_length_m / sector_m;
-    constexpr auto kMostSectors = static_cast<float>(kStripBehind + kStripAhead);
+    constexpr float kMostSectors = 16;
     wide_from_[i] = static_cast<std::int32_t>(
         std::min({sectors_wide, kMostSectors, static_cast<float>(grid.sectors())}));
     max_rise_m_[i] = config.max_slope * sector_m;

@@ -289,7 +289,7 @@ TEST_F(SurfaceOverGrid, IsTheSameWhereverTheCircleIsBegun) {
   }
 }
 
-TEST_F(SurfaceOverGrid, WaitsForFiveSectorsAheadAndTwoMoreForTheStripTheyLieOn) {
+TEST_F(SurfaceOverGrid, InterpolatesFromFiveSectorsAheadAndNoMore) {
   // Ground of all sectors, hidden in one; what lies beyond what is waited for is not looked at.
   fill([](float range_m) { return 0.03F * range_m; });
   constexpr int kHere = 50;

@@ -236,7 +236,7 @@ class PlainSurface {
                   grid_.sectors()});
     const auto is_ground = [&](int s) { return at(at(traced_, around(s)).is_ground, band); };
     int wide = 1;
-    for (int s = sector + 1; s <= sector + 2 && is_ground(s); ++s) ++wide;
+    for (int s = sector + 1; s <= sector + 5 && is_ground(s); ++s) ++wide;
     for (int s = sector - 1; s >= sector - 14 && is_ground(s); --s) ++wide;
     return wide >= enough;
   }

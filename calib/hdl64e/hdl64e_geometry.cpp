@@ -10,8 +10,8 @@ namespace terracut::hdl64e {
 namespace {
 
 constexpr double kTolerance_m = 1e-9;
-/// Most steps of solve(). The functions it solves are nearly linear piece by piece; three steps are
-/// typical.
+/// The largest number of steps that solve() takes. The functions it solves are nearly linear in
+/// each of their pieces, so that it typically takes three.
 constexpr int kMaxSecantSteps = 30;
 
 /// Returns the root of `distance_m(raw)`, searched from `raw`. The slope of the function is about

@@ -89,7 +89,7 @@ class TableWriter {
   std::string problem_;
 };
 
-/// Writes one laser except its one-byte values, whose range validate() has checked.
+/// Writes those values of one laser that take two bytes; its one-byte values are written elsewhere.
 void put_laser(TableWriter& table, std::size_t at, const Hdl64eLaser& laser) {
   const double far_m = laser.dist_correction_m;
   table.put_rounded(at + 1, beams::rad_to_deg(laser.vert_correction_rad), kPerDegree,

@@ -97,7 +97,7 @@ class Deskewer {
   // The frame being deskewed.
   std::span<std::int64_t> node_ns_;
   std::span<vehicle::PlanarPose> node_poses_;
-  /// Indexed by column of the head's azimuth, beginning with first_shift_.
+  /// By column of the head's azimuth; the first element is for column first_shift_.
   std::span<float> cosine_, sine_, x_m_, y_m_;
   std::span<frame::PlanarMotions> by_row_;  ///< For each row, its part of the four arrays above.
 };

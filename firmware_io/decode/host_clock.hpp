@@ -63,7 +63,7 @@ class HostClock {
   std::int64_t wrap_us_;
   bool known_ = false;
   std::int64_t device_us_ = 0, sent_ns_ = 0;
-  /// By how much recent packets came earlier than the assumed delay says.
+  /// How much earlier recent packets came than the assumed delay predicts.
   std::int64_t earlier_ns_ = 0;
 };
 

@@ -27,7 +27,8 @@ constexpr int kMaxSegments = 4 * kScanRings;
 constexpr std::size_t kMinFirstRingPoints = 8;
 
 /// Numbers the rings of a file by counting how often the azimuth falls by more than `fall_rad`.
-/// With half a revolution, this counts how often the azimuth passes straight ahead.
+/// If `fall_rad` is half a revolution, it counts how often the azimuth wraps from 2 pi to 0, which
+/// is straight ahead.
 class FallCounter {
  public:
   explicit FallCounter(double fall_rad) : fall_rad_(fall_rad) {}

@@ -106,8 +106,9 @@ std::int32_t PacketReader::step_of(const packet::PacketAzimuths& azimuths,
   const int firings = layout_.firings(azimuths.dual_return);
   is_step_guessed_ = false;
   if (firings > 1) return mean_step_ticks(advance_cdeg, firings);
-  // A packet of one firing shows no step between firings. The step is the advance since the packet
-  // before if that packet came just before, else the last step; at first, it is the step at 10 Hz.
+  // A packet of one firing does not show the azimuth step from firing to firing. If no packet was
+  // lost before it, the step is the advance of the azimuth since the packet before; else the last
+  // known step holds. Before any is known, the step of a sensor at 10 Hz is assumed.
   const std::int64_t since_us =
       packet::clock_step_us(last_.stamp_us, azimuths.device_stamp_us, kClockWrap_us);
   const bool follows =

@@ -34,7 +34,8 @@ TERRACUT_VECTOR_CLONES void find_missing(const GroundSurface::LowestReturn* __re
   }
 }
 
-/// The trace's result in the cells of a sector.
+/// What tracing the ground outwards found in a sector's cells: heights of the ground, and where
+/// each height is from.
 struct FoundInSector {
   const float* traced_m;
   const std::uint8_t* origin;

@@ -43,8 +43,9 @@ class GroundSurface {
     float start_slope = 0.18F;      ///< First ground may be this high above the mount's plane, per
                                 ///< metre of range and beyond `step_up_m`; nearer than the first
                                 ///< ring's ground, most returns come from a car's flank.
-    float tall_m = 0.5F;           ///< Tall things are this high above their cell's lowest return;
-                                   ///< where one stands, no step rises by an obstacle's height.
+    float tall_m = 0.5F;           ///< A return so far above its cell's lowest return marks a tall
+                                   ///< thing; no step into such a cell may rise by an obstacle's
+                                   ///< height.
     float max_slope = 0.5F;        ///< Steepest ground, as rise over run, in any direction.
     float regain_length_m = 4.0F;  ///< Length of passable path on which lost ground is found again,
                                    ///< least width of such ground, and longest step of a path that

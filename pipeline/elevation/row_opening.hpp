@@ -44,7 +44,7 @@ class RowOpening {
   // all from behind() before it to ahead() after it are taken. All functions below are real-time
   // safe.
 
-  /// True if what stands out of the row is told.
+  /// True if the row is opened, so that it is known what stands out of it.
   [[nodiscard]] bool has(int row) const noexcept {
     return static_cast<std::size_t>(row) < slots_.size() &&
            slots_[static_cast<std::size_t>(row)] >= 0;

@@ -30,8 +30,10 @@
 
 namespace terracut::live {
 
-/// The two threads of a live run with a deadline, and the queues to a third thread. The two threads
-/// allocate nothing, lock nothing and write nothing:
+/// The two threads of a live run that have a deadline, and the queues from them to a third thread,
+/// which calls take_record(). The two allocate nothing, take no lock and write to no file or
+/// socket. The coarse stages are the part of the method that needs no whole frame
+/// (ground/coarse_stages.hpp).
 ///
 ///   FrameReceiver     --FrameExchange-->     FrameSegmenter
 ///   datagrams -> recorder, decoder,          frames -> labels

@@ -38,8 +38,9 @@ class GridCut {
     /// Boykov-Kolmogorov begins components of up to this many nodes, push-relabel larger ones:
     /// rough ground leaves some of 1,000 nodes and more.
     std::uint32_t bk_most_nodes = 64;
-    /// Push-relabel finishes a component that takes Boykov-Kolmogorov more operations than
-    /// `bk_ops_per_node` * its nodes + `bk_ops_base`. Both are in [0, 1e9].
+    /// If Boykov-Kolmogorov needs more operations for a component than `bk_ops_per_node` * its
+    /// nodes
+    /// + `bk_ops_base`, push-relabel finishes it. Both are in [0, 1e9].
     std::int64_t bk_ops_per_node = 100;
     std::int64_t bk_ops_base = 20'000;
     /// Least share of unknown cells that must be finished (fixed or in solved components) when the

@@ -15,8 +15,8 @@
 
 namespace terracut::page {
 
-/// The beginning of a status page file; numbers are in the machine's byte order. The words of the
-/// value begin at the next cache line.
+/// The beginning of a status page file; numbers are in the machine's byte order. The published
+/// value follows from the next cache line on, as 64-bit words.
 struct StatusPageHeader {
   static constexpr std::uint64_t kMagic = 0x65'67'61'70'74'63'72'74;  // "trctpage" in the file
 

@@ -50,7 +50,8 @@ struct FrameTotals {
 /// Returns figures that tell which method ran: its name, or profile and stages.
 [[nodiscard]] std::vector<status::Figure> method_figures(const MethodOptions& options);
 
-/// Returns the number of datagrams outside the requested part of a capture.
+/// Returns figures for the report: how many datagrams lie before and behind the requested part of a
+/// capture.
 [[nodiscard]] std::vector<status::Figure> outside_figures(std::uint64_t before_start,
                                                           std::uint64_t behind_end);
 

@@ -208,7 +208,7 @@ bool DetectionBound::stands_out(std::size_t row, const Front& front, double widt
   const auto window = static_cast<int>(
       std::min(std::ceil(double{map.opening.window_m} / (sector_rad_ * far_m)), 1e3));
   if (covered > std::min({window, opening_.behind(), opening_.ahead()})) return false;
-  // Beside the box the row meets the ground, nearest where that rises to the side.
+  // Beside the box, the row's beam meets the ground: nearest where the ground rises to that side.
   Front beside = front;
   beside.slope += across_slope(front) * std::sin(std::min((covered + 1) * sector_rad_, 1.0));
   const Ranges ground = ground_ranges(row, beside);

@@ -62,6 +62,7 @@ void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,
     if (end > grid.sectors() || grid.columns_of({0, end}).end > complete_columns) return;
     if (observer != nullptr) observer->resumed();
     take_to(end, image);
+    done(stage::Stage::kElevationMap);
     label_settled(image, planes);
   }
 }

@@ -66,10 +66,6 @@ class RingElevationMap {
   [[nodiscard]] RingGrid::Sectors settled() const noexcept {
     return {settled_.begin, settled_.next};
   }
-  /// Returns how many sectors that follow a sector must be taken before it is settled.
-  [[nodiscard]] int ahead() const noexcept {
-    return has_surface() ? opening_.ahead() + GroundSurface::kStripAhead + surface_.ahead() : 0;
-  }
   /// Fills `height_m` and `label` in these columns, which must be of settled sectors.
   void label(const frame::PointPlanes& points, frame::ColumnRange columns,
              stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;

@@ -89,11 +89,13 @@ void CoarseStages::finish(const frame::RangeImage& image, stage::CellPlanes& pla
 
 void CoarseStages::label_settled(const frame::RangeImage& image,
                                  stage::CellPlanes& planes) noexcept {
-  const int sectors = map_.grid().sectors(), end = map_.settled().end;
-  if (labelled_ < std::min(end, sectors)) label({labelled_, std::min(end, sectors)}, image, planes);
-  labelled_ = std::max(labelled_, std::min(end, sectors));
-  if (labelled_ < end) label({labelled_ - sectors, end - sectors}, image, planes);
-  labelled_ = end;
+  const int sectors = map_.grid().sectors();
+  while (labelled_ < map_.settled().end) {
+    const int first = map_.grid().wrapped(labelled_);
+    const int count = std::min(map_.settled().end - labelled_, sectors - first);
+    label({first, first + count}, image, planes);
+    labelled_ += count;
+  }
 }
 
 void CoarseStages::label(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,

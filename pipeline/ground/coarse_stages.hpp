@@ -25,7 +25,7 @@ namespace terracut::ground {
 ///
 ///   columns   0 ......................................................... all
 ///             | later |  labelled  |  taken: their lowest returns known |  to come  |
-///                 |                '-- RingElevationMap::ahead(): ground to interpolate from
+///                 |                '-- a sector's ground depends on the 15 sectors that follow
 ///                 '-- labelled at the end: their ground depends on the last columns, too
 ///
 /// The labels are bit for bit the same as if the whole frame had come at once, in whatever order

@@ -30,8 +30,9 @@ namespace terracut::live {
 ///
 /// The cost of one packet does not depend on its content (docs/design.md, "Work per packet"): it is
 /// decoded, one block of the coarse stages is done, and the frames that it ends are handed over; at
-/// most one of these still needs its last sectors labelled. A frame with less than three quarters
-/// labelled ahead (deskewed, packets lost, or stream broken off) is left to the segmenting thread.
+/// most one of these still needs its first and last sectors labelled. A frame with less than half
+/// of its sectors labelled ahead (deskewed, packets lost, stream broken off, or few sectors in all)
+/// is left to the segmenting thread.
 ///
 /// `Source` is a DatagramSource with refresh_drops(), `Clock` is like measure::SystemClock, and
 /// `Wait` is like measure::RunQueueWait.

@@ -32,7 +32,7 @@ namespace terracut::live {
 
 /// The two threads of a live run that have a deadline, and the queues from them to a third thread,
 /// which calls take_record(). The two allocate nothing, take no lock and write to no file or
-/// socket. The coarse stages are the part of the method that needs no whole frame
+/// socket. The coarse stages are the part of the method that is done while a frame arrives
 /// (ground/coarse_stages.hpp).
 ///
 ///   FrameReceiver     --FrameExchange-->     FrameSegmenter

@@ -413,20 +413,14 @@ TEST_F(Cli, PlanAddsUpItsParts) {
   EXPECT_GT(sum, 1'000'000U);
 }
 
-TEST_F(Cli, ParametersPageShowsWhatTheProgramHas) {
-  const Outcome table = run("parameters");
-  EXPECT_EQ(table.exit_code, 0);
-  EXPECT_THAT(content_of(test::source_folder() / "docs/reference/parameters.md"),
-              testing::EndsWith(table.out))
-      << "print it anew with `terracut parameters`";
-}
-
-TEST_F(Cli, DetectionPageShowsWhatTheProgramPromises) {
-  const Outcome tables = run("detection");
-  EXPECT_EQ(tables.exit_code, 0);
-  EXPECT_THAT(content_of(test::source_folder() / "docs/reference/detection.md"),
-              testing::EndsWith(tables.out))
-      << "print it anew with `terracut detection`";
+TEST_F(Cli, PagesOfTheReferenceEndWithWhatTheirCommandsPrint) {
+  for (const std::string command : {"parameters", "detection"}) {
+    const Outcome printed = run(command);
+    EXPECT_EQ(printed.exit_code, 0);
+    EXPECT_THAT(content_of(test::source_folder() / "docs/reference" / (command + ".md")),
+                testing::EndsWith(printed.out))
+        << "print it anew with `terracut " << command << "`";
+  }
 }
 
 TEST_F(Cli, ReadmeQuotesWhatIsAlwaysFound) {

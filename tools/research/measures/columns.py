@@ -65,6 +65,7 @@ COLUMNS = (
     Column("ghosts_5", "5 % ghosts", False),
     Column("puddle", "puddle", False),
 )
+COLUMN_OF = {column.name: column for column in COLUMNS}
 LESS_IS_BETTER = ("none",)
 
 # Column: hazard, grounds, from and up to how many metres.
@@ -100,7 +101,7 @@ def runs_of(places):
     scans, jobs = str(places["scans"]), ("--jobs", "1")
     hazards = ("hazards", "semantickitti", scans, "--seed", str(HAZARD_SEED), *jobs)
     runs = []
-    for kind in ("lying_person", "box_20cm", "tail_lift"):
+    for kind in dict.fromkeys(of[0] for of in HAZARDS.values()):
         columns = tuple(name for name, of in HAZARDS.items() if of[0] == kind)
         runs.append(Run(columns, (*hazards, "--kinds", kind)))
     runs.append(Run(DISTURBANCES, (*hazards, "--kinds", ",".join(DISTURBANCES))))
@@ -157,7 +158,7 @@ def cells_of(run, column, method):
     """{cell: measures} of one method of the run's report."""
     if column in HAZARDS or column in DISTURBANCES:
         return {"": of_hazard(column, method)}
-    measures = next(known.measures for known in COLUMNS if known.name == column)
+    measures = COLUMN_OF[column].measures
     sequences = {"10": method["sequences"]["10"]} if column == "sequence_10" else method["sequences"]
     return {" ".join(filter(None, (run.mount, name))): of_sequence(sequence)[: len(measures)]
             for name, sequence in sequences.items()}  # fmt: skip

@@ -6,7 +6,7 @@ import re
 
 from tables import mean, table
 
-from .columns import COLUMNS, MOUNTED, MOUNTS, SCENES, SENSORS
+from .columns import CLOUDS, COLUMN_OF, MOUNTED, MOUNTS, ROWS_LEFT, SCENES, SENSORS
 from .rows import METHOD, STAGES
 from .worth import summary, worth_table
 
@@ -24,10 +24,6 @@ def figure(value):
     return "" if value is None else f"{value:.2f}"
 
 
-def title_of(column):
-    return next(known.title for known in COLUMNS if known.name == column)
-
-
 def scans_text(results):
     iou, recall = results["rows"][METHOD]["scans"][:2]
     return [f"IoU_g {iou:.1f} %, Recall_o {recall:.1f} %"]
@@ -42,16 +38,15 @@ def stages_table(results):
         iou, recall, f1, no_vegetation = results["rows"][row]["scans"]
         rows.append((name, map(figure, (iou, f1, recall, no_vegetation))))
     ours = results["rows"][METHOD]
-    for column in ("second_row", "fourth_row", "sequence_10"):
+    for column in (*ROWS_LEFT, "sequence_10"):
         iou, recall = ours[column]
-        rows.append((title_of(column), (figure(iou), "", figure(recall), "")))
+        rows.append((COLUMN_OF[column].title, (figure(iou), "", figure(recall), "")))
     return table("", kinds, rows)
 
 
 def clouds_table(results):
-    columns = ("nuscenes", "av2_up", "av2_both", "av2_down", "ika")
-    return table("", ("IoU_g", "Recall_o"), [(title_of(column), map(figure, results["rows"][METHOD][column]))
-                                             for column in columns])  # fmt: skip
+    return table("", ("IoU_g", "Recall_o"), [(COLUMN_OF[column].title, map(figure, results["rows"][METHOD][column]))
+                                             for column in CLOUDS])  # fmt: skip
 
 
 def of_seeds(measures):
@@ -68,7 +63,7 @@ def scenes_table(results, rows):
 
 def simulated_table(results):
     return scenes_table(results, [*((title, sensor, "") for sensor, title in SENSORS.items()),
-                                  (title_of("dual"), "dual", "")])  # fmt: skip
+                                  (COLUMN_OF["dual"].title, "dual", "")])  # fmt: skip
 
 
 def mounts_table(results):

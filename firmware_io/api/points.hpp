@@ -24,15 +24,17 @@ inline void copy_points(const frame::RangeImage& image, std::span<Point> points)
 
 /// Converts a frame. Its points are stored in `room`, which must be large enough for the returns of
 /// any frame.
-[[nodiscard]] inline Frame public_frame(const frame::Frame& frame, std::span<Point> room) noexcept {
-  copy_points(*frame.image, room);
-  return {.number = frame.info.number,
-          .first_packet_ns = frame.info.first_packet_ns,
-          .last_packet_ns = frame.info.last_packet_ns,
-          .complete = frame.info.complete,
-          .deskewed = frame.info.deskew.state == frame::DeskewState::kDone,
-          .packets_lost = frame.info.losses.network_gap_packets,
-          .points = room.first(frame.info.returns),
+[[nodiscard]] inline Frame public_frame(const frame::FrameInfo& info,
+                                        const frame::RangeImage& image,
+                                        std::span<Point> room) noexcept {
+  copy_points(image, room);
+  return {.number = info.number,
+          .first_packet_ns = info.first_packet_ns,
+          .last_packet_ns = info.last_packet_ns,
+          .complete = info.complete,
+          .deskewed = info.deskew.state == frame::DeskewState::kDone,
+          .packets_lost = info.losses.network_gap_packets,
+          .points = room.first(info.returns),
           .labels = {}};
 }
 

@@ -63,26 +63,19 @@ Decoder::SensorReturns Decoder::sensor_of(const calib::SensorCalibration& calibr
 }
 
 FrameBuilder::Config Decoder::frame_config(const Model& model, const Config& config) {
-  const frame::ImageShape shape{model.rows, model.columns};
-  const auto spare = static_cast<std::size_t>(std::max(0, model.returns_per_cell - 1));
   // Beams point up to 10 degrees before and behind the head, so tiles around the seam (azimuth 0)
   // are kept in both frames. Tiles are also cut short where a frame ends or the return mode
   // changes.
   constexpr std::size_t kAroundSeam = 16, kCutTiles = 8;
   const auto firings = static_cast<std::size_t>(model.returns_per_cell * model.columns);
-  const bool keeps_measured = config.keeps_measured && config.motion == nullptr;
-  return {
-      .shape = shape,
-      .overflow_capacity = spare * static_cast<std::size_t>(model.rows * model.columns),
-      .images = config.images,
-      .revolution_ticks = packet::kRevolution_ticks,
-      .measured_tiles =
-          keeps_measured ? (firings + firings / kAroundSeam) / frame::kTileFirings + kCutTiles : 0,
-      .lasers = model.lasers};
+  return {.shape = {model.rows, model.columns},
+          .lasers = model.lasers,
+          .tiles = (firings + firings / kAroundSeam) / frame::kTileFirings + kCutTiles,
+          .buffers = config.buffers,
+          .revolution_ticks = packet::kRevolution_ticks};
 }
 
 std::unique_ptr<frame::TileReader> Decoder::make_reader(memory::FixedMemory& memory) const {
-  if (!frames_.keeps_measured()) return nullptr;
   return std::visit([&](const auto& returns) { return returns.make_reader(memory); }, sensor_);
 }
 
@@ -112,9 +105,9 @@ Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration
     return static_cast<float>(ticks) / static_cast<float>(packet::kRevolution_ticks);
   });
   if (config.motion == nullptr) return;
-  deskewer_.emplace(
-      Deskewer::Config{config.motion, config.deskew_at, frames_.shape(), packet::kRevolution_ticks},
-      beam_ticks, memory);
+  deskewer_.emplace(Deskewer::Config{config.motion, config.deskew_at, frames_.shape(),
+                                     packet::kRevolution_ticks, frames_.buffers().size()},
+                    beam_ticks, memory);
 }
 
 void Decoder::push(const packet::Datagram& datagram) noexcept {
@@ -155,12 +148,17 @@ void Decoder::end_stream() noexcept {
   begin_anew(Step::kEnd);
 }
 
-frame::Frame* Decoder::next(frame::RangeImage* in_exchange) noexcept {
+frame::Frame* Decoder::next(frame::MeasuredReturns* in_exchange) noexcept {
   frame::Frame* frame = frames_.next(in_exchange);
   while (frame == nullptr && go_on()) frame = frames_.next();
   if (frame == nullptr) return nullptr;
   frame->info.blind = blind();
-  if (deskewer_) frame->info.deskew = deskewer_->apply(frames_.oldest(), *frame->image);
+  if (!deskewer_) return frame;
+  // Motions are kept as long as the returns: there is a place for those of each buffer.
+  const auto place = static_cast<std::size_t>(frame->returns - frames_.buffers().data());
+  const Deskewer::Deskewed deskewed = deskewer_->deskew(frames_.oldest(), place);
+  frame->info.deskew = deskewed.info;
+  frame->motions = deskewed.by_row;
   return frame;
 }
 

@@ -20,7 +20,8 @@
 #include "firmware_io/decode/packets_in_doubt.hpp"
 #include "firmware_io/decode/stream_tracker.hpp"
 #include "firmware_io/frame/frame_info.hpp"
-#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/frame/measured_returns.hpp"
+#include "firmware_io/frame/point_image.hpp"
 #include "firmware_io/hdl64e/hdl64e_sensor.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
@@ -32,9 +33,11 @@
 
 namespace terracut::decode {
 
-/// Turns data packets of one spinning sensor into frames of returns. A few packets at a time are
-/// placed in the cells of the range image; all of a frame's returns are placed before it is handed
-/// out. Everything that differs between models is in a trait (packet_returns.hpp).
+/// Turns data packets of one spinning sensor into frames of returns, as measured
+/// (frame::MeasuredReturns). A few packets at a time are placed: their columns and the owners of
+/// cells are found; all of a frame's returns are placed before it is handed out. Points are made of
+/// them where they are needed: with make_reader(), or by a point_image(). Everything that differs
+/// between models is in a trait (packet_returns.hpp).
 ///
 /// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
 /// decoded packet is placed or counted (overflow_full_returns, late_returns); a packet is decoded
@@ -50,24 +53,21 @@ class Decoder {
  public:
   struct Config {
     int columns = 0;  ///< Firings per frame at the sensor's spin rate; 0: those at 10 Hz.
-    /// Memory for this many returns per cell on average; further returns are counted and lost. 0:
-    /// enough for single return at 10 Hz, with a margin.
+    /// Memory for this many firings per column on average, each a return per cell at most; returns
+    /// of further firings are counted and lost. 0: enough for single return at 10 Hz, with a
+    /// margin.
     int returns_per_cell = 0;
     /// In dual return, which of the two returns owns the cell. Both are placed and labelled.
     frame::CellOwner dual_owner = frame::CellOwner::kStrongest;
-    int images = 3;  ///< FrameBuilder::Config::images
-    /// True: frames keep their returns as measured, in less than a third of the memory;
-    /// make_reader() computes their points where needed. Ignored if `motion` is set.
-    bool keeps_measured = false;
+    int buffers = 3;  ///< FrameBuilder::Config::buffers
     /// A packet that arrives up to this many packets late still reaches its frame: a frame is
     /// handed over only when the hindmost beam of a later packet begins past the seam and this many
     /// more packets have come. The latency grows by the time of that many packets, plus one; with
     /// 0, a frame is handed over with its last packet. Of packets that are later still, only the
     /// returns of frames already handed over are lost, and counted.
     int reorder_packets = 2;
-    /// If set, every frame is deskewed before it is handed over (FrameInfo::deskew). The decoder's
-    /// thread becomes the reader of the motion, which must outlive the decoder. Null: returns are
-    /// handed over as seen.
+    /// If set, every frame comes with the motions that deskew its points (Frame::motions). The
+    /// decoder's thread becomes the reader of the motion, which must outlive the decoder.
     vehicle::EgoMotion* motion = nullptr;
     frame::FrameInstant deskew_at = frame::FrameInstant::kEnd;
     hdl64e::Hdl64eSensor::Config hdl64e;
@@ -92,21 +92,21 @@ class Decoder {
 
   /// Returns the next frame completed by push() or end_stream(); null if there is none and all
   /// pushed packets are decoded. Call this until it returns null. The frame is valid until the next
-  /// call. For `in_exchange` and the lifetime of the image see FrameBuilder::next().
-  [[nodiscard]] frame::Frame* next(frame::RangeImage* in_exchange = nullptr) noexcept
+  /// call. For `in_exchange` and the lifetime of the returns see FrameBuilder::next().
+  [[nodiscard]] frame::Frame* next(frame::MeasuredReturns* in_exchange = nullptr) noexcept
       TERRACUT_NONBLOCKING;
   /// Returns why the last datagram was rejected (and counted, unless kDeviceInfo); nothing if it
   /// was not rejected. Valid once next() has returned null.
   [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept { return rejected_; }
 
   /// Returns the oldest frame not handed over yet, so that work on its columns can start before it
-  /// is complete. If frames are deskewed, no columns count as complete.
+  /// is complete.
   [[nodiscard]] frame::ArrivingFrame arriving() noexcept {
     if (!frames_.started()) return {};
     const packet::RotorInterval to_come{
         complete_ticks_ + completes_behind_ticks_,
         (frames_.oldest() + 1) * packet::kRevolution_ticks + completes_behind_ticks_};
-    return {&frames_.image(frames_.oldest()), deskewer_ ? 0 : complete_columns(),
+    return {&frames_.returns_of(frames_.oldest()), complete_columns(),
             static_cast<float>(blind_.sector().outside_ticks(to_come)) /
                 static_cast<float>(packet::kRevolution_ticks)};
   }
@@ -120,7 +120,7 @@ class Decoder {
   [[nodiscard]] std::uint64_t columns_decoded() const noexcept { return columns_; }
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_.frames(); }
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return frames_.shape(); }
-  /// Returns the most returns a frame may have, as RangeImage::return_capacity() does.
+  /// Returns the most returns a frame may have, as MeasuredReturns::return_capacity() does.
   [[nodiscard]] std::size_t return_capacity() const noexcept { return frames_.return_capacity(); }
   /// Returns for each row the azimuth of its beam minus the head's when it fires, in revolutions.
   [[nodiscard]] std::span<const float> beam_turns() const noexcept { return beam_turns_; }
@@ -139,12 +139,15 @@ class Decoder {
   [[nodiscard]] frame::BlindAzimuths blind() const noexcept {
     return blind_azimuths(blind_.sector());
   }
-  /// Makes a reader for frames that keep their returns as measured; null if frames have points.
-  /// Takes memory; the reader must not outlive this decoder.
+  /// Makes a reader of the frames. Takes memory; the reader must not outlive this decoder.
   [[nodiscard]] std::unique_ptr<frame::TileReader> make_reader(memory::FixedMemory& memory) const;
-  /// Returns all images, for handing frames over by exchange (FrameBuilder); the first two are open
-  /// at the start.
-  [[nodiscard]] std::span<frame::RangeImage> images() noexcept { return frames_.images(); }
+  /// Makes an object that makes points of the frames. Takes memory; must not outlive this decoder.
+  [[nodiscard]] frame::PointImage point_image(memory::FixedMemory& memory) const {
+    return {shape(), return_capacity(), make_reader(memory), memory};
+  }
+  /// Returns all buffers, for handing frames over by exchange (FrameBuilder); the first two are
+  /// open at the start.
+  [[nodiscard]] std::span<frame::MeasuredReturns> buffers() noexcept { return frames_.buffers(); }
 
  private:
   template <class... VelodyneModel>

@@ -40,22 +40,24 @@ Deskewer::Deskewer(const Config& config, std::span<const std::int32_t> beam_tick
   const auto [least, most] = std::minmax_element(beam_ticks.begin(), beam_ticks.end());
   first_shift_ = shift_of(*most, config_);
   last_shift_ = shift_of(*least, config_);
-  const auto head_columns = static_cast<std::size_t>(columns_ + last_shift_ - first_shift_);
-  const std::size_t nodes = head_columns / kNodeColumns + 3;
+  head_columns_ = static_cast<std::size_t>(columns_ + last_shift_ - first_shift_);
+  const std::size_t nodes = head_columns_ / kNodeColumns + 3;
 
   // The memory holds two open frames, and the azimuths by which beams reach into the next frame.
   instants_ns_ = memory.take<std::int64_t>("deskew", std::bit_ceil(3 * nodes));
   node_ns_ = memory.take<std::int64_t>("deskew", nodes);
   node_poses_ = memory.take<vehicle::PlanarPose>("deskew", nodes);
   for (std::span<float>* plane : {&cosine_, &sine_, &x_m_, &y_m_}) {
-    *plane = memory.take<float>("deskew", head_columns);
+    *plane = memory.take<float>("deskew", config.frames * head_columns_);
   }
-  by_row_ = memory.take<frame::PlanarMotions>("deskew", beam_ticks.size());
-  for (std::size_t row = 0; row < by_row_.size(); ++row) {
-    const auto from = static_cast<std::size_t>(shift_of(beam_ticks[row], config_) - first_shift_);
+  by_row_ = memory.take<frame::PlanarMotions>("deskew", config.frames * beam_ticks.size());
+  for (std::size_t i = 0; i < by_row_.size(); ++i) {
+    const std::size_t place = i / beam_ticks.size(), row = i % beam_ticks.size();
+    const auto shift = static_cast<std::size_t>(shift_of(beam_ticks[row], config_) - first_shift_);
+    const std::size_t from = place * head_columns_ + shift;
     const auto count = static_cast<std::size_t>(columns_);
-    by_row_[row] = {cosine_.subspan(from, count), sine_.subspan(from, count),
-                    x_m_.subspan(from, count), y_m_.subspan(from, count)};
+    by_row_[i] = {cosine_.subspan(from, count), sine_.subspan(from, count),
+                  x_m_.subspan(from, count), y_m_.subspan(from, count)};
   }
 }
 
@@ -132,16 +134,18 @@ std::int64_t Deskewer::reference_ns(std::int64_t frame) const noexcept {
   return instant_at(begin + config_.revolution_ticks);
 }
 
-void Deskewer::spread_poses(std::int64_t first_column, std::int64_t first_node) noexcept {
-  for (std::size_t i = 0; i < cosine_.size(); ++i) {
+void Deskewer::spread_poses(std::int64_t first_column, std::int64_t first_node,
+                            std::size_t place) noexcept {
+  for (std::size_t head_column = 0; head_column < head_columns_; ++head_column) {
     // On average a column's beams leave in its middle.
-    const std::int64_t column = first_column + static_cast<std::int64_t>(i);
+    const std::int64_t column = first_column + static_cast<std::int64_t>(head_column);
     const std::int64_t from = first_node * kNodeColumns;
     const auto node = static_cast<std::size_t>((column - from) / kNodeColumns);
     const double share =
         (static_cast<double>((column - from) % kNodeColumns) + 0.5) / double{kNodeColumns};
     const vehicle::PlanarPose& a = node_poses_[node];
     const vehicle::PlanarPose& b = node_poses_[node + 1];
+    const std::size_t i = place * head_columns_ + head_column;
     cosine_[i] = static_cast<float>(a.cosine + share * (b.cosine - a.cosine));
     sine_[i] = static_cast<float>(a.sine + share * (b.sine - a.sine));
     x_m_[i] = static_cast<float>(a.x_m + share * (b.x_m - a.x_m));
@@ -149,7 +153,7 @@ void Deskewer::spread_poses(std::int64_t first_column, std::int64_t first_node) 
   }
 }
 
-frame::DeskewInfo Deskewer::apply(std::int64_t frame, frame::RangeImage& image) noexcept {
+Deskewer::Deskewed Deskewer::deskew(std::int64_t frame, std::size_t place) noexcept {
   vehicle::EgoMotion& motion = *config_.motion;
   motion.take_new();
   const std::int64_t first_column = frame * columns_ + first_shift_;
@@ -168,12 +172,12 @@ frame::DeskewInfo Deskewer::apply(std::int64_t frame, frame::RangeImage& image) 
   if (const auto newest_ns = motion.newest_ns()) {
     info.newest_motion_ns = *newest_ns - instant_at((frame + 1) * config_.revolution_ticks);
   }
-  if (first_node < anew_node_) return info;
-  if (!motion.poses(node_ns_, info.reference_ns, node_poses_)) return info;
-  spread_poses(first_column, first_node);
-  image.move(by_row_);
+  if (first_node < anew_node_) return {info, {}};
+  if (!motion.poses(node_ns_, info.reference_ns, node_poses_)) return {info, {}};
+  spread_poses(first_column, first_node, place);
   info.state = frame::DeskewState::kDone;
-  return info;
+  const auto rows = static_cast<std::size_t>(config_.shape.rows);
+  return {info, by_row_.subspan(place * rows, rows)};
 }
 
 }  // namespace terracut::decode

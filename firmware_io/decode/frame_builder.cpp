@@ -9,38 +9,34 @@
 namespace terracut::decode {
 FrameBuilder::FrameBuilder(const Config& config, memory::FixedMemory& memory)
     : shape_(config.shape), revolution_ticks_(config.revolution_ticks) {
-  if (config.images < 3) {
-    throw std::invalid_argument("FrameBuilder needs 3 images or more: two open, one handed over");
+  if (config.buffers < 3) {
+    throw std::invalid_argument("FrameBuilder needs 3 buffers or more: two open, one handed over");
   }
   if (config.shape.rows < 1 || config.shape.columns < 1 || config.revolution_ticks < 1) {
     throw std::invalid_argument("FrameBuilder needs at least one row, one column and one tick");
   }
-  images_.reserve(static_cast<std::size_t>(config.images));
-  for (int i = 0; i < config.images; ++i) {
-    if (config.measured_tiles > 0) {
-      images_.emplace_back(config.shape, frame::MeasuredReturns(config.shape, config.lasers,
-                                                                config.measured_tiles, memory));
-    } else {
-      images_.emplace_back(config.shape, config.overflow_capacity, memory);
-    }
+  buffers_.reserve(static_cast<std::size_t>(config.buffers));
+  for (int i = 0; i < config.buffers; ++i) {
+    buffers_.emplace_back(config.shape, config.lasers, config.tiles, memory);
   }
-  open_[0].image = &images_[0];
-  open_[1].image = &images_[1];
-  for (std::size_t i = 2; i < images_.size(); ++i) free_.push_back(&images_[i]);
+  open_[0].returns = &buffers_[0];
+  open_[1].returns = &buffers_[1];
+  for (std::size_t i = 2; i < buffers_.size(); ++i) free_.push_back(&buffers_[i]);
 }
 
-frame::RangeImage& FrameBuilder::exchange(frame::RangeImage& handed_over) noexcept {
-  frame::RangeImage& longest_free = *free_[next_free_];
+frame::MeasuredReturns& FrameBuilder::exchange(frame::MeasuredReturns& handed_over) noexcept {
+  frame::MeasuredReturns& longest_free = *free_[next_free_];
   free_[next_free_] = &handed_over;
   next_free_ = (next_free_ + 1) % free_.size();
   return longest_free;
 }
 
-void FrameBuilder::open(std::size_t slot, std::int64_t frame, frame::RangeImage& image) noexcept {
+void FrameBuilder::open(std::size_t slot, std::int64_t frame,
+                        frame::MeasuredReturns& buffer) noexcept {
   OpenFrame& opened = open_[slot];
   opened = OpenFrame{};
-  opened.image = &image;
-  image.clear();
+  opened.returns = &buffer;
+  buffer.clear();
   add_missing(opened, frame, last_gap_, +1, spread_);
 }
 
@@ -50,8 +46,8 @@ void FrameBuilder::start(std::int64_t oldest_frame, std::int64_t rotor_ticks) no
   rolls_ = 0;
   start_ticks_ = frontier_ticks_ = rotor_ticks;
   last_gap_ = {};
-  open(0, oldest_frame, *open_[0].image);
-  open(1, oldest_frame + 1, *open_[1].image);
+  open(0, oldest_frame, *open_[0].returns);
+  open(1, oldest_frame + 1, *open_[1].returns);
 }
 
 void FrameBuilder::add_missing(OpenFrame& frame, std::int64_t number, const Missing& missing,
@@ -131,22 +127,22 @@ void FrameBuilder::pass_over(std::int64_t frame) noexcept {
     count_holes(blind_.outside_ticks(packet::intersection(last_gap_.head, passed)));
   }
   oldest_ = frame;
-  open(0, frame, *open_[0].image);
-  open(1, frame + 1, *open_[1].image);
+  open(0, frame, *open_[0].returns);
+  open(1, frame + 1, *open_[1].returns);
 }
 
 bool FrameBuilder::close_oldest() noexcept {
   const OpenFrame closing = open_[0];
   count_holes(closing.hole_ticks);
-  const bool has_returns = closing.image->returns() > 0;
+  const bool has_returns = closing.returns->returns() > 0;
   if (has_returns) {
-    frame_.image = closing.image;
+    frame_.returns = closing.returns;
     frame_.info = frame::FrameInfo{.number = frames_++,
                                    .first_packet_ns = closing.first_packet_ns,
                                    .last_packet_ns = closing.last_packet_ns,
                                    .head = head_of(closing),
                                    .packets = packets_,
-                                   .returns = closing.image->returns(),
+                                   .returns = closing.returns->returns(),
                                    .complete = seen_whole(closing),
                                    .blind = {},
                                    .losses = losses_,
@@ -169,12 +165,12 @@ void FrameBuilder::flush() noexcept {
   is_ending_ = true;
 }
 
-frame::Frame* FrameBuilder::next(frame::RangeImage* in_exchange) noexcept {
-  if (frame_.image != nullptr) {
-    open_next(in_exchange != nullptr ? *in_exchange : exchange(*frame_.image));
-    frame_.image = nullptr;
+frame::Frame* FrameBuilder::next(frame::MeasuredReturns* in_exchange) noexcept {
+  if (frame_.returns != nullptr) {
+    open_next(in_exchange != nullptr ? *in_exchange : exchange(*frame_.returns));
+    frame_.returns = nullptr;
   }
-  for (; oldest_ < over_before_ && rolls_ > 0; open_next(*open_[0].image)) {
+  for (; oldest_ < over_before_ && rolls_ > 0; open_next(*open_[0].returns)) {
     --rolls_;
     if (close_oldest()) return &frame_;
   }
@@ -183,10 +179,10 @@ frame::Frame* FrameBuilder::next(frame::RangeImage* in_exchange) noexcept {
   return nullptr;
 }
 
-void FrameBuilder::open_next(frame::RangeImage& image) noexcept {
+void FrameBuilder::open_next(frame::MeasuredReturns& buffer) noexcept {
   open_[0] = open_[1];
   ++oldest_;
-  open(1, oldest_ + 1, image);
+  open(1, oldest_ + 1, buffer);
 }
 
 frame::LossCounters FrameBuilder::total_losses() const noexcept {

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "firmware_io/frame/frame_info.hpp"
-#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/frame/image_shape.hpp"
+#include "firmware_io/frame/measured_returns.hpp"
 #include "firmware_io/packet/beam_spread.hpp"
 #include "firmware_io/packet/rotor_sector.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -20,8 +21,8 @@ namespace terracut::decode {
 /// Sorts returns into frames, for any sensor.
 ///
 /// Beams point some degrees before and behind the head, so around the seam (azimuth 0) returns of
-/// frame k and of frame k + 1 arrive mixed. Two images are open at any time, one of the `oldest()`
-/// frame and one of the next: a laser that passes the seam late still lands in the right one.
+/// frame k and of frame k + 1 arrive mixed. Two frames are open at any time, the `oldest()` and the
+/// next: a laser that passes the seam late still lands in the right one.
 /// next() hands out the oldest frame when the decoder has seen the hindmost beam pass the seam. A
 /// frame without returns is skipped; one with missing firings has complete = false.
 ///
@@ -30,22 +31,19 @@ namespace terracut::decode {
 ///   hindmost beam     ............|------ frame k ---|=== frame k+1
 ///
 /// Frames are pulled: roll_to() and flush() say which frames have ended, next() hands these out one
-/// by one. With n images, the image handed out stays untouched until the (n - 2)th frame after it.
-/// If the next call of next() gets another image in exchange, the builder goes on with that one and
-/// never touches the image it handed out, which may go to a reader on another thread.
+/// by one. With n buffers, the one handed out stays untouched until the (n - 2)th frame after it.
+/// If the next call of next() gets another buffer in exchange, the builder goes on with that one
+/// and never touches the buffer it handed out, which may go to a reader on another thread.
 ///
 /// Memory is taken in the constructor; nothing else allocates, locks or throws. One thread.
 class FrameBuilder {
  public:
   struct Config {
     frame::ImageShape shape;
-    /// Most returns of a frame that may lie in cells already taken.
-    std::size_t overflow_capacity = 0;
-    int images = 3;                     ///< >= 3: two open, one handed out.
+    std::size_t lasers = 0;             ///< Lasers in each tile of returns.
+    std::size_t tiles = 0;              ///< Most tiles of a frame.
+    int buffers = 3;                    ///< >= 3: two open, one handed out.
     std::int64_t revolution_ticks = 0;  ///< Ticks of azimuth in 360 degrees.
-    /// If not 0, frames are kept as measured, with memory for this many tiles; 0: kept as points.
-    std::size_t measured_tiles = 0;
-    std::size_t lasers = 0;  ///< Lasers in each tile.
   };
 
   /// Throws std::invalid_argument on a setting outside its range.
@@ -60,22 +58,10 @@ class FrameBuilder {
   [[nodiscard]] bool started() const noexcept { return started_; }
   [[nodiscard]] std::int64_t oldest() const noexcept { return oldest_; }
 
-  /// Puts a return into an open frame. If the frame's overflow list is full, counts the return and
-  /// returns false.
-  bool place(std::int64_t frame, int row, int column, const frame::Return& point,
-             frame::CellOwner owner = frame::CellOwner::kFirstArrived) noexcept {
-    if (image(frame).place(row, column, point, owner)) return true;
-    ++losses_.overflow_full_returns;
-    return false;
+  /// Returns the returns of an open frame, for adding more.
+  [[nodiscard]] frame::MeasuredReturns& returns_of(std::int64_t frame) noexcept {
+    return *open_[static_cast<std::size_t>(frame - oldest_)].returns;
   }
-
-  /// Returns an open frame's image, for placing returns with place_numbered() where there is room.
-  [[nodiscard]] frame::RangeImage& image(std::int64_t frame) noexcept {
-    return *open_[static_cast<std::size_t>(frame - oldest_)].image;
-  }
-
-  /// True if all images keep their returns as measured (RangeImage::measured()).
-  [[nodiscard]] bool keeps_measured() const noexcept { return images_[0].measured() != nullptr; }
 
   /// Sets the blind sector, so that nothing counts as missing there: in intervals passed from now
   /// on, and at the stream's beginning and end.
@@ -107,9 +93,9 @@ class FrameBuilder {
   void flush() noexcept TERRACUT_NONBLOCKING;
 
   /// Returns the oldest ended frame that has returns; null if there is none. The frame is valid
-  /// until the next call. `in_exchange` is one of images() that nobody else uses and replaces the
-  /// image handed out last; if null, the builder reuses the image that it handed out longest ago.
-  [[nodiscard]] frame::Frame* next(frame::RangeImage* in_exchange = nullptr) noexcept
+  /// until the next call. `in_exchange` is one of buffers() that nobody else uses and replaces the
+  /// one handed out last; if null, the builder reuses the buffer that it handed out longest ago.
+  [[nodiscard]] frame::Frame* next(frame::MeasuredReturns* in_exchange = nullptr) noexcept
       TERRACUT_NONBLOCKING;
 
   /// Returns the losses since the last frame was handed over, so that the decoder can add the ones
@@ -119,16 +105,16 @@ class FrameBuilder {
   [[nodiscard]] frame::LossCounters total_losses() const noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_; }
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return shape_; }
-  /// Returns RangeImage::return_capacity(), which is the same for all images.
+  /// Returns MeasuredReturns::return_capacity(), which is the same for all buffers.
   [[nodiscard]] std::size_t return_capacity() const noexcept {
-    return images_[0].return_capacity();
+    return buffers_[0].return_capacity();
   }
-  /// Returns all images; the first two are open at the start.
-  [[nodiscard]] std::span<frame::RangeImage> images() noexcept { return images_; }
+  /// Returns all buffers; the first two are open at the start.
+  [[nodiscard]] std::span<frame::MeasuredReturns> buffers() noexcept { return buffers_; }
 
  private:
   struct OpenFrame {
-    frame::RangeImage* image = nullptr;
+    frame::MeasuredReturns* returns = nullptr;
     std::int64_t first_packet_ns = 0, last_packet_ns = 0;
     /// The head's azimuth at the first and the last packet.
     std::int64_t first_ticks = 0, last_ticks = 0;
@@ -138,10 +124,10 @@ class FrameBuilder {
     bool touched = false;
   };
 
-  /// Takes `handed_over` out of use and returns the image that was handed over longest ago.
-  [[nodiscard]] frame::RangeImage& exchange(frame::RangeImage& handed_over) noexcept
+  /// Takes `handed_over` out of use and returns the buffer that was handed over longest ago.
+  [[nodiscard]] frame::MeasuredReturns& exchange(frame::MeasuredReturns& handed_over) noexcept
       TERRACUT_NONBLOCKING;
-  void open(std::size_t slot, std::int64_t frame, frame::RangeImage& image) noexcept;
+  void open(std::size_t slot, std::int64_t frame, frame::MeasuredReturns& buffer) noexcept;
   struct Missing {
     packet::RotorInterval head;
     bool is_counted = true;
@@ -155,14 +141,14 @@ class FrameBuilder {
   [[nodiscard]] bool seen_whole(const OpenFrame& frame) const noexcept;
   /// Fills frame_ from the oldest open frame; false if that has no returns.
   [[nodiscard]] bool close_oldest() noexcept TERRACUT_NONBLOCKING;
-  /// Makes the newer open frame the oldest, and opens the next one in `image`.
-  void open_next(frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING;
+  /// Makes the newer open frame the oldest, and opens the next one in `buffer`.
+  void open_next(frame::MeasuredReturns& buffer) noexcept TERRACUT_NONBLOCKING;
 
   frame::ImageShape shape_;
   std::int64_t revolution_ticks_;
-  std::vector<frame::RangeImage> images_;
-  /// Images that are not open: a ring buffer, the oldest at next_free_.
-  std::vector<frame::RangeImage*> free_;
+  std::vector<frame::MeasuredReturns> buffers_;
+  /// Buffers that are not open: a ring, the oldest at next_free_.
+  std::vector<frame::MeasuredReturns*> free_;
   std::size_t next_free_ = 0;
 
   bool started_ = false;
@@ -179,7 +165,7 @@ class FrameBuilder {
   std::uint32_t frames_ = 0;
   std::uint32_t packets_ = 0;
   frame::LossCounters losses_, losses_handed_over_;
-  /// The frame handed out; its image stays open until next() is called again.
+  /// The frame handed out; its buffer stays open until next() is called again.
   frame::Frame frame_;
 };
 

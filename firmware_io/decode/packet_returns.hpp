@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -15,7 +14,7 @@
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/sensor_tile_reader.hpp"
 #include "firmware_io/decode/tile_columns.hpp"
-#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/frame/measured_returns.hpp"
 #include "firmware_io/packet/firing_returns.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/packet/rotor_directions.hpp"
@@ -30,11 +29,11 @@ struct PacketPlace {
   frame::CellOwner owner{};
 };
 
-/// Takes the returns of packets from their bytes to their cells. Collects several packets, then
-/// places their returns laser by laser:
+/// Takes the returns of packets from their bytes to their frames. Collects several packets, then
+/// adds their returns to one or two frames, and finds the cells that they own:
 ///
 ///   packet  --transposed-->  tile: what each laser found in 24 firings, next to the core
-///   tile    --a laser's constants, 24 firings in vectors-->  points, next to each other in a row
+///   tile    --a laser's constants, 24 firings in vectors-->  columns of the returns, their owners
 ///
 /// `Sensor` is a trait: it has all that differs from model to model, resolved at compile time:
 /// - the types `Calibration` and `Config`;
@@ -71,10 +70,9 @@ class PacketReturns {
         columns_of_(sensor_, columns, memory),
         reader_(sensor_, memory),
         tile_(memory.take<packet::FiringTile<kLasers>>("decoder tables", 1)),
-        beams_(memory.take<frame::BeamColumns>("decoder tables", kLasers)),
-        points_(memory.take<frame::TilePoints>("decoder tables", kLasers)) {}
+        beams_(memory.take<frame::BeamColumns>("decoder tables", kLasers)) {}
 
-  /// Makes a reader that turns frames kept as measured into points, on any one thread.
+  /// Makes a reader that turns frames into points, on any one thread.
   [[nodiscard]] std::unique_ptr<frame::TileReader> make_reader(memory::FixedMemory& memory) const {
     return std::make_unique<SensorTileReader<Sensor>>(sensor_, memory);
   }
@@ -105,28 +103,18 @@ class PacketReturns {
   /// Places all returns added.
   void flush(FrameBuilder& frames) noexcept {
     if (firings_ == 0) return;
-    const std::size_t firings = std::exchange(firings_, 0);
-    complete(firings);
+    complete(std::exchange(firings_, 0));
     tile_[0].turn();
-    if (frames.keeps_measured()) return keep(find_cells(firings, frames, false), frames);
-    const Tile tile = find_cells(firings, frames, true);
-    if (!place_by_laser(tile)) place_by_firing(tile, frames);
+    const std::int64_t first_frame = frames.oldest();
+    const frame::ColumnRange columns = find_columns(first_frame);
+    if (columns.begin < columns_) add_tile(0, frames.returns_of(first_frame), frames.losses());
+    if (columns.end > columns_) add_tile(1, frames.returns_of(first_frame + 1), frames.losses());
   }
   /// True if all returns added are placed.
   [[nodiscard]] bool is_flushed() const noexcept { return firings_ == 0; }
 
  private:
   static constexpr auto kLasers = static_cast<std::size_t>(Sensor::kChannels);
-
-  /// The returns that are to be placed together, and their frames.
-  struct Tile {
-    std::size_t firings;
-    std::int64_t first_frame;                  ///< Number of the older of the two frames.
-    std::array<frame::RangeImage*, 2> images;  ///< Images of the two frames.
-    bool is_in_one_frame;
-    std::size_t frame;  ///< Index of the frame, if all returns are in one.
-  };
-  using Numbers = std::array<frame::TileRow<std::uint32_t>, 2>;  ///< Indexed by frame and firing.
 
   void leave_out(int late_columns, const packet::PacketAzimuths& azimuths,
                  frame::LossCounters& losses) noexcept {
@@ -150,9 +138,9 @@ class PacketReturns {
     }
   }
 
-  [[nodiscard]] Tile find_cells(std::size_t firings, FrameBuilder& frames,
-                                bool makes_points) noexcept {
-    const std::int64_t first_frame = frames.oldest();
+  /// Finds the tile's columns, counted from the first one of `first_frame`, and returns the range
+  /// they lie in.
+  [[nodiscard]] frame::ColumnRange find_columns(std::int64_t first_frame) noexcept {
     for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
       heads_.head_cdeg[f] =
           static_cast<std::int32_t>(rotor_cdeg_[f] - first_frame * beams::kRevolution_cdeg);
@@ -160,148 +148,25 @@ class PacketReturns {
       heads_.sin_head[f] = direction.sin;
       heads_.cos_head[f] = direction.cos;
     }
-    if (makes_points) reader_.open(heads_, tile_[0].raw[0].data());
     columns_of_.find(sensor_, heads_, beams_);
-    std::int32_t least = 0, most = 0;
-    for (std::size_t i = 0; i < kLasers; ++i) {
-      least = i == 0 ? beams_[i].least : std::min(least, beams_[i].least);
-      most = i == 0 ? beams_[i].most : std::max(most, beams_[i].most);
+    frame::ColumnRange columns{beams_[0].least, beams_[0].most + 1};
+    for (const frame::BeamColumns& beam : beams_) {
+      columns.begin = std::min(columns.begin, beam.least);
+      columns.end = std::max(columns.end, beam.most + 1);
     }
-    return {.firings = firings,
-            .first_frame = first_frame,
-            .images = {&frames.image(first_frame), &frames.image(first_frame + 1)},
-            .is_in_one_frame = most < columns_ || least >= columns_,
-            .frame = most < columns_ ? 0U : 1U};
+    return columns;
   }
 
-  /// Keeps the tile as measured in each frame that has returns of it.
-  void keep(const Tile& tile, FrameBuilder& frames) noexcept {
-    for (std::size_t n = 0; n < 2; ++n) {
-      if (tile.is_in_one_frame && tile.frame != n) continue;
-      frame::TileHeads heads = heads_;
-      if (n == 1) {
-        for (std::int32_t& head_cdeg : heads.head_cdeg) head_cdeg -= beams::kRevolution_cdeg;
-      }
-      frames.losses().overflow_full_returns +=
-          tile.images[n]->measured()->add({.heads = heads,
-                                           .raw = tile_[0].raw[0].data(),
-                                           .intensity = tile_[0].intensity[0].data(),
-                                           .beams = beams_,
-                                           .first_column = n == 0 ? 0 : columns_},
-                                          owner_, reader_);
-    }
-  }
-
-  /// Counts the returns of each firing by frame.
-  [[nodiscard]] Numbers count(const Tile& tile) const noexcept {
-    Numbers counts{};
-    if (tile.is_in_one_frame) {
-      frame::TileRow<std::uint16_t> all{};
-      for (const frame::TileRow<std::uint16_t>& raw : tile_[0].raw) {
-        for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
-          all[f] = static_cast<std::uint16_t>(all[f] + std::uint16_t{raw[f] != 0});
-        }
-      }
-      std::ranges::copy(all, counts[tile.frame].begin());
-      return counts;
-    }
-    for (std::size_t i = 0; i < kLasers; ++i) {
-      for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
-        counts[frame_of(beams_[i].column[f])][f] += tile_[0].raw[i][f] != 0 ? 1U : 0U;
-      }
-    }
-    return counts;
-  }
-  [[nodiscard]] std::size_t frame_of(std::int32_t column) const noexcept {
-    return column >= columns_ ? 1U : 0U;
-  }
-
-  [[nodiscard]] int column_in(std::size_t frame, std::int32_t column) const noexcept {
-    return frame == 0 ? column : column - columns_;
-  }
-
-  /// Places the tile's returns laser by laser. Returns false and places nothing if an overflow list
-  /// might become full.
-  [[nodiscard]] bool place_by_laser(const Tile& tile) noexcept {
-    Numbers numbers = count(tile);
-    std::array<std::uint32_t, 2> returns{};
-    for (std::size_t n = 0; n < 2; ++n) {
-      for (std::uint32_t& number : numbers[n]) {
-        number = std::exchange(returns[n], returns[n] + number);
-      }
-      if (!tile.images[n]->has_room_for(returns[n])) return false;
-    }
-    for (std::size_t n = 0; n < 2; ++n) {
-      const std::uint32_t first = tile.images[n]->take_numbers(returns[n]);
-      for (std::uint32_t& number : numbers[n]) number += first;
-    }
-    for (std::size_t i = 0; i < kLasers; ++i) {
-      const bool is_run = beams_[i].is_one_run && tile.is_in_one_frame;
-      if (is_run && tile.firings == frame::kTileFirings &&
-          place_run(tile, i, numbers[tile.frame])) {
-        continue;
-      }
-      place_one_by_one(tile, i, numbers);
-    }
-    return true;
-  }
-
-  /// Places a laser's returns in adjacent columns; false if one of the cells is taken.
-  [[nodiscard]] bool place_run(const Tile& tile, std::size_t laser,
-                               frame::TileRow<std::uint32_t>& numbers) noexcept {
-    frame::RangeImage& image = *tile.images[tile.frame];
-    const int row = sensor_.rows()[laser];
-    const int column = column_in(tile.frame, beams_[laser].least);
-    if (!image.is_empty_from(row, column)) return false;
-    image.fetch_to_write(row, column + int{frame::kTileFirings});
-    const frame::RangeImage::Cells cells = image.take_cells(row, column, frame::kTileFirings);
-    reader_.compute_points(laser, {cells.x_m, cells.y_m, cells.z_m, cells.ground_range_m});
-    packet::fill_cells(tile_[0].raw[laser], tile_[0].intensity[laser], cells, numbers);
-    return true;
-  }
-
-  /// Places returns one by one. Needed for firings that share or skip a column, come late or cross
-  /// the seam.
-  void place_one_by_one(const Tile& tile, std::size_t laser, Numbers& numbers) noexcept {
-    reader_.compute_points(laser, all_of(points_[laser]));
-    const frame::TileRow<std::int32_t>& column = beams_[laser].column;
-    const int row = sensor_.rows()[laser];
-    const std::size_t newest = frame_of(beams_[laser].most);
-    tile.images[newest]->fetch_to_write(row, column_in(newest, beams_[laser].most));
-    // A branch would be mispredicted: which firings have a return is nearly random.
-    std::array<std::uint8_t, frame::kTileFirings> hits;
-    std::size_t hit_count = 0;
-    for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
-      hits[hit_count] = static_cast<std::uint8_t>(f);
-      hit_count += tile_[0].raw[laser][f] != 0 ? 1 : 0;
-    }
-    for (std::size_t n = 0; n < hit_count; ++n) {
-      const std::size_t f = hits[n];
-      const std::size_t frame = frame_of(column[f]);
-      tile.images[frame]->place_numbered(row, column_in(frame, column[f]), point(laser, f), owner_,
-                                         numbers[frame][f]++);
-    }
-  }
-
-  /// Places the returns in order of arrival.
-  void place_by_firing(const Tile& tile, FrameBuilder& frames) noexcept {
-    for (std::size_t i = 0; i < kLasers; ++i) reader_.compute_points(i, all_of(points_[i]));
-    const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
-    for (std::size_t f = 0; f < tile.firings; ++f) {
-      for (std::size_t i = 0; i < kLasers; ++i) {
-        if (tile_[0].raw[i][f] == 0) continue;
-        const std::int32_t column = beams_[i].column[f];
-        const std::size_t frame = frame_of(column);
-        frames.place(tile.first_frame + static_cast<std::int64_t>(frame), rows[i],
-                     column_in(frame, column), point(i, f), owner_);
-      }
-    }
-  }
-
-  [[nodiscard]] frame::Return point(std::size_t laser, std::size_t firing) const noexcept {
-    const frame::TilePoints& points = points_[laser];
-    return {points.x_m[firing], points.y_m[firing], points.z_m[firing],
-            points.ground_range_m[firing], tile_[0].intensity[laser][firing]};
+  /// Adds the tile's returns in the n-th frame from the one in which columns are counted.
+  void add_tile(int n, frame::MeasuredReturns& returns, frame::LossCounters& losses) noexcept {
+    frame::TileHeads heads = heads_;
+    for (std::int32_t& head_cdeg : heads.head_cdeg) head_cdeg -= n * beams::kRevolution_cdeg;
+    losses.overflow_full_returns += returns.add({.heads = heads,
+                                                 .raw = tile_[0].raw[0].data(),
+                                                 .intensity = tile_[0].intensity[0].data(),
+                                                 .beams = beams_,
+                                                 .first_column = n * columns_},
+                                                owner_, reader_);
   }
 
   Sensor sensor_;
@@ -311,9 +176,7 @@ class PacketReturns {
   SensorTileReader<Sensor> reader_;
   std::span<packet::FiringTile<kLasers>> tile_;  ///< A span of one tile.
   std::span<frame::BeamColumns> beams_;          ///< Indexed by laser.
-  /// Indexed by laser; used if the cells do not hold the points.
-  std::span<frame::TilePoints> points_;
-  frame::TileRow<std::int64_t> rotor_cdeg_{};  ///< Indexed by firing.
+  frame::TileRow<std::int64_t> rotor_cdeg_{};    ///< Indexed by firing.
   frame::TileHeads heads_{};
   std::size_t firings_ = 0;  ///< Firings added and not placed yet.
   frame::CellOwner owner_{};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace terracut::frame {
@@ -31,6 +32,12 @@ enum class DeskewState : std::uint8_t {
   }
   return "unknown";
 }
+
+/// Rigid motions in the ground plane, one per column: x' = c x - s y + t_x, y' = s x + c y + t_y. A
+/// frame is deskewed by one of these for each row.
+struct PlanarMotions {
+  std::span<const float> cosine, sine, x_m, y_m;
+};
 
 /// Whether and how the vehicle's motion was removed from a frame.
 struct DeskewInfo {

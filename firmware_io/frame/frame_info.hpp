@@ -3,11 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "calib/beams/angle.hpp"
 #include "firmware_io/frame/deskew_info.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
-#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/frame/measured_returns.hpp"
 
 namespace terracut::frame {
 
@@ -37,7 +38,7 @@ struct FrameInfo {
   std::int64_t last_packet_ns = 0;
   HeadSweep head;
   std::uint32_t packets = 0;  ///< Packets decoded since the last frame was handed over.
-  std::uint32_t returns = 0;  ///< Returns placed; equals RangeImage::returns().
+  std::uint32_t returns = 0;  ///< Returns placed; equals MeasuredReturns::returns().
   /// True if every firing of the frame was seen, from seam to seam, except where the sensor is
   /// blind.
   bool complete = false;
@@ -46,16 +47,19 @@ struct FrameInfo {
   DeskewInfo deskew;    ///< Whether and how the frame was deskewed.
 };
 
-/// One frame: the returns of one revolution of the head. The function that hands the frame out says
-/// how long its image is valid.
+/// One frame: the returns of one revolution of the head, as measured. The function that hands the
+/// frame out says how long they are valid.
 struct Frame {
   FrameInfo info;
-  RangeImage* image = nullptr;
+  MeasuredReturns* returns = nullptr;
+  /// If the frame is deskewed, how its points are to be moved: one element per row, valid as long
+  /// as the returns. Else empty.
+  std::span<const PlanarMotions> motions;
 };
 
 /// The oldest frame of a decoder, while packets still fill it.
 struct ArrivingFrame {
-  const RangeImage* image = nullptr;
+  const MeasuredReturns* returns = nullptr;
   /// Columns [0, complete_columns) are complete; only a packet later than the decoder waits for may
   /// still change them.
   int complete_columns = 0;

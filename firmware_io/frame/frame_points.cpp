@@ -15,9 +15,9 @@ FramePoints::FramePoints(ImageShape shape, std::unique_ptr<TileReader> reader,
       z_m_(memory.take<float>("points of a frame", shape.cells())),
       ground_range_m_(memory.take<float>("points of a frame", shape.cells())) {}
 
-void FramePoints::begin(const RangeImage& image) noexcept {
-  image_ = &image;
-  generation_ = image.generation();
+void FramePoints::begin(const MeasuredReturns& returns) noexcept {
+  begun_ = &returns;
+  generation_ = returns.generation();
   next_ = 0;
   std::fill(z_m_.begin(), z_m_.end(), kNoHeight_m);
 }

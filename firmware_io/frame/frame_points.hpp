@@ -9,16 +9,17 @@
 #include <utility>
 
 #include "firmware_io/frame/firing_tile.hpp"
+#include "firmware_io/frame/image_shape.hpp"
 #include "firmware_io/frame/measured_returns.hpp"
 #include "firmware_io/frame/point_planes.hpp"
-#include "firmware_io/frame/range_image.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::frame {
 
-/// Computes the points of frames that keep their returns as measured: only where they are needed,
-/// into planes of a whole image, one frame after the other.
+/// Computes the points of decoded frames only where they are needed, into planes of a whole image,
+/// one frame after the other. Whoever needs all points, with their intensities and numbers, uses
+/// PointImage.
 ///
 /// Takes its memory in the constructor. One thread; real-time safe.
 class FramePoints {
@@ -27,21 +28,21 @@ class FramePoints {
   FramePoints(ImageShape shape, std::unique_ptr<TileReader> reader, memory::FixedMemory& memory);
 
   /// Begins a frame, or begins it again, with no points computed.
-  void begin(const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
+  void begin(const MeasuredReturns& returns) noexcept TERRACUT_NONBLOCKING;
   /// Computes the points of returns that have arrived in columns before `end`. Call it from left to
   /// right after begin(). A cell without a return gets a NaN height. Calls `take_extra(column, z_m,
   /// ground_range_m)` once for each of these returns that does not own its cell.
   template <class TakeExtra>
-  void make_until(int end, const RangeImage& image, TakeExtra take_extra) noexcept;
+  void make_until(int end, const MeasuredReturns& returns, TakeExtra take_extra) noexcept;
   /// True if all points of the frame are computed.
-  [[nodiscard]] bool has_all_of(const RangeImage& image) const noexcept {
-    return has_begun(image) && next_ == image.measured()->tiles();
+  [[nodiscard]] bool has_all_of(const MeasuredReturns& returns) const noexcept {
+    return has_begun(returns) && next_ == returns.tiles();
   }
   /// Computes the points of all cells for which `is_wanted(row, ColumnRange)`, unless all of the
   /// frame's are computed. Other cells, and cells without a return, hold arbitrary values. Ends the
   /// frame that begin() began.
   template <class IsWanted>
-  void make_where(const RangeImage& image, IsWanted is_wanted) noexcept;
+  void make_where(const MeasuredReturns& returns, IsWanted is_wanted) noexcept;
   [[nodiscard]] PointPlanes planes() const noexcept {
     return {x_m_.data(), y_m_.data(), z_m_.data(), ground_range_m_.data()};
   }
@@ -50,8 +51,8 @@ class FramePoints {
   [[nodiscard]] TileReader& reader() noexcept { return *reader_; }
 
  private:
-  [[nodiscard]] bool has_begun(const RangeImage& image) const noexcept {
-    return image_ == &image && generation_ == image.generation();
+  [[nodiscard]] bool has_begun(const MeasuredReturns& returns) const noexcept {
+    return begun_ == &returns && generation_ == returns.generation();
   }
   /// Computes the points of a laser in the open tile; `take_extra` is as in make_until().
   template <class TakeExtra>
@@ -63,15 +64,15 @@ class FramePoints {
   ImageShape shape_;
   std::unique_ptr<TileReader> reader_;
   std::span<float> x_m_, y_m_, z_m_, ground_range_m_;
-  const RangeImage* image_ = nullptr;  ///< The image of the frame begun by begin().
+  const MeasuredReturns* begun_ = nullptr;  ///< The frame begun by begin().
   std::uint32_t generation_ = 0;
   std::size_t next_ = 0;  ///< The first tile whose points are not computed yet.
   TilePoints points_;
 };
 
 template <class TakeExtra>
-void FramePoints::make_until(int end, const RangeImage& image, TakeExtra take_extra) noexcept {
-  const MeasuredReturns& returns = *image.measured();
+void FramePoints::make_until(int end, const MeasuredReturns& returns,
+                             TakeExtra take_extra) noexcept {
   // Tiles come from left to right, except late ones: some of their points are computed before `end`
   // reaches them, which does no harm.
   for (; next_ < returns.tiles() && returns.tile(next_).least < end; ++next_) {
@@ -83,10 +84,9 @@ void FramePoints::make_until(int end, const RangeImage& image, TakeExtra take_ex
 }
 
 template <class IsWanted>
-void FramePoints::make_where(const RangeImage& image, IsWanted is_wanted) noexcept {
-  if (has_all_of(image)) return;
-  image_ = nullptr;
-  const MeasuredReturns& returns = *image.measured();
+void FramePoints::make_where(const MeasuredReturns& returns, IsWanted is_wanted) noexcept {
+  if (has_all_of(returns)) return;
+  begun_ = nullptr;
   const std::span<const std::int32_t> rows = reader_->rows();
   for (std::size_t t = 0; t < returns.tiles(); ++t) {
     bool is_open = false;

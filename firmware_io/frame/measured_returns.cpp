@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "rt/vector_clones.hpp"
 
@@ -113,6 +114,7 @@ MeasuredReturns::MeasuredReturns(ImageShape shape, std::size_t lasers, std::size
       shared_(memory.take<std::uint64_t>("measured returns", taken_.size())) {}
 
 void MeasuredReturns::clear() noexcept {
+  ++generation_;
   used_ = 0;
   returns_ = 0;
   std::fill(taken_.begin(), taken_.end(), std::uint64_t{0});
@@ -137,6 +139,7 @@ std::uint32_t MeasuredReturns::add(const NewTile& tile, CellOwner owner,
   Tile& added = tiles_[used_];
   added = {.heads = tile.heads, .first_return = {}, .least = shape_.columns, .most = -1};
   const std::size_t number = used_++;
+  open_ = kNoTile;
   const std::span<const std::int32_t> rows = reader.rows();
   std::array<std::uint32_t, kMostLasers> hits;
   find_hits(tile.raw, lasers_, hits.data());
@@ -232,7 +235,7 @@ void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::ui
     });
     add_bits(cells, column, now & ~before);
     left &= ~taken.owned;
-    left &= ~take_pairs(laser, row, left, owner);
+    left &= ~take_pairs(laser, row, left, owner, reader);
   }
   for_each_firing(left, [&](std::size_t f) noexcept {
     take_cell({used_ - 1, laser, f}, row, columns[f], owner, reader);
@@ -240,8 +243,7 @@ void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::ui
 }
 
 std::uint32_t MeasuredReturns::take_pairs(std::size_t laser, int row, std::uint32_t left,
-                                          CellOwner owner) noexcept {
-  if (owner != CellOwner::kFirstArrived && owner != CellOwner::kStrongest) return 0;
+                                          CellOwner owner, TileReader& reader) noexcept {
   LaserRow& taken = row_at(used_ - 1, laser);
   const std::size_t values = ((used_ - 1) * lasers_ + laser) * kTileFirings;
   const std::uint16_t* const columns = &columns_[values];
@@ -254,11 +256,22 @@ std::uint32_t MeasuredReturns::take_pairs(std::size_t laser, int row, std::uint3
     cells |= std::uint64_t{1} << (columns[f] - static_cast<unsigned>(taken.least));
   });
   add_bits(bits_of(shared_, row), static_cast<std::size_t>(taken.least), cells);
-  if (owner == CellOwner::kFirstArrived) return pairs;
-  const std::uint32_t stronger =
-      pairs & where_after(&intensity_[values],
-                          [](std::uint8_t own, std::uint8_t before) { return own > before; });
-  taken.owned ^= stronger | stronger >> 1U;
+  const std::uint32_t won = pairs & [&]() noexcept -> std::uint32_t {
+    const auto is_more = [](auto own, auto before) { return own > before; };
+    const auto is_less = [](auto own, auto before) { return own < before; };
+    switch (owner) {
+      case CellOwner::kFirstArrived:
+        break;
+      case CellOwner::kStrongest:
+        return where_after(&intensity_[values], is_more);
+      case CellOwner::kNearest:
+        return where_after(ground_ranges_m(used_ - 1, laser, reader).data(), is_less);
+      case CellOwner::kFarthest:
+        return where_after(ground_ranges_m(used_ - 1, laser, reader).data(), is_more);
+    }
+    return 0;
+  }();
+  taken.owned ^= won | won >> 1U;
   return pairs;
 }
 
@@ -320,9 +333,12 @@ MeasuredReturns::Place MeasuredReturns::owner_before(const Place& newest, int ro
 }
 
 bool MeasuredReturns::goes_before(const Place& newer, const Place& older, CellOwner owner,
-                                  TileReader& reader) const noexcept {
+                                  TileReader& reader) noexcept {
   const auto intensity = [&](const Place& at) noexcept {
     return intensity_[(at.tile * lasers_ + at.laser) * kTileFirings + at.firing];
+  };
+  const auto range_m = [&](const Place& at) noexcept {
+    return ground_ranges_m(at.tile, at.laser, reader)[at.firing];
   };
   switch (owner) {
     case CellOwner::kFirstArrived:
@@ -330,18 +346,19 @@ bool MeasuredReturns::goes_before(const Place& newer, const Place& older, CellOw
     case CellOwner::kStrongest:
       return intensity(newer) > intensity(older);
     case CellOwner::kNearest:
-      return ground_range_m(newer, reader) < ground_range_m(older, reader);
+      return range_m(newer) < range_m(older);
     case CellOwner::kFarthest:
-      return ground_range_m(newer, reader) > ground_range_m(older, reader);
+      return range_m(newer) > range_m(older);
   }
   return false;
 }
 
-float MeasuredReturns::ground_range_m(const Place& at, TileReader& reader) const noexcept {
+TileRow<float> MeasuredReturns::ground_ranges_m(std::size_t tile, std::size_t laser,
+                                                TileReader& reader) noexcept {
   TilePoints points;
-  reader.open(tiles_[at.tile].heads, raw(at.tile));
-  reader.compute_points(at.laser, all_of(points));
-  return points.ground_range_m[at.firing];
+  if (std::exchange(open_, tile) != tile) reader.open(tiles_[tile].heads, raw(tile));
+  reader.compute_points(laser, all_of(points));
+  return points.ground_range_m;
 }
 
 }  // namespace terracut::frame

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 
 #include "firmware_io/frame/cell_owner.hpp"
@@ -63,6 +64,8 @@ class MeasuredReturns {
   [[nodiscard]] std::uint32_t add(const NewTile& tile, CellOwner owner,
                                   TileReader& reader) noexcept TERRACUT_NONBLOCKING;
 
+  /// Returns a number that changes with every clear().
+  [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
   [[nodiscard]] std::size_t tiles() const noexcept { return used_; }
   [[nodiscard]] const Tile& tile(std::size_t number) const noexcept { return tiles_[number]; }
   [[nodiscard]] const LaserRow& row(std::size_t tile, std::size_t laser) const noexcept {
@@ -70,6 +73,10 @@ class MeasuredReturns {
   }
   [[nodiscard]] const std::uint16_t* raw(std::size_t tile) const noexcept {
     return &raw_[tile * lasers_ * kTileFirings];
+  }
+  /// Returns the intensities of a laser's firings.
+  [[nodiscard]] const std::uint8_t* intensity(std::size_t tile, std::size_t laser) const noexcept {
+    return &intensity_[(tile * lasers_ + laser) * kTileFirings];
   }
   /// True if one of these cells of the row has several returns.
   [[nodiscard]] bool has_shared(int row, ColumnRange columns) const noexcept TERRACUT_NONBLOCKING;
@@ -101,6 +108,8 @@ class MeasuredReturns {
   }
 
  private:
+  static constexpr std::size_t kNoTile = std::numeric_limits<std::size_t>::max();
+
   struct Place {
     std::size_t tile, laser, firing;
   };
@@ -109,10 +118,10 @@ class MeasuredReturns {
   void take_cells(const NewTile& tile, std::size_t laser, std::uint32_t hits, int row,
                   CellOwner owner, TileReader& reader) noexcept;
   /// Of the returns `left` of a laser, handles those whose cell belongs to the previous firing, the
-  /// other return of the same beam. Decides the owner of such a cell if this needs no points, and
-  /// returns the mask of firings decided.
+  /// other return of the same beam: decides the owner of such a cell. Returns the mask of these
+  /// firings.
   [[nodiscard]] std::uint32_t take_pairs(std::size_t laser, int row, std::uint32_t left,
-                                         CellOwner owner) noexcept;
+                                         CellOwner owner, TileReader& reader) noexcept;
   /// Places a return in a cell that may be taken already.
   void take_cell(const Place& at, int row, int column, CellOwner owner,
                  TileReader& reader) noexcept;
@@ -123,8 +132,10 @@ class MeasuredReturns {
   [[nodiscard]] Place owner_before(const Place& newest, int row, int column,
                                    TileReader& reader) const noexcept;
   [[nodiscard]] bool goes_before(const Place& newer, const Place& older, CellOwner owner,
-                                 TileReader& reader) const noexcept;
-  [[nodiscard]] float ground_range_m(const Place& at, TileReader& reader) const noexcept;
+                                 TileReader& reader) noexcept;
+  /// Returns the horizontal distances of the returns of a laser.
+  [[nodiscard]] TileRow<float> ground_ranges_m(std::size_t tile, std::size_t laser,
+                                               TileReader& reader) noexcept;
   [[nodiscard]] std::span<std::uint64_t> bits_of(std::span<std::uint64_t> cells,
                                                  int row) const noexcept {
     return cells.subspan(static_cast<std::size_t>(row) * words_, words_);
@@ -135,7 +146,9 @@ class MeasuredReturns {
 
   ImageShape shape_;
   std::size_t lasers_, words_;
+  std::uint32_t generation_ = 1;
   std::size_t used_ = 0;
+  std::size_t open_ = kNoTile;  ///< The tile that is open in the reader of add().
   std::uint32_t returns_ = 0;
   std::span<Tile> tiles_;
   std::span<LaserRow> rows_;      ///< Indexed [tile][laser].

@@ -71,26 +71,4 @@ TERRACUT_VECTOR_CLONES void find_columns(const std::int32_t* __restrict rotor_co
   found.is_one_run = differ == 0;
 }
 
-namespace {
-
-/// The function takes the tables as parameters so that they can be __restrict.
-TERRACUT_VECTOR_CLONES void fill(const std::uint16_t* __restrict raw,
-                                 const std::uint8_t* __restrict intensity,
-                                 std::uint32_t* __restrict numbers,
-                                 std::uint8_t* __restrict intensity_out,
-                                 std::uint32_t* __restrict return_index) noexcept {
-  for (std::size_t f = 0; f < kTileFirings; ++f) intensity_out[f] = intensity[f];
-  for (std::size_t f = 0; f < kTileFirings; ++f) {
-    return_index[f] = numbers[f];
-    numbers[f] += raw[f] != 0 ? 1U : 0U;
-  }
-}
-
-}  // namespace
-
-void fill_cells(const TileRow<std::uint16_t>& raw, const TileRow<std::uint8_t>& intensity,
-                const frame::RangeImage::Cells& cells, TileRow<std::uint32_t>& numbers) noexcept {
-  fill(raw.data(), intensity.data(), numbers.data(), cells.intensity, cells.return_index);
-}
-
 }  // namespace terracut::packet

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "firmware_io/frame/firing_tile.hpp"
-#include "firmware_io/frame/range_image.hpp"
 #include "firmware_io/frame/transpose.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/packet/rotor_directions.hpp"
@@ -119,11 +118,5 @@ void find_columns(const std::int32_t* __restrict rotor_column,
                   const std::int32_t* __restrict advance_column,
                   const std::int32_t* __restrict advance_rest, ColumnAngle offset,
                   BeamColumns& __restrict found) noexcept TERRACUT_NONBLOCKING;
-
-/// Writes intensities and return numbers into a run of empty cells, but not the points. `numbers`
-/// holds the next return number of each firing.
-void fill_cells(const TileRow<std::uint16_t>& raw, const TileRow<std::uint8_t>& intensity,
-                const frame::RangeImage::Cells& cells,
-                TileRow<std::uint32_t>& numbers) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::packet

@@ -7,9 +7,9 @@
 
 #include "calib/api/calibration_table.hpp"
 #include "firmware_io/api/points.hpp"
+#include "pipeline/api/profile.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
-#include "pipeline/api/profile.hpp"
 
 namespace terracut {
 
@@ -18,7 +18,8 @@ struct PacketPipeline::Engine {
          const decode::Decoder::Config& decoder)
       : pipeline(calibration.table().unit,
                  calib::ring_profile(calibration.table().unit, mount_of(config.mount)), decoder,
-                 ground::maker_of(config_of(config.profile)), memory),
+                 ground::maker_of(config_of(config.profile)), memory,
+                 run::PacketPipeline::Makes::kPoints),
         room(pipeline.decoder().return_capacity()) {}
 
   memory::FixedMemory memory;
@@ -36,6 +37,7 @@ PacketPipeline::~PacketPipeline() = default;
 Expected<PacketPipeline> PacketPipeline::make(const Calibration& calibration,
                                               const Config& config) {
   decode::Decoder::Config decoder;
+  decoder.returns_per_cell = 3;  // an HDL-64E S1 at 5 Hz, in the columns of one at 10 Hz
   decoder.reorder_packets = config.reorder_packets;
   return made(
       [&] { return PacketPipeline(std::make_unique<Engine>(calibration, config, decoder)); });
@@ -53,7 +55,7 @@ const Frame* PacketPipeline::next() noexcept {
   run::Frame* frame = engine_->pipeline.next();
   if (frame == nullptr) return nullptr;
   engine_->pipeline.label(*frame);
-  engine_->frame = public_frame({frame->record.info, frame->image}, engine_->room);
+  engine_->frame = public_frame(frame->record.info, *frame->image, engine_->room);
   engine_->frame.labels = engine_->pipeline.labels();
   return &engine_->frame;
 }

@@ -270,9 +270,9 @@ void RingElevationMap::reset() noexcept {
   std::fill(extremes_.begin(), extremes_.end(), nothing());
 }
 
-void RingElevationMap::take_to(int end, const frame::RangeImage& image,
+void RingElevationMap::take_to(int end, const frame::FrameReturns& frame,
                                const frame::PointPlanes& points) noexcept {
-  if (image.measured() == nullptr) take_overflow(image);
+  if (frame.measured() == nullptr) take_overflow(*frame.image());
   if (taken_.next < end) take_columns(points, {taken_.next, end});
   taken_.next = end;
   settle();

@@ -7,8 +7,8 @@
 #include <limits>
 #include <span>
 
+#include "firmware_io/frame/frame_returns.hpp"
 #include "firmware_io/frame/point_planes.hpp"
-#include "firmware_io/frame/range_image.hpp"
 #include "pipeline/elevation/ground_surface.hpp"
 #include "pipeline/elevation/lone_returns.hpp"
 #include "pipeline/elevation/ring_grid.hpp"
@@ -52,14 +52,14 @@ class RingElevationMap {
   void take_extra(int column, float z_m, float ground_range_m) noexcept TERRACUT_NONBLOCKING;
   /// Takes the sectors from taken() to `end`, whose columns must be complete, and settles those
   /// whose ground is known by now. `points` has the returns that own their cells; other returns are
-  /// in the image's overflow list or came by take_extra().
-  void take_to(int end, const frame::RangeImage& image,
+  /// in an image's overflow list or came by take_extra().
+  void take_to(int end, const frame::FrameReturns& frame,
                const frame::PointPlanes& points) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] int taken() const noexcept { return taken_.next; }
   /// Returns false if a return came after its sector was taken, which makes the result invalid.
   /// Call it once all sectors have been taken.
-  [[nodiscard]] bool saw_all_of(const frame::RangeImage& image) const noexcept {
-    return !was_overtaken_ && seen_ + seen_overflow_ == image.returns();
+  [[nodiscard]] bool saw_all_of(const frame::FrameReturns& frame) const noexcept {
+    return !was_overtaken_ && seen_ + seen_overflow_ == frame.returns();
   }
   /// Returns the sectors whose ground is known. They are numbered on beyond the last sector: the
   /// ground of the first ones depends on the last, so these come at the end.

@@ -27,93 +27,92 @@ CoarseStages::CoarseStages(const SegmenterConfig& config, const mount::RingProfi
                 memory),
       made_(made) {}
 
-void CoarseStages::begin(const frame::RangeImage& image) noexcept {
-  assert((image.measured() != nullptr) == (made_ != nullptr));
-  image_ = &image;
-  generation_ = image.generation();
+void CoarseStages::begin(const frame::FrameReturns& frame) noexcept {
+  assert((frame.measured() != nullptr) == (made_ != nullptr));
+  begun_ = frame.identity();
   map_.reset();
   labelled_ = map_.settled().begin;
-  if (made_ != nullptr) made_->begin(image);
+  if (made_ != nullptr) made_->begin(*frame.measured());
 }
 
 void CoarseStages::done(stage::Stage stage) noexcept {
   if (observer_ != nullptr) observer_->stage_done(stage);
 }
 
-void CoarseStages::take_to(int end, const frame::RangeImage& image) noexcept {
+void CoarseStages::take_to(int end, const frame::FrameReturns& frame) noexcept {
   if (made_ != nullptr) {
-    made_->make_until(map_.grid().columns_of({0, end}).end, image,
+    made_->make_until(map_.grid().columns_of({0, end}).end, *frame.measured(),
                       [this](int column, float z_m, float ground_range_m) noexcept {
                         map_.take_extra(column, z_m, ground_range_m);
                       });
   }
-  map_.take_to(end, image, points_of(image));
+  map_.take_to(end, frame, points_of(frame));
 }
 
-void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,
+void CoarseStages::advance(const frame::FrameReturns& frame, int complete_columns,
                            stage::CellPlanes& planes, stage::StageObserver* observer,
                            int most_blocks) noexcept {
-  if (image.returns() == 0) return;  // a stream's first frame has an empty predecessor
+  if (frame.returns() == 0) return;  // a stream's first frame has an empty predecessor
   observer_ = observer;
-  if (!has_begun(image)) begin(image);
+  if (!has_begun(frame)) begin(frame);
   const elevation::RingGrid& grid = map_.grid();
   for (int block = 0; block < most_blocks; ++block) {
     const int end = map_.taken() + sectors_of_block(grid.sectors() - map_.taken());
     if (end > grid.sectors() || grid.columns_of({0, end}).end > complete_columns) return;
     if (observer != nullptr) observer->resumed();
-    take_to(end, image);
+    take_to(end, frame);
     done(stage::Stage::kElevationMap);
-    label_settled(image, planes);
+    label_settled(frame, planes);
   }
 }
 
-void CoarseStages::finish(const frame::RangeImage& image, stage::CellPlanes& planes,
+void CoarseStages::finish(const frame::FrameReturns& frame, stage::CellPlanes& planes,
                           stage::StageObserver* observer) noexcept {
   const int sectors = map_.grid().sectors();
   observer_ = observer;
   if (observer != nullptr) observer->resumed();
-  if (!has_begun(image)) begin(image);
-  take_to(sectors, image);
-  if (!map_.saw_all_of(image)) {
-    begin(image);
-    take_to(sectors, image);
+  if (!has_begun(frame)) begin(frame);
+  take_to(sectors, frame);
+  if (!map_.saw_all_of(frame)) {
+    begin(frame);
+    take_to(sectors, frame);
   }
-  label_settled(image, planes);
+  label_settled(frame, planes);
   if (uses_adjacent_points() && adjacent_.reach() > 0) {
-    compare_across(0, image, planes);
-    if (first_column() != 0) compare_across(first_column(), image, planes);
+    compare_across(0, frame, planes);
+    if (first_column() != 0) compare_across(first_column(), frame, planes);
   }
   done(stage::Stage::kAdjacentPoints);
-  image_ = nullptr;
+  begun_ = {};
 }
 
-void CoarseStages::label_settled(const frame::RangeImage& image,
+void CoarseStages::label_settled(const frame::FrameReturns& frame,
                                  stage::CellPlanes& planes) noexcept {
   const int sectors = map_.grid().sectors();
   while (labelled_ < map_.settled().end) {
     const int first = map_.grid().wrapped(labelled_);
     const int count = std::min(map_.settled().end - labelled_, sectors - first);
-    label({first, first + count}, image, planes);
+    label({first, first + count}, frame, planes);
     labelled_ += count;
   }
 }
 
-void CoarseStages::label(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
+void CoarseStages::label(elevation::RingGrid::Sectors sectors, const frame::FrameReturns& frame,
                          stage::CellPlanes& planes) noexcept {
   const frame::ColumnRange columns = map_.grid().columns_of(sectors);
-  map_.label(points_of(image), columns, planes);
+  map_.label(points_of(frame), columns, planes);
   done(stage::Stage::kElevationMap);
   if (!uses_adjacent_points()) return;
   adjacent_.reset(columns, planes);
   const int leftmost = columns.begin >= first_column() ? first_column() : 0;
-  adjacent_.compare(points_of(image), columns, leftmost, planes);
+  adjacent_.compare(points_of(frame), columns, leftmost, planes);
   adjacent_.mark({std::max(columns.begin - adjacent_.reach(), leftmost), columns.end}, planes);
   done(stage::Stage::kAdjacentPoints);
 }
 
-void CoarseStages::compare_across(int column, const frame::RangeImage& image,
+void CoarseStages::compare_across(int column, const frame::FrameReturns& frame,
                                   stage::CellPlanes& planes) noexcept {
-  adjacent_.compare_across(column, points_of(image), planes);
+  adjacent_.compare_across(column, points_of(frame), planes);
   adjacent_.mark({column, column + adjacent_.reach()}, planes);
   const int end = column == 0 ? shape_.columns : column;
   adjacent_.mark({end - adjacent_.reach(), end}, planes);

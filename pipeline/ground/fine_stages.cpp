@@ -35,30 +35,40 @@ FineStages::FineStages(const SegmenterConfig& config, const mount::RingProfile& 
       min_cut_(shape, config.min_cut, memory),
       return_labels_(config.returns, config.elevation_map.obstacle_height_m, return_capacity,
                      memory) {
-  if (config.road.enabled) road_surface_.emplace(config.road, shape, memory);
+  if (!config.road.enabled) return;
+  road_surface_.emplace(config.road, shape, memory);
+  if (made != nullptr) road_points_.emplace(shape, return_capacity, memory);
 }
 
-frame::PointPlanes FineStages::points_of(const frame::RangeImage& image, bool has_cut) noexcept {
-  if (made_ == nullptr) return image.points();
-  if (made_->has_all_of(image)) return made_->planes();
-  const frame::MeasuredReturns& returns = *image.measured();
+frame::PointPlanes FineStages::points_of(const frame::FrameReturns& frame, bool has_cut) noexcept {
+  if (made_ == nullptr) return frame.image()->points();
+  const frame::MeasuredReturns& returns = *frame.measured();
+  if (made_->has_all_of(returns)) return made_->planes();
+  const bool needs_all = has_cut && config_.region.rule == random_field::RegionRule::kHistogram;
   if (has_cut) near_unknown_.find(seeds_.seeds());
-  made_->make_where(image, [&](int row, frame::ColumnRange columns) noexcept {
-    return (has_cut && near_unknown_.is_near(row, columns)) || returns.has_shared(row, columns);
+  made_->make_where(returns, [&](int row, frame::ColumnRange columns) noexcept {
+    return needs_all || (has_cut && near_unknown_.is_near(row, columns)) ||
+           returns.has_shared(row, columns);
   });
   return made_->planes();
 }
 
-void FineStages::take_near_ground(const frame::RangeImage& image, const stage::CellPlanes& planes,
+const frame::RangeImage& FineStages::image_of(const frame::FrameReturns& frame) noexcept {
+  if (!road_points_) return *frame.image();
+  road_points_->fill(*frame.measured(), made_->reader());
+  return *road_points_;
+}
+
+void FineStages::take_near_ground(const frame::FrameReturns& frame, const stage::CellPlanes& planes,
                                   NearGround& ground) noexcept {
-  if (made_ == nullptr) return ground::take_near_ground(image, ground);
-  made_->make_where(image, [this](int, frame::ColumnRange columns) noexcept {
+  if (made_ == nullptr) return ground::take_near_ground(*frame.image(), ground);
+  made_->make_where(*frame.measured(), [this](int, frame::ColumnRange columns) noexcept {
     return has_near_ground_columns(columns, shape_);
   });
   ground::take_near_ground(made_->planes(), planes.height_m, shape_, ground);
 }
 
-stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
+stage::SegmentationReport FineStages::refine(const frame::FrameReturns& frame,
                                              stage::CellPlanes& planes,
                                              const min_cut::CutBudget& budget,
                                              stage::StageObserver* observer) noexcept {
@@ -76,22 +86,22 @@ stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
   frame::PointPlanes points{};
   if (report.last_stage >= stage::Stage::kMinCut) {
     seeds_.select(planes);
-    points = points_of(image, true);
+    points = points_of(frame, true);
     region_.look_at(points, planes, seeds_.seeds());
     done(stage::Stage::kSeeds);
     report.cut = cut(points, planes, budget);
     done(stage::Stage::kMinCut);
     if (report.cut.discarded) report.last_stage = stage::Stage::kAdjacentPoints;
   } else {
-    points = points_of(image, false);
+    points = points_of(frame, false);
   }
 
   if (made_ != nullptr) {
-    return_labels_.assign(*image.measured(), points, made_->reader(), planes);
+    return_labels_.assign(*frame.measured(), points, made_->reader(), planes);
   } else {
-    return_labels_.assign(image, planes);
+    return_labels_.assign(*frame.image(), planes);
   }
-  if (road_surface_) road_surface_->mark(image, planes, return_labels_.mutable_labels());
+  if (road_surface_) road_surface_->mark(image_of(frame), planes, return_labels_.mutable_labels());
   done(stage::Stage::kLabels);
 
   report.count(return_labels_.labels());

@@ -12,15 +12,15 @@
 
 namespace terracut::ground {
 
-/// The coarse-to-fine method: labels every return of a range image.
+/// The coarse-to-fine method: labels every return of a frame.
 ///
 /// All memory is taken in the constructor; no other function allocates, locks, throws or looks at a
-/// clock. The same image gives the same labels on every machine (unless a budget with a clock cuts
+/// clock. The same frame gives the same labels on every machine (unless a budget with a clock cuts
 /// the min-cut short). One thread at a time; two threads use CoarseStages and FineStages instead.
 class Segmenter final : public FrameMethod {
  public:
-  /// `profile` must have shape.rows rings. `return_capacity` is the most returns of an image. If
-  /// images keep their returns as measured, `reader` is the sensor's tile reader, else null.
+  /// `profile` must have shape.rows rings. `return_capacity` is the most returns of a frame. If
+  /// frames are decoded, `reader` is the sensor's tile reader; null for clouds.
   Segmenter(const SegmenterConfig& config, const mount::RingProfile& profile,
             frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
             std::unique_ptr<frame::TileReader> reader = nullptr)
@@ -33,24 +33,24 @@ class Segmenter final : public FrameMethod {
 
   /// Does part of the work on a frame while it is still arriving (CoarseStages::advance()). The
   /// labels are the same without it. Overwrites planes(), but not labels().
-  void advance(const frame::RangeImage& image, int complete_columns,
+  void advance(const frame::FrameReturns& frame, int complete_columns,
                stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING override {
-    coarse_.advance(image, complete_columns, planes_, observer);
+    coarse_.advance(frame, complete_columns, planes_, observer);
   }
 
-  /// Labels one frame; `image` has the shape given at construction. Overwrites the last frame's
+  /// Labels one frame, which has the shape given at construction. Overwrites the last frame's
   /// result. `budget`: see FineStages::refine(). Real-time safe if the observer is.
   [[nodiscard]] stage::SegmentationReport segment(
-      const frame::RangeImage& image, const min_cut::CutBudget& budget = {},
+      const frame::FrameReturns& frame, const min_cut::CutBudget& budget = {},
       stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING override {
-    coarse_.finish(image, planes_, observer);
-    return fine_.refine(image, planes_, budget, observer);
+    coarse_.finish(frame, planes_, observer);
+    return fine_.refine(frame, planes_, budget, observer);
   }
 
   /// Fills `ground` with near ground from the frame labelled last.
-  void take_near_ground(const frame::RangeImage& image,
+  void take_near_ground(const frame::FrameReturns& frame,
                         NearGround& ground) noexcept TERRACUT_NONBLOCKING override {
-    fine_.take_near_ground(image, planes_, ground);
+    fine_.take_near_ground(frame, planes_, ground);
   }
 
   /// Returns one label per return, in order of arrival (RangeImage::return_index()). kGround is all
@@ -64,7 +64,7 @@ class Segmenter final : public FrameMethod {
 
  private:
   stage::CellPlanes planes_;
-  std::unique_ptr<frame::FramePoints> made_;  // set if images keep their returns as measured
+  std::unique_ptr<frame::FramePoints> made_;  // set if frames are decoded
   CoarseStages coarse_;
   FineStages fine_;
 };

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/frame/measured_returns.hpp"
 #include "pipeline/run/frame.hpp"
 #include "rt/queues/latest_value.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -17,23 +17,24 @@ namespace terracut::live {
 /// queue. A frame that is not taken before the next one comes is skipped, and the receiving thread
 /// counts it.
 ///
-/// Images are exchanged one for one. The decoder has two open images; this object has three more:
-/// the image being read, the newest one, and one that the decoder gets back for its next frame.
+/// Buffers of returns are exchanged one for one. The decoder has two open ones; this object has
+/// three more: the one being read, the newest one, and one that the decoder gets back for its next
+/// frame.
 class FrameExchange {
  public:
-  static constexpr std::size_t kImages = 2 + queues::LatestSlot::kSlots;
+  static constexpr std::size_t kBuffers = 2 + queues::LatestSlot::kSlots;
 
-  /// `images` are the decoder's kImages images; the first two are open in the decoder.
-  explicit FrameExchange(std::span<frame::RangeImage> images) noexcept {
-    for (std::size_t i = 0; i < frames_.size(); ++i) frames_[i].image = &images[2 + i];
+  /// `buffers` are the decoder's kBuffers; the first two are open in the decoder.
+  explicit FrameExchange(std::span<frame::MeasuredReturns> buffers) noexcept {
+    for (std::size_t i = 0; i < frames_.size(); ++i) frames_[i].returns = &buffers[2 + i];
   }
 
-  /// To be called on the receiving thread: hands `frame` over and returns the next image to use.
+  /// To be called on the receiving thread: hands `frame` over and returns the next buffer to use.
   /// Calls on_skipped(Frame&) if the previous frame was never taken.
   template <class OnSkipped>
-  frame::RangeImage* hand_over(const run::Frame& frame, OnSkipped&& on_skipped) noexcept {
+  frame::MeasuredReturns* hand_over(const run::Frame& frame, OnSkipped&& on_skipped) noexcept {
     run::Frame& slot = frames_[slots_.writer_slot()];
-    frame::RangeImage* next = slot.image;
+    frame::MeasuredReturns* next = slot.returns;
     slot = frame;
     if (slots_.publish()) on_skipped(frames_[slots_.writer_slot()]);
     return next;

@@ -31,8 +31,8 @@ namespace terracut::live {
 /// The cost of one packet does not depend on its content (docs/design.md, "Work per packet"): it is
 /// decoded, one block of the coarse stages is done, and the frames that it ends are handed over; at
 /// most one of these still needs its first and last sectors labelled. A frame with less than half
-/// of its sectors labelled ahead (deskewed, packets lost, stream broken off, or few sectors in all)
-/// is left to the segmenting thread.
+/// of its sectors labelled ahead (packets lost, stream broken off, or few sectors in all) is left
+/// to the segmenting thread.
 ///
 /// `Source` is a DatagramSource with refresh_drops(), `Clock` is like measure::SystemClock, and
 /// `Wait` is like measure::RunQueueWait.
@@ -130,34 +130,36 @@ class FrameReceiver {
     hand_over_frames();
     if (pipeline_.decoder.rejected() == frame::Reject::kDeviceInfo) ++device_info_;
     const frame::ArrivingFrame arriving = pipeline_.decoder.arriving();
-    share_to_come_ = arriving.image == nullptr ? 1 : arriving.share_to_come;
-    if (arriving.image == nullptr) return;
-    pipeline_.coarse.advance(*arriving.image, arriving.complete_columns,
-                             pipeline_.planes_of(*arriving.image), &coarse_clock_, kBlocksAPacket);
+    share_to_come_ = arriving.returns == nullptr ? 1 : arriving.share_to_come;
+    if (arriving.returns == nullptr) return;
+    pipeline_.coarse.advance(*arriving.returns, arriving.complete_columns,
+                             pipeline_.planes_of(*arriving.returns), &coarse_clock_,
+                             kBlocksAPacket);
   }
 
   void hand_over_frames() noexcept {
-    frame::RangeImage* in_exchange = nullptr;
+    frame::MeasuredReturns* in_exchange = nullptr;
     while (const frame::Frame* frame = pipeline_.decoder.next(in_exchange)) {
-      in_exchange = hand_over(frame->info, *frame->image);
+      in_exchange = hand_over(*frame);
     }
   }
 
-  frame::RangeImage* hand_over(const frame::FrameInfo& info,
-                               frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING {
-    const bool has_coarse_stages = pipeline_.coarse.share_ahead(image) >= kEnoughAhead;
+  frame::MeasuredReturns* hand_over(const frame::Frame& decoded) noexcept TERRACUT_NONBLOCKING {
+    frame::MeasuredReturns& returns = *decoded.returns;
+    const bool has_coarse_stages = pipeline_.coarse.share_ahead(returns) >= kEnoughAhead;
     if (has_coarse_stages) {
-      pipeline_.coarse.finish(image, pipeline_.planes_of(image), &coarse_clock_);
+      pipeline_.coarse.finish(returns, pipeline_.planes_of(returns), &coarse_clock_);
     }
-    run::Frame frame{&image, record_of(info)};
+    run::Frame frame{&returns, decoded.motions, nullptr, record_of(decoded.info)};
     frame.record.stages_ahead = has_coarse_stages ? kCoarseStages : std::uint8_t{0};
-    gathering_.note_frame(info.last_packet_ns, received_);
-    if (!lets_go_) gate_.note_frame(info.last_packet_ns, frame.record.handed_over_ns);
-    frame::RangeImage* next = to_.frames->hand_over(frame, [this](run::Frame& skipped) noexcept {
-      skipped.record.level = status::Level::kSkipped;
-      skipped.record.labels_ns = clock_.realtime_ns();
-      to_.skipped->pass_on(skipped.record);
-    });
+    gathering_.note_frame(decoded.info.last_packet_ns, received_);
+    if (!lets_go_) gate_.note_frame(decoded.info.last_packet_ns, frame.record.handed_over_ns);
+    frame::MeasuredReturns* next =
+        to_.frames->hand_over(frame, [this](run::Frame& skipped) noexcept {
+          skipped.record.level = status::Level::kSkipped;
+          skipped.record.labels_ns = clock_.realtime_ns();
+          to_.skipped->pass_on(skipped.record);
+        });
     to_.frame_ready->wake();
     ++frames_;
     return next;

@@ -70,10 +70,11 @@ class FrameSegmenter {
       return;
     }
     const std::int64_t begun_cpu_ns = clock_.thread_cpu_ns();
-    stage::CellPlanes& planes = pipeline_.planes_of(*frame.image);
-    if (record.stages_ahead == 0) pipeline_.late_coarse.finish(*frame.image, planes, &stage_clock_);
+    stage::CellPlanes& planes = pipeline_.planes_of(*frame.returns);
+    if (record.stages_ahead == 0)
+      pipeline_.late_coarse.finish(*frame.returns, planes, &stage_clock_);
     record.segmentation =
-        pipeline_.fine.refine(*frame.image, planes, degradation_.budget(), &stage_clock_);
+        pipeline_.fine.refine(*frame.returns, planes, degradation_.budget(), &stage_clock_);
     record.level = degradation_.may_hand_on() ? DegradationPolicy::level_of(record.segmentation)
                                               : status::Level::kSkipped;
     record.labels_ns = clock_.realtime_ns();
@@ -86,7 +87,7 @@ class FrameSegmenter {
     degradation_.end(times, record.segmentation, handed_on_cpu_ns - labelled_cpu_ns);
     if (to_.near_ground != nullptr && record.info.number % LatestNearGround::kFramesApart == 0) {
       to_.near_ground->publish([&](ground::NearGround& ground) noexcept {
-        pipeline_.fine.take_near_ground(*frame.image, planes, ground);
+        pipeline_.fine.take_near_ground(*frame.returns, planes, ground);
       });
     }
     record.stages += times;
@@ -102,7 +103,7 @@ class FrameSegmenter {
     if (to_.points != nullptr) {
       to_.points->pass_on(frame.record, [&](std::span<points::LabelledPoint> room) noexcept {
         (void)points::pack_labelled_points(
-            *frame.image, labels, room,
+            *frame.returns, frame.motions, pipeline_.segmenting_points.reader(), labels, room,
             points::FrameTiming::of(frame.record.info, pipeline_.decoder.beam_turns()));
       });
       to_.points_ready->wake();

@@ -36,7 +36,7 @@ struct VehicleConfig {
 
 /// The configuration of a live run; the defaults are those of `terracut live` and LiveRun.
 struct LiveConfig {
-  decode::Decoder::Config decoder;  ///< LiveParts sets `reorder_packets`, `motion` and `images`.
+  decode::Decoder::Config decoder;  ///< LiveParts sets `reorder_packets`, `motion` and `buffers`.
   int reorder_packets = 0;          ///< 0, because one cable keeps packets in order.
   ground::SegmenterConfig method = ground::terracut_profile();
   LiveThreads::Config threads;  ///< LiveParts sets `frame_period_ns`.

@@ -30,7 +30,7 @@ LiveThreads::LiveThreads(const Config& config, LivePipeline& pipeline, net::Live
       events_(std::move(events)),
       recorder_(recorder),
       told_table_(memory),
-      exchange_(pipeline.decoder.images()),
+      exchange_(pipeline.decoder.buffers()),
       segmented_(memory),
       skipped_(memory),
       near_ground_(memory) {

@@ -42,6 +42,18 @@ RowTimes times_of(int row, int columns, const FrameTiming& timing) noexcept TERR
   return {(head_turns - timing.head.first_turns) * turn_s, column_turns * turn_s};
 }
 
+/// Moves a laser's points in x and y, the only coordinates of a labelled point that change.
+void move_where(std::uint32_t firings, const frame::TileRow<std::uint16_t>& columns,
+                const frame::PlanarMotions& motion,
+                frame::TilePoints& points) noexcept TERRACUT_NONBLOCKING {
+  frame::for_each_firing(firings, [&](std::size_t f) noexcept {
+    const std::size_t i = columns[f];
+    const float x_m = points.x_m[f], y_m = points.y_m[f];
+    points.x_m[f] = motion.cosine[i] * x_m - motion.sine[i] * y_m + motion.x_m[i];
+    points.y_m[f] = motion.sine[i] * x_m + motion.cosine[i] * y_m + motion.y_m[i];
+  });
+}
+
 }  // namespace
 
 bool pack_labelled_points(const frame::RangeImage& image, std::span<const frame::Label> labels,
@@ -69,6 +81,37 @@ bool pack_labelled_points(const frame::RangeImage& image, std::span<const frame:
     const int row = cell / stride;
     points[extra.return_index] = labelled_point(extra.point, row, labels[extra.return_index],
                                                 times_of(row, columns, timing).at(cell % stride));
+  }
+  return true;
+}
+
+bool pack_labelled_points(const frame::MeasuredReturns& returns,
+                          std::span<const frame::PlanarMotions> motions, frame::TileReader& reader,
+                          std::span<const frame::Label> labels, std::span<LabelledPoint> points,
+                          const FrameTiming& timing) noexcept TERRACUT_NONBLOCKING {
+  if (labels.size() != returns.returns() || points.size() < labels.size()) return false;
+  frame::TilePoints made;
+  for (std::size_t t = 0; t < returns.tiles(); ++t) {
+    reader.open(returns.tile(t).heads, returns.raw(t));
+    frame::TileRow<std::uint32_t> next = returns.tile(t).first_return;
+    for (std::size_t i = 0; i < returns.lasers(); ++i) {
+      const std::uint32_t hits = returns.row(t, i).returns;
+      if (hits == 0) continue;
+      reader.compute_points(i, all_of(made));
+      const int row = reader.rows()[i];
+      const RowTimes times = times_of(row, returns.shape().columns, timing);
+      const frame::TileRow<std::uint16_t> columns = returns.columns(t, i);
+      const std::uint8_t* const intensity = returns.intensity(t, i);
+      if (!motions.empty()) {
+        move_where(hits, columns, motions[static_cast<std::size_t>(row)], made);
+      }
+      frame::for_each_firing(hits, [&](std::size_t f) noexcept {
+        const std::uint32_t n = next[f]++;
+        points[n] = labelled_point(
+            {made.x_m[f], made.y_m[f], made.z_m[f], made.ground_range_m[f], intensity[f]}, row,
+            labels[n], times.at(columns[f]));
+      });
+    }
   }
   return true;
 }

@@ -4,8 +4,11 @@
 
 #include <span>
 
+#include "firmware_io/frame/deskew_info.hpp"
+#include "firmware_io/frame/firing_tile.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/label.hpp"
+#include "firmware_io/frame/measured_returns.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/points/labelled_point.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -36,6 +39,13 @@ struct FrameTiming {
 /// all are 0 with the default `timing`. Real-time safe.
 [[nodiscard]] bool pack_labelled_points(
     const frame::RangeImage& image, std::span<const frame::Label> labels,
+    std::span<LabelledPoint> points, const FrameTiming& timing = {}) noexcept TERRACUT_NONBLOCKING;
+
+/// Does the same for a decoded frame, without an image. `reader` is the sensor's. `motions` are the
+/// frame's if its points are to be moved (frame::Frame::motions), else empty.
+[[nodiscard]] bool pack_labelled_points(
+    const frame::MeasuredReturns& returns, std::span<const frame::PlanarMotions> motions,
+    frame::TileReader& reader, std::span<const frame::Label> labels,
     std::span<LabelledPoint> points, const FrameTiming& timing = {}) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::points

@@ -16,6 +16,7 @@ mount::MountFinder mount_on_air(net::LiveSource& source, const streams::SensorOn
                                 const std::function<void(const std::string& what)>& on_waiting) {
   memory::FixedMemory memory;
   decode::Decoder decoder(sensor.calibration, mount::kAtTheSensor, config, memory);
+  frame::PointImage points = decoder.point_image(memory);
   ground::MountSearch search;
   mount::MountFinder last;  // result of the last whole second
   std::string waits_for = "finding the mount";
@@ -25,7 +26,7 @@ mount::MountFinder mount_on_air(net::LiveSource& source, const streams::SensorOn
     for (const packet::Datagram& datagram : source.receive(kAWhile_ns)) {
       decoder.push(datagram);
       while (const frame::Frame* frame = decoder.next()) {
-        search.add_frame(*frame->image);
+        search.add_frame(points.make(*frame->returns));
       }
     }
     if (search.has_enough_frames()) {

@@ -16,7 +16,7 @@ namespace terracut::run {
 /// Gives a mount finder the frames of one second from a live sensor. As long as they do not show
 /// the mount for certain, tries again with the next second, until `patience` is over or
 /// stop_wanted() returns true. Calls `on_waiting` many times a second with a text about what is
-/// missing. `config` must be for frames with points. Start-up only: allocates.
+/// missing. Start-up only: allocates.
 [[nodiscard]] mount::MountFinder mount_on_air(
     net::LiveSource& source, const streams::SensorOnAir& sensor,
     const decode::Decoder::Config& config, std::chrono::seconds patience,

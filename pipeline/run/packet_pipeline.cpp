@@ -28,20 +28,22 @@ void PacketPipeline::pause() noexcept {
 }
 
 Frame* PacketPipeline::next() noexcept {
-  if (frame_.image != nullptr) {
-    frame_.image = nullptr;
+  if (frame_.returns != nullptr) {
+    frame_.returns = nullptr;
     resume();
   }
   const frame::Frame* frame = decoder_.next();
+  const frame::RangeImage* image =
+      frame != nullptr && points_ ? &points_->make(*frame->returns, frame->motions) : nullptr;
   if (frame != nullptr || timing_ == Timing::kPackets) pause();
   if (frame == nullptr) {
     const frame::ArrivingFrame arriving = decoder_.arriving();
-    if (arriving.image != nullptr) {
-      method_->advance(*arriving.image, arriving.complete_columns, &clock_);
+    if (arriving.returns != nullptr) {
+      method_->advance(*arriving.returns, arriving.complete_columns, &clock_);
     }
     return nullptr;
   }
-  frame_ = {.image = frame->image, .record = {}};
+  frame_ = {frame->returns, frame->motions, image, {}};
   status::FrameRecord& record = frame_.record;
   record.info = frame->info;
   record.decode_cpu_ns = std::exchange(decode_ns_, 0);
@@ -52,7 +54,7 @@ Frame* PacketPipeline::next() noexcept {
 }
 
 void PacketPipeline::label(Frame& frame) noexcept {
-  frame.record.segmentation = method_->segment(*frame.image, {}, &clock_);
+  frame.record.segmentation = method_->segment({*frame.returns, frame.image}, {}, &clock_);
   frame.record.stages += clock_.take();
 }
 

@@ -28,6 +28,8 @@ namespace terracut::run {
 ///
 /// Coarse stages are done while a frame arrives. One thread. The constructor takes all memory
 /// (throws std::invalid_argument for an invalid setting); nothing else allocates, locks or throws.
+/// A method that needs all points needs Makes::kPoints. Our own labels returns as they were seen,
+/// deskewed or not.
 class PacketPipeline {
  public:
   /// The way in which the time of decoding is measured.
@@ -35,17 +37,24 @@ class PacketPipeline {
     kPackets,  ///< Packet by packet; the caller may pause between packets.
     kFrames,   ///< From frame to frame; reads the clock twice per frame.
   };
+  /// What frames come with.
+  enum class Makes : std::uint8_t {
+    kLabels,  ///< Labels alone; Frame::image is null.
+    kPoints,  ///< An image of points as well, deskewed if the frame is.
+  };
 
   PacketPipeline(const calib::SensorCalibration& calibration, const mount::RingProfile& profile,
                  const decode::Decoder::Config& decoder, const ground::MethodMaker& method,
-                 memory::FixedMemory& memory, Timing timing = Timing::kPackets)
+                 memory::FixedMemory& memory, Makes makes, Timing timing = Timing::kPackets)
       : decoder_(calibration, profile.mount, decoder, memory),
         method_(method({.profile = profile,
                         .shape = decoder_.shape(),
                         .return_capacity = decoder_.return_capacity(),
                         .reader = decoder_.make_reader(memory)},
                        memory)),
-        timing_(timing) {}
+        timing_(timing) {
+    if (makes == Makes::kPoints) points_.emplace(decoder_.point_image(memory));
+  }
 
   void push(const packet::Datagram& datagram) noexcept;
   /// Ends the stream; call it when the source ends or is about to jump (a replay loop).
@@ -66,7 +75,7 @@ class PacketPipeline {
 
   /// Fills `ground` with near ground from the frame labelled last.
   void take_near_ground(const Frame& frame, ground::NearGround& ground) noexcept {
-    method_->take_near_ground(*frame.image, ground);
+    method_->take_near_ground({*frame.returns, frame.image}, ground);
   }
 
   [[nodiscard]] const decode::Decoder& decoder() const noexcept { return decoder_; }
@@ -77,6 +86,7 @@ class PacketPipeline {
 
   decode::Decoder decoder_;
   std::unique_ptr<ground::FrameMethod> method_;  ///< Never null.
+  std::optional<frame::PointImage> points_;
   Timing timing_;
   StageClock clock_;
   std::int64_t decode_ns_ = 0;  ///< Time of decoding since the last frame.

@@ -44,7 +44,7 @@ void decode_frames(benchmark::State& state) {
   memory::FixedMemory memory;
   decode::Decoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory);
   std::uint64_t returns = 0;
-  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::MeasuredReturns&) noexcept {
     returns += info.returns;
   };
   for (auto _ : state) {
@@ -65,7 +65,7 @@ void decode_ruby128_frames(benchmark::State& state) {
   memory::FixedMemory memory;
   decode::Decoder decoder(ruby128::nominal_ruby128(), {}, {}, memory);
   std::uint64_t returns = 0;
-  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::MeasuredReturns&) noexcept {
     returns += info.returns;
   };
   for (auto _ : state) {
@@ -77,8 +77,8 @@ void decode_ruby128_frames(benchmark::State& state) {
 }
 BENCHMARK(decode_ruby128_frames)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
-/// One frame at 20 m/s and 0.5 rad/s moved to its end: 64 rows of 2083 columns (0), 128 of 1800
-/// (1).
+/// The motions of one frame at 20 m/s and 0.5 rad/s to its end, and its points moved: 64 rows of
+/// 2083 columns (0), 128 of 1800 (1).
 void deskew_frame(benchmark::State& state) {
   const bool ruby = state.range(0) == 1;
   const frame::ImageShape shape{ruby ? 128 : 64, ruby ? 1800 : 2083};
@@ -103,10 +103,12 @@ void deskew_frame(benchmark::State& state) {
       }
     }
     state.ResumeTiming();
-    if (deskewer.apply(0, image).state != frame::DeskewState::kDone) {
+    const decode::Deskewer::Deskewed deskewed = deskewer.deskew(0);
+    if (deskewed.by_row.empty()) {
       state.SkipWithError("no ego motion");
       break;
     }
+    image.move(deskewed.by_row);
   }
 }
 BENCHMARK(deskew_frame)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);

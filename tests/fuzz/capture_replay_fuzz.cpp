@@ -193,7 +193,7 @@ cli::Options options_of(Input& input) {
 }
 
 void replay(const cli::Options& options, std::uint64_t records) {
-  auto capture = cli::LabelledCapture::open(options, cli::FramesAreFor::kLabels);
+  auto capture = cli::LabelledCapture::open(options, cli::LabelledCapture::Makes::kLabels);
   if (!capture) return require(!capture.error().message.empty(), "a refusal says nothing");
   cli::LabelledCapture& labelled = **capture;
   std::uint64_t frames = 0;

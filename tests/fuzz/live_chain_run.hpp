@@ -8,14 +8,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "calib/mount/mount.hpp"
 #include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/each_return.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/frame_points.hpp"
+#include "firmware_io/frame/point_image.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/vehicle/ego_motion.hpp"
 #include "input.hpp"
@@ -31,7 +32,7 @@
 
 namespace terracut::fuzz {
 
-/// The way of packets through a live run, tracker to labels, on one thread and with an image of few
+/// The way of packets through a live run, tracker to labels, on one thread and with frames of few
 /// columns, and what must hold after every packet, whatever came:
 /// - every packet is decoded, rejected for one named reason, told about the device, or in doubt;
 /// - a packet hands over kMostFramesAPacket frames at most;
@@ -50,7 +51,6 @@ class LiveChainRun {
     int columns = 64;
     int reorder_packets = 0;
     bool deskew = false;
-    bool keeps_measured = false;  ///< Not where it deskews.
   };
   /// `returns_in(payload)`: how many returns a decoded payload carries.
   using ReturnsIn = std::uint64_t (*)(std::span<const std::uint8_t> payload);
@@ -58,18 +58,19 @@ class LiveChainRun {
   LiveChainRun(const Calibration& calibration, ReturnsIn returns_in, const Config& config)
       : returns_in_(returns_in),
         decoder_(calibration, {}, decoder_config(config, motion_), memory_),
-        exchange_(decoder_.images()),
-        coarse_points_(live::points_made_of(decoder_, memory_)),
-        fine_points_(live::points_made_of(decoder_, memory_)),
+        exchange_(decoder_.buffers()),
+        coarse_points_(decoder_.shape(), decoder_.make_reader(memory_), memory_),
+        fine_points_(decoder_.shape(), decoder_.make_reader(memory_), memory_),
+        all_points_(decoder_.point_image(memory_)),
         coarse_(ground::terracut_profile(), ring_profile(calibration, mount::Mount{}),
-                decoder_.shape(), memory_, coarse_points_.get()),
+                decoder_.shape(), memory_, &coarse_points_),
         fine_(ground::terracut_profile(), ring_profile(calibration, mount::Mount{}),
-              decoder_.shape(), decoder_.return_capacity(), memory_, fine_points_.get()) {
-    planes_.reserve(decoder_.images().size());
-    for (std::size_t i = 0; i < decoder_.images().size(); ++i) {
+              decoder_.shape(), decoder_.return_capacity(), memory_, &fine_points_) {
+    planes_.reserve(decoder_.buffers().size());
+    for (std::size_t i = 0; i < decoder_.buffers().size(); ++i) {
       planes_.emplace_back(decoder_.shape(), memory_);
     }
-    handed_over_.resize(decoder_.images().size());
+    handed_over_.resize(decoder_.buffers().size());
     memory_bytes_ = memory_.total_bytes();
   }
 
@@ -86,8 +87,8 @@ class LiveChainRun {
         },
         [&] { return returns_in_(payload); });
     const frame::ArrivingFrame arriving = decoder_.arriving();
-    if (arriving.image != nullptr) {
-      coarse_.advance(*arriving.image, arriving.complete_columns, planes_of(*arriving.image));
+    if (arriving.returns != nullptr) {
+      coarse_.advance(*arriving.returns, arriving.complete_columns, planes_of(*arriving.returns));
     }
     require(frames_of_packet_ <= kMostFramesAPacket, "one packet hands over too many frames");
     require(memory_.total_bytes() == memory_bytes_, "memory was taken after the start");
@@ -113,7 +114,7 @@ class LiveChainRun {
  private:
   using Exchange = live::FrameExchange;
 
-  /// What is remembered of an image that was handed over.
+  /// What is remembered of a buffer that was handed over.
   struct HandedOver {
     std::uint64_t sum = 0;
     std::uint32_t number = 0;
@@ -123,34 +124,30 @@ class LiveChainRun {
     typename Decoder::Config result;
     result.columns = config.columns;
     result.reorder_packets = config.reorder_packets;
-    result.images = Exchange::kImages;
+    result.buffers = Exchange::kBuffers;
     result.returns_per_cell = 3;
-    result.keeps_measured = config.keeps_measured;
     if (config.deskew) result.motion = &motion;
     return result;
   }
-  [[nodiscard]] std::size_t number_of(const frame::RangeImage& image) const {
-    return static_cast<std::size_t>(&image - first_image_);
+  [[nodiscard]] std::size_t number_of(const frame::MeasuredReturns& returns) const {
+    return static_cast<std::size_t>(&returns - first_buffer_);
   }
-  [[nodiscard]] stage::CellPlanes& planes_of(const frame::RangeImage& image) {
-    return planes_[number_of(image)];
+  [[nodiscard]] stage::CellPlanes& planes_of(const frame::MeasuredReturns& returns) {
+    return planes_[number_of(returns)];
   }
 
-  /// Of all that an image holds.
-  static std::uint64_t sum_of(const frame::RangeImage& image) {
-    if (const frame::MeasuredReturns* measured = image.measured()) return sum_of(*measured);
-    double sum = static_cast<double>(image.returns());
-    for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
-      if (!image.has_return(cell)) continue;
-      require(std::isfinite(image.x_m()[cell]) && std::isfinite(image.y_m()[cell]) &&
-                  image.ground_range_m()[cell] >= 0.0F && image.ground_range_m()[cell] < 1'000.0F,
+  static void require_places(const frame::RangeImage& image, std::uint32_t returns) {
+    std::uint32_t seen = 0;
+    frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
+      require(std::isfinite(placed.point.x_m) && std::isfinite(placed.point.y_m) &&
+                  placed.point.ground_range_m >= 0.0F && placed.point.ground_range_m < 1'000.0F,
               "a return lies nowhere");
-      sum += static_cast<double>(cell + 1) * static_cast<double>(image.x_m()[cell]) +
-             static_cast<double>(image.return_index()[cell]);
-    }
-    return static_cast<std::uint64_t>(std::llround(sum * 1e3));
+      ++seen;
+    });
+    require(seen == returns, "points are not as many as returns");
   }
 
+  /// Of all that a frame holds.
   static std::uint64_t sum_of(const frame::MeasuredReturns& returns) {
     std::uint64_t sum = returns.returns(), owned = 0;
     for (std::size_t tile = 0; tile < returns.tiles(); ++tile) {
@@ -175,35 +172,38 @@ class LiveChainRun {
 
   [[nodiscard]] auto hand_over() {
     return [this](const frame::FrameInfo& info,
-                  frame::RangeImage& image) noexcept -> frame::RangeImage* {
+                  frame::MeasuredReturns& returns) noexcept -> frame::MeasuredReturns* {
       ++frames_of_packet_;
       require(info.number == frames_++, "a frame has not the number that follows");
-      require(info.returns > 0 && info.returns == image.returns(), "a frame miscounts its returns");
+      require(info.returns > 0 && info.returns == returns.returns(),
+              "a frame miscounts its returns");
       require(info.first_packet_ns <= info.last_packet_ns &&
                   info.first_packet_ns >= first_stamp_ns_ && info.last_packet_ns <= last_stamp_ns_,
               "a frame's stamps are of no packet");
       packets_in_frames_ += info.packets;
       require(packets_in_frames_ <= decoder_.packets_decoded() + 1, "frames of too many packets");
       handed_returns_ += info.returns;
-      handed_over_[number_of(image)] = {sum_of(image), info.number};
-      coarse_.finish(image, planes_of(image));
+      handed_over_[number_of(returns)] = {sum_of(returns), info.number};
+      coarse_.finish(returns, planes_of(returns));
       if (segmenter_away_ > 0) --segmenter_away_;
       status::FrameRecord record;
       record.info = info;
-      return exchange_.hand_over({&image, record}, [](const run::Frame&) noexcept {});
+      return exchange_.hand_over({&returns, {}, nullptr, record},
+                                 [](const run::Frame&) noexcept {});
     };
   }
 
   void segment() {
     const run::Frame* frame = exchange_.take_if_new();
     if (frame == nullptr) return;
-    const frame::RangeImage& image = *frame->image;
-    const HandedOver& expected = handed_over_[number_of(image)];
-    require(frame->record.info.number == expected.number && sum_of(image) == expected.sum,
+    const frame::MeasuredReturns& returns = *frame->returns;
+    const HandedOver& expected = handed_over_[number_of(returns)];
+    require(frame->record.info.number == expected.number && sum_of(returns) == expected.sum,
             "a frame changed after it was handed over");
     require(frame->record.info.number + 1 > segmented_, "a frame is segmented after a newer one");
     segmented_ = frame->record.info.number + 1;
-    (void)fine_.refine(image, planes_of(image));
+    (void)fine_.refine(returns, planes_of(returns));
+    require_places(all_points_.make(returns), returns.returns());
     const auto labels = fine_.labels();
     require(labels.size() == frame->record.info.returns, "not every return has a label");
     require(std::ranges::count(labels, frame::Label::kNone) == 0, "a return has no label");
@@ -213,13 +213,14 @@ class LiveChainRun {
   memory::FixedMemory memory_;
   vehicle::EgoMotion motion_{{.waiting = 16, .kept = 64}, memory_};
   Decoder decoder_;
-  const frame::RangeImage* first_image_ = decoder_.images().data();
+  const frame::MeasuredReturns* first_buffer_ = decoder_.buffers().data();
   Exchange exchange_;
-  std::unique_ptr<frame::FramePoints> coarse_points_, fine_points_;
+  frame::FramePoints coarse_points_, fine_points_;
+  frame::PointImage all_points_;
   ground::CoarseStages coarse_;
   ground::FineStages fine_;
   std::vector<stage::CellPlanes> planes_;
-  std::vector<HandedOver> handed_over_;  ///< By image.
+  std::vector<HandedOver> handed_over_;  ///< By buffer.
   std::size_t memory_bytes_ = 0;
 
   std::int64_t first_stamp_ns_ = std::numeric_limits<std::int64_t>::max();

@@ -67,8 +67,7 @@ class PacketSequence {
     const unsigned bits = input.next(1);
     return {.columns = 64 + 64 * static_cast<int>(bits & 1),
             .reorder_packets = static_cast<int>(bits >> 1 & 3),
-            .deskew = (bits >> 3 & 1) != 0,
-            .keeps_measured = (bits >> 4 & 1) != 0};
+            .deskew = (bits >> 3 & 1) != 0};
   }
 
   void bend() {

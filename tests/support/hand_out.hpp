@@ -6,21 +6,26 @@
 #include <type_traits>
 
 #include "firmware_io/frame/frame_info.hpp"
-#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/frame/point_image.hpp"
 #include "firmware_io/packet/datagram.hpp"
+#include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::test {
 
-/// Hands every frame that is ready to `on_frame`(const FrameInfo&, RangeImage&). Where that returns
-/// a RangeImage*, the decoder goes on with that one.
+/// Hands every frame that is ready to `on_frame`(const FrameInfo&, MeasuredReturns&) or, as points,
+/// to `on_frame`(const FrameInfo&, const RangeImage&), for which memory is taken. Where that
+/// returns a MeasuredReturns*, the decoder goes on with that one.
 template <class Decoder, class OnFrame>
 void hand_out(Decoder& decoder, OnFrame&& on_frame) {
-  frame::RangeImage* in_exchange = nullptr;
+  frame::MeasuredReturns* in_exchange = nullptr;
   while (frame::Frame* frame = decoder.next(in_exchange)) {
-    if constexpr (std::is_pointer_v<decltype(on_frame(frame->info, *frame->image))>) {
-      in_exchange = on_frame(frame->info, *frame->image);
+    if constexpr (!std::is_invocable_v<OnFrame, frame::FrameInfo&, frame::MeasuredReturns&>) {
+      memory::FixedMemory memory;
+      on_frame(frame->info, decoder.point_image(memory).make(*frame->returns, frame->motions));
+    } else if constexpr (std::is_pointer_v<decltype(on_frame(frame->info, *frame->returns))>) {
+      in_exchange = on_frame(frame->info, *frame->returns);
     } else {
-      on_frame(frame->info, *frame->image);
+      on_frame(frame->info, *frame->returns);
     }
   }
 }

@@ -41,7 +41,7 @@ class BothDecoders {
     const double firing_us = Sensor::firing_us(stream.head.dual_return);
     const double firings = 1e6 / firing_us / stream.head.spin_hz;
     config_.columns = stream.columns.value_or(static_cast<int>(std::lround(firings)));
-    config_.returns_per_cell = 6;
+    config_.returns_per_cell = 8;
     RotatingHead head = stream.head;
     head.first_deg = std::uniform_real_distribution<double>(0, 360)(random_);
     head.packets =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// Frames that keep their returns as they were measured, and the same frames as points: the labels
-// are the same, bit for bit, whatever becomes of the packets on their way.
+// Frames labelled as they were measured, and as images of points: the labels are the same, bit for
+// bit, whatever becomes of the packets on their way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +27,7 @@ struct Labelled {
 
 template <class EncoderTraits>
 struct MeasuredFrame : testing::Test {
-  /// Whether the coarse stages are done ahead, while frames arrive.
-  enum class Stages { kAhead, kAtOnce };
+  enum class As { kPoints, kMeasured };
 
   static simulator::SimulationConfig<EncoderTraits> config(packets::ReturnMode returns) {
     simulator::SimulationConfig<EncoderTraits> config;
@@ -40,21 +39,26 @@ struct MeasuredFrame : testing::Test {
     return config;
   }
 
-  Labelled labelled(const std::vector<Packet>& packets, decode::Decoder::Config decoding,
-                    Stages stages) {
+  /// As measured they are labelled ahead, while they arrive.
+  Labelled labelled(const std::vector<Packet>& packets, const decode::Decoder::Config& decoding,
+                    As as) {
     memory::FixedMemory memory;
     decode::Decoder decoder(setup.calibration, setup.mount, decoding, memory);
+    frame::PointImage points = decoder.point_image(memory);
     ground::Segmenter segmenter(method, ring_profile(setup.calibration, setup.mount),
                                 decoder.shape(), decoder.return_capacity(), memory,
-                                decoder.make_reader(memory));
+                                as == As::kMeasured ? decoder.make_reader(memory) : nullptr);
     auto near_ground = std::make_unique<ground::NearGround>();
     Labelled made;
-    const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) {
-      EXPECT_EQ(image.measured() != nullptr, decoding.keeps_measured);
-      (void)segmenter.segment(image);
+    const auto on_frame = [&](const frame::FrameInfo& info,
+                              const frame::MeasuredReturns& returns) noexcept {
+      const frame::FrameReturns frame = as == As::kMeasured
+                                            ? frame::FrameReturns(returns)
+                                            : frame::FrameReturns(points.make(returns));
+      (void)segmenter.segment(frame);
       made.frames.emplace_back(segmenter.labels().begin(), segmenter.labels().end());
       EXPECT_EQ(made.frames.back().size(), info.returns);
-      segmenter.take_near_ground(image, *near_ground);
+      segmenter.take_near_ground(frame, *near_ground);
       const auto near = near_ground->in_use();
       made.near_ground.emplace_back(near.begin(), near.end());
       made.returns += info.returns;
@@ -62,8 +66,8 @@ struct MeasuredFrame : testing::Test {
     for (const Packet& packet : packets) {
       test::decode(decoder, packet.datagram(), on_frame);
       const auto arriving = decoder.arriving();
-      if (arriving.image == nullptr || stages == Stages::kAtOnce) continue;
-      segmenter.advance(*arriving.image, arriving.complete_columns);
+      if (arriving.returns == nullptr || as == As::kPoints) continue;
+      segmenter.advance(*arriving.returns, arriving.complete_columns);
     }
     test::end_stream(decoder, on_frame);
     made.lost = decoder.losses().overflow_full_returns;
@@ -74,18 +78,15 @@ struct MeasuredFrame : testing::Test {
                           frame::CellOwner dual_owner = frame::CellOwner::kStrongest) {
     decode::Decoder::Config decoding;
     decoding.dual_owner = dual_owner;
-    const Labelled as_points = labelled(packets, decoding, Stages::kAtOnce);
+    const Labelled as_points = labelled(packets, decoding, As::kPoints);
     ASSERT_GE(as_points.frames.size(), 2U);
-    decoding.keeps_measured = true;
-    for (const Stages stages : {Stages::kAhead, Stages::kAtOnce}) {
-      const Labelled as_measured = labelled(packets, decoding, stages);
-      ASSERT_EQ(as_measured.frames.size(), as_points.frames.size());
-      for (std::size_t i = 0; i < as_points.frames.size(); ++i) {
-        EXPECT_TRUE(as_measured.frames[i] == as_points.frames[i]) << "frame " << i;
-        EXPECT_TRUE(as_measured.near_ground[i] == as_points.near_ground[i]) << "frame " << i;
-      }
-      EXPECT_EQ(as_measured.lost, 0U);
+    const Labelled as_measured = labelled(packets, decoding, As::kMeasured);
+    ASSERT_EQ(as_measured.frames.size(), as_points.frames.size());
+    for (std::size_t i = 0; i < as_points.frames.size(); ++i) {
+      EXPECT_TRUE(as_measured.frames[i] == as_points.frames[i]) << "frame " << i;
+      EXPECT_TRUE(as_measured.near_ground[i] == as_points.near_ground[i]) << "frame " << i;
     }
+    EXPECT_EQ(as_measured.lost, 0U);
   }
 
   const simulator::SimulationConfig<EncoderTraits> setup = config(packets::ReturnMode::kSingle);
@@ -116,6 +117,14 @@ TYPED_TEST(MeasuredFrame, IsLabelledAsOneOfPointsByTheCoarseStagesAlone) {
   }
 }
 
+TYPED_TEST(MeasuredFrame, IsLabelledAsOneOfPointsBelowTheRoadSurfaceAndByAHistogram) {
+  const auto packets = simulated_packets(this->setup);
+  this->method.road.enabled = true;
+  this->expect_same_labels(packets);
+  this->method = ground::paper_profile();
+  this->expect_same_labels(packets);
+}
+
 TYPED_TEST(MeasuredFrame, IsLabelledAsOneOfPointsWherePacketsAreLostReorderedOrLate) {
   auto packets = simulated_packets(this->setup);
   for (std::size_t i = 20; i + 3 < packets.size() / 2; i += 17) {
@@ -138,10 +147,9 @@ TYPED_TEST(MeasuredFrame, IsLabelledAsOneOfPointsAfterTheStreamHasBegunAgain) {
 TYPED_TEST(MeasuredFrame, CountsReturnsThatFoundNoRoom) {
   const auto packets = simulated_packets(this->config(packets::ReturnMode::kDual));
   decode::Decoder::Config decoding;
-  decoding.keeps_measured = true;
-  const auto whole = this->labelled(packets, decoding, TestFixture::Stages::kAhead);
+  const auto whole = this->labelled(packets, decoding, TestFixture::As::kMeasured);
   decoding.returns_per_cell = 1;
-  const auto cramped = this->labelled(packets, decoding, TestFixture::Stages::kAhead);
+  const auto cramped = this->labelled(packets, decoding, TestFixture::As::kMeasured);
   EXPECT_EQ(whole.lost, 0U);
   EXPECT_GT(cramped.lost, whole.returns / 10);
   EXPECT_EQ(cramped.returns + cramped.lost, whole.returns);

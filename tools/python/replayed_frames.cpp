@@ -18,7 +18,7 @@ ReplayedFrames::ReplayedFrames(const std::vector<std::string>& words)
     : capture_(or_raise(without_the_lock([&]() -> Expected<std::unique_ptr<cli::LabelledCapture>> {
         const auto arguments = cli::parse_arguments(words);
         if (!arguments) return tl::unexpected(arguments.error());
-        return cli::LabelledCapture::open(arguments->options, cli::FramesAreFor::kPoints);
+        return cli::LabelledCapture::open(arguments->options, cli::LabelledCapture::Makes::kPoints);
       }))) {}
 
 std::shared_ptr<FrameData> ReplayedFrames::next() {

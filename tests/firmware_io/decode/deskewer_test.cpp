@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware_io/frame/range_image.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "tests/support/allocation_counter.hpp"
 
@@ -49,6 +50,13 @@ class DeskewerTest : public testing::Test {
   }
   static std::int64_t instant_ns(double share) {
     return kStart_ns + std::llround(share * static_cast<double>(kFramePeriod_ns));
+  }
+
+  frame::DeskewInfo apply(Deskewer& deskewer, std::int64_t frame) {
+    const Deskewer::Deskewed deskewed = deskewer.deskew(frame);
+    EXPECT_EQ(deskewed.by_row.empty(), deskewed.info.state != frame::DeskewState::kDone);
+    image_.move(deskewed.by_row);
+    return deskewed.info;
   }
 
   /// A return in each cell, of which the test knows where it was at the start of the drive.
@@ -120,7 +128,7 @@ TEST_F(DeskewerTest, ReturnsLieWhereTheyWereAtTheInstantAskedFor) {
     note(deskewer, 0, 2.1);
     see(1, kSpeed_mps, kYawRate_radps);
     EXPECT_GT(worst_m(share), 0.9);
-    const frame::DeskewInfo info = deskewer.apply(1, image_);
+    const frame::DeskewInfo info = apply(deskewer, 1);
     EXPECT_EQ(info.state, frame::DeskewState::kDone);
     EXPECT_EQ(info.at, at);
     EXPECT_NEAR(static_cast<double>(info.reference_ns - instant_ns(share)), 0, 1000);
@@ -134,7 +142,7 @@ TEST_F(DeskewerTest, PacketsThatWereLostLeaveNoHole) {
   note(deskewer, 0, 1.2);
   note(deskewer, 1.7, 2.1);
   see(1, kSpeed_mps, kYawRate_radps);
-  EXPECT_EQ(deskewer.apply(1, image_).state, frame::DeskewState::kDone);
+  EXPECT_EQ(apply(deskewer, 1).state, frame::DeskewState::kDone);
   EXPECT_LT(worst_m(2.0), kHalfAColumn_m);
 }
 
@@ -145,7 +153,7 @@ TEST_F(DeskewerTest, EveryFrameOfALongDriveComesOutAsTheFirst) {
   for (int frame = 0; frame < 4; ++frame) {
     note(deskewer, frame + 0.06, frame + 1.05);
     see(frame, kSpeed_mps, kYawRate_radps);
-    EXPECT_EQ(deskewer.apply(frame, image_).state, frame::DeskewState::kDone);
+    EXPECT_EQ(apply(deskewer, frame).state, frame::DeskewState::kDone);
     EXPECT_LT(worst_m(frame), kHalfAColumn_m) << "frame " << frame;
   }
 }
@@ -170,7 +178,7 @@ TEST_F(DeskewerTest, AHeadThatChangesItsSpeedIsFollowed) {
           image_.place(row, column, point_at(vehicle::inverse(sensor) * world(row, column))));
     }
   }
-  EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
+  EXPECT_EQ(apply(deskewer, 0).state, frame::DeskewState::kDone);
   EXPECT_LT(worst_m(0), kHalfAColumn_m);
 }
 
@@ -183,7 +191,7 @@ TEST_F(DeskewerTest, BothReturnsOfACellAreMoved) {
   const frame::Return owner{image_.x_m()[cell], image_.y_m()[cell], 0.5F,
                             image_.ground_range_m()[cell], 7};
   ASSERT_TRUE(image_.place(2, 300, owner));
-  EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
+  EXPECT_EQ(apply(deskewer, 0).state, frame::DeskewState::kDone);
   ASSERT_EQ(image_.overflow().size(), 1U);
   const frame::Return& extra = image_.overflow()[0].point;
   EXPECT_EQ(extra.x_m, image_.x_m()[cell]);
@@ -197,7 +205,7 @@ TEST_F(DeskewerTest, WithoutMotionReturnsStayAndTheFrameSaysSo) {
   note(deskewer, -0.1, 1.1);
   see(0, kSpeed_mps, kYawRate_radps);
   const std::vector<float> before(image_.x_m().begin(), image_.x_m().end());
-  EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kNoEgoMotion);
+  EXPECT_EQ(apply(deskewer, 0).state, frame::DeskewState::kNoEgoMotion);
   EXPECT_TRUE(std::equal(before.begin(), before.end(), image_.x_m().begin()));
 }
 
@@ -206,11 +214,11 @@ TEST_F(DeskewerTest, MotionThatEndedBeforeTheFrameIsNotUsed) {
   Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, 3.9, 6.1);
   see(4, kSpeed_mps, kYawRate_radps);
-  const frame::DeskewInfo info = deskewer.apply(4, image_);
+  const frame::DeskewInfo info = apply(deskewer, 4);
   EXPECT_EQ(info.state, frame::DeskewState::kDone);
   EXPECT_NEAR(static_cast<double>(info.newest_motion_ns), -60e6, 1e5);
   see(5, kSpeed_mps, kYawRate_radps);
-  EXPECT_EQ(deskewer.apply(5, image_).state, frame::DeskewState::kNoEgoMotion);
+  EXPECT_EQ(apply(deskewer, 5).state, frame::DeskewState::kNoEgoMotion);
 }
 
 TEST_F(DeskewerTest, AVehicleThatStandsStillKeepsEveryBitOfItsReturns) {
@@ -220,7 +228,7 @@ TEST_F(DeskewerTest, AVehicleThatStandsStillKeepsEveryBitOfItsReturns) {
   see(0, 0, 0);
   const std::vector<float> x(image_.x_m().begin(), image_.x_m().end());
   const std::vector<float> range(image_.ground_range_m().begin(), image_.ground_range_m().end());
-  EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
+  EXPECT_EQ(apply(deskewer, 0).state, frame::DeskewState::kDone);
   EXPECT_TRUE(std::equal(x.begin(), x.end(), image_.x_m().begin()));
   EXPECT_TRUE(std::equal(range.begin(), range.end(), image_.ground_range_m().begin()));
 }
@@ -232,7 +240,7 @@ TEST_F(DeskewerTest, AStreamThatBeginsAnewResetsTheOneBefore) {
   drive(kSpeed_mps, kYawRate_radps);
   note(deskewer, -0.1, 1.1);
   see(0, kSpeed_mps, kYawRate_radps);
-  EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
+  EXPECT_EQ(apply(deskewer, 0).state, frame::DeskewState::kDone);
   EXPECT_LT(worst_m(0), kHalfAColumn_m);
 }
 
@@ -248,7 +256,7 @@ TEST_F(DeskewerTest, AHeadThatStandsOrIsSeenAtAnEarlierTimeIsNotNoted) {
                 instant_ns(0.41) - 1);  // before it in time
   note(deskewer, 0.5, 1.1);
   see(0, kSpeed_mps, kYawRate_radps);
-  EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
+  EXPECT_EQ(apply(deskewer, 0).state, frame::DeskewState::kDone);
   EXPECT_LT(worst_m(1.0), kHalfAColumn_m);
 }
 
@@ -265,19 +273,19 @@ TEST_F(DeskewerTest, AGapOfManyFramesLeavesTheFrameBeforeItAndTheOneBehindItAsTh
     note(deskewer, -0.1, 0.7);
     note(deskewer, frames + 0.02);  // handed over with the first packet behind the gap
     see(0, kSpeed_mps, kYawRate_radps);
-    frame::DeskewInfo info = deskewer.apply(0, image_);
+    frame::DeskewInfo info = apply(deskewer, 0);
     EXPECT_EQ(info.state, frame::DeskewState::kDone);
     EXPECT_NEAR(static_cast<double>(info.reference_ns - instant_ns(1)), 0, 1000);
     EXPECT_LT(worst_m(1.0), kHalfAColumn_m);
     note(deskewer, frames + 0.03, frames + 1.1);
     see(frames, kSpeed_mps, kYawRate_radps);
-    info = deskewer.apply(frames, image_);
+    info = apply(deskewer, frames);
     EXPECT_EQ(info.state, frame::DeskewState::kDone);
     EXPECT_LT(worst_m(frames + 1.0), kHalfAColumn_m);
     // Of a time that is not remembered any more the first that is stands in.
     constexpr double kRemembered = 256 * 8 / 401.0;
     const double first = std::max(-0.1, frames + 1.1 - kRemembered);
-    info = deskewer.apply(frames - 9, image_);
+    info = apply(deskewer, frames - 9);
     EXPECT_NEAR(static_cast<double>(info.reference_ns - instant_ns(first)), 0, 5e6);
   }
 }
@@ -293,18 +301,16 @@ TEST_F(DeskewerTest, WhereAClockWasSetTheFramesBegunHaveNoEgoMotionAndTheNextHas
   }
   see(0, kSpeed_mps, kYawRate_radps);
   const std::vector<float> before(image_.x_m().begin(), image_.x_m().end());
-  EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kNoEgoMotion)
-      << "of the time before";
-  EXPECT_EQ(deskewer.apply(1, image_).state, frame::DeskewState::kNoEgoMotion);
-  EXPECT_EQ(deskewer.apply(2, image_).state, frame::DeskewState::kNoEgoMotion)
-      << "no sample came since";
+  EXPECT_EQ(apply(deskewer, 0).state, frame::DeskewState::kNoEgoMotion) << "of the time before";
+  EXPECT_EQ(apply(deskewer, 1).state, frame::DeskewState::kNoEgoMotion);
+  EXPECT_EQ(apply(deskewer, 2).state, frame::DeskewState::kNoEgoMotion) << "no sample came since";
   EXPECT_TRUE(std::equal(before.begin(), before.end(), image_.x_m().begin()));
   for (int i = 14; i < 32; ++i) {
     EXPECT_TRUE(motion_.add({kStart_ns + kSet_ns + i * 10'000'000, kSpeed_mps, kYawRate_radps}));
   }
-  EXPECT_EQ(deskewer.apply(1, image_).state, frame::DeskewState::kNoEgoMotion) << "begun before";
+  EXPECT_EQ(apply(deskewer, 1).state, frame::DeskewState::kNoEgoMotion) << "begun before";
   see(2, kSpeed_mps, kYawRate_radps);
-  EXPECT_EQ(deskewer.apply(2, image_).state, frame::DeskewState::kDone);
+  EXPECT_EQ(apply(deskewer, 2).state, frame::DeskewState::kDone);
   EXPECT_LT(worst_m(3.0), kHalfAColumn_m);
 }
 
@@ -316,7 +322,7 @@ TEST_F(DeskewerTest, AStreamThatBeginsAnewHasNoMotionFromBefore) {
   // The clock may have been set back while there was no stream, to where samples are.
   note(deskewer, -0.1, 1.1);
   see(0, kSpeed_mps, kYawRate_radps);
-  EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kNoEgoMotion);
+  EXPECT_EQ(apply(deskewer, 0).state, frame::DeskewState::kNoEgoMotion);
 }
 
 TEST_F(DeskewerTest, AStreamThatBeginsAnewIsNotWithoutMotionForAClockThatWasSet) {
@@ -330,7 +336,7 @@ TEST_F(DeskewerTest, AStreamThatBeginsAnewIsNotWithoutMotionForAClockThatWasSet)
   }
   note(deskewer, -0.1, 1.1);
   see(0, kSpeed_mps, kYawRate_radps);
-  EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
+  EXPECT_EQ(apply(deskewer, 0).state, frame::DeskewState::kDone);
   EXPECT_LT(worst_m(0), kHalfAColumn_m);
 }
 
@@ -340,9 +346,24 @@ TEST_F(DeskewerTest, AFrameOfOnePacketIsLeftWhereItIs) {
   note(deskewer, 0.5);
   image_.clear();
   ASSERT_TRUE(image_.place(1, 200, {10, 0, 0, 10, 1}));
-  const frame::DeskewInfo info = deskewer.apply(0, image_);
+  const frame::DeskewInfo info = apply(deskewer, 0);
   EXPECT_EQ(info.reference_ns, instant_ns(0.5));
   EXPECT_EQ(image_.x_m()[static_cast<std::size_t>(kShape.stride() + 200)], 10.0F);
+}
+
+TEST_F(DeskewerTest, MotionsOfAFrameStayUntilItsPlaceIsUsedAgain) {
+  drive(kSpeed_mps, kYawRate_radps);
+  Deskewer deskewer({&motion_, frame::FrameInstant::kEnd, kShape, packet::kRevolution_ticks, 2},
+                    kBeam_ticks, memory_);
+  note(deskewer, -0.1, 3.1);
+  const auto first = deskewer.deskew(0, 0).by_row, second = deskewer.deskew(1, 1).by_row;
+  (void)deskewer.deskew(2, 1);
+  see(0, kSpeed_mps, kYawRate_radps);
+  image_.move(first);
+  EXPECT_LT(worst_m(1.0), kHalfAColumn_m);
+  see(2, kSpeed_mps, kYawRate_radps);
+  image_.move(second);
+  EXPECT_LT(worst_m(3.0), kHalfAColumn_m);
 }
 
 TEST_F(DeskewerTest, SettingsOutsideTheirRangeAreRefused) {
@@ -364,7 +385,7 @@ TEST_F(DeskewerTest, MovingAFrameAllocatesNothing) {
   see(0, kSpeed_mps, kYawRate_radps);
   const std::uint64_t before = test::allocations_of_this_thread();
   note(deskewer, -0.1, 1.1);
-  EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
+  EXPECT_EQ(apply(deskewer, 0).state, frame::DeskewState::kDone);
   EXPECT_EQ(test::allocations_of_this_thread(), before);
 }
 

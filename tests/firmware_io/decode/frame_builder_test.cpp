@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/firmware_io/frame/plain_tiles.hpp"
 #include "tests/support/hand_out.hpp"
 
 namespace terracut::decode {
@@ -18,13 +19,23 @@ constexpr std::int64_t kRevolution = 3600;
 constexpr packet::BeamSpread kSpread{-100, 110};
 constexpr std::int64_t kStep = 10;
 
-FrameBuilder::Config small(int images = 3) {
-  return {{.rows = 4, .columns = 20}, 2, images, kRevolution};
+constexpr std::size_t kTiles = 16;
+
+FrameBuilder::Config small(int buffers = 3) {
+  return {{.rows = 8, .columns = 24}, test::kPlainLasers, kTiles, buffers, kRevolution};
+}
+
+/// Adds a return of a laser at a column to a frame.
+void place(FrameBuilder& builder, std::int64_t frame, std::size_t laser, std::size_t column) {
+  test::PlainTile tile(0);
+  tile.raw[laser][column] = 1;
+  test::PlainReader reader;
+  builder.losses().overflow_full_returns += tile.add_to(builder.returns_of(frame), reader);
 }
 
 struct Handed {
   frame::FrameInfo info;
-  const frame::RangeImage* image;
+  const frame::MeasuredReturns* returns;
 };
 
 template <class OnFrame>
@@ -45,8 +56,8 @@ void flush(FrameBuilder& builder, OnFrame&& on_frame) {
 class FrameBuilderTest : public testing::Test {
  protected:
   auto keep() {
-    return [this](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
-      handed.push_back({info, &image});
+    return [this](const frame::FrameInfo& info, const frame::MeasuredReturns& returns) noexcept {
+      handed.push_back({info, &returns});
     };
   }
   memory::FixedMemory memory;
@@ -54,16 +65,16 @@ class FrameBuilderTest : public testing::Test {
   std::vector<Handed> handed;
 };
 
-TEST_F(FrameBuilderTest, RefusesFewerThanThreeImages) {
+TEST_F(FrameBuilderTest, RefusesFewerThanThreeBuffers) {
   EXPECT_THROW(FrameBuilder(small(2), memory), std::invalid_argument);
 }
 
 TEST_F(FrameBuilderTest, SortsReturnsIntoTheTwoOpenFrames) {
   builder.start(7, 7 * kRevolution);
-  builder.place(7, 1, 2, {});
-  builder.place(8, 1, 2, {});
-  builder.place(8, 1, 3, {});
-  builder.place(7, 3, 19, {});
+  place(builder, 7, 1, 2);
+  place(builder, 8, 1, 2);
+  place(builder, 8, 1, 3);
+  place(builder, 7, 3, 19);
   roll(builder, keep());
   ASSERT_EQ(handed.size(), 1U);
   EXPECT_EQ(handed[0].info.returns, 2U);
@@ -76,63 +87,63 @@ TEST_F(FrameBuilderTest, SortsReturnsIntoTheTwoOpenFrames) {
 TEST_F(FrameBuilderTest, AFrameWithoutReturnsIsNoFrame) {
   builder.start(0, 0);
   roll(builder, keep());
-  builder.place(1, 0, 0, {});
+  place(builder, 1, 0, 0);
   flush(builder, keep());
   ASSERT_EQ(handed.size(), 1U);
   EXPECT_EQ(handed[0].info.number, 0U);
   EXPECT_FALSE(builder.started());
 }
 
-TEST_F(FrameBuilderTest, LeavesAnImageAloneUntilTheNextHandOver) {
+TEST_F(FrameBuilderTest, LeavesABufferAloneUntilTheNextHandOver) {
   builder.start(0, 0);
   for (std::int64_t frame = 0; frame < 20; ++frame) {
-    builder.place(frame, 0, 0, {});
+    place(builder, frame, 0, 0);
     roll(builder, keep());
     // What comes until then: empty frames, an end, a new start.
     if (frame % 3 == 1) {
       flush(builder, keep());
       builder.start(frame + 1, 0);
     }
-    builder.place(frame + 1, 1, 1, {});
-    ASSERT_EQ(handed.back().image->returns(), handed.back().info.returns);
+    place(builder, frame + 1, 1, 1);
+    ASSERT_EQ(handed.back().returns->returns(), handed.back().info.returns);
   }
 }
 
-TEST_F(FrameBuilderTest, LeavesAnImageAloneAsLongAsItHasOthers) {
-  for (int images = 3; images <= 6; ++images) {
-    FrameBuilder many(small(images), memory);
+TEST_F(FrameBuilderTest, LeavesABufferAloneAsLongAsItHasOthers) {
+  for (int buffers = 3; buffers <= 6; ++buffers) {
+    FrameBuilder many(small(buffers), memory);
     handed.clear();
     many.start(0, 0);
     for (std::int64_t frame = 0; frame < 20; ++frame) {
-      many.place(frame, 0, 0, {});
-      many.place(frame + 1, 0, 0, {});
+      place(many, frame, 0, 0);
+      place(many, frame + 1, 0, 0);
       roll(many, keep());
       // All that were handed over and may be looked at still, the newest last.
-      const std::size_t kept = std::min(handed.size(), static_cast<std::size_t>(images - 2));
+      const std::size_t kept = std::min(handed.size(), static_cast<std::size_t>(buffers - 2));
       for (std::size_t back = 1; back <= kept; ++back) {
         const Handed& one = handed[handed.size() - back];
-        ASSERT_EQ(one.image->returns(), one.info.returns) << images << ", " << back;
+        ASSERT_EQ(one.returns->returns(), one.info.returns) << buffers << ", " << back;
         for (std::size_t other = 1; other < back; ++other) {
-          ASSERT_NE(one.image, handed[handed.size() - other].image) << images;
+          ASSERT_NE(one.returns, handed[handed.size() - other].returns) << buffers;
         }
       }
     }
   }
 }
 
-TEST_F(FrameBuilderTest, CountsReturnsThatOverflowTheOverflowList) {
+TEST_F(FrameBuilderTest, CountsReturnsThatFindNoRoom) {
   builder.start(0, 0);
-  for (int n = 0; n < 10; ++n) builder.place(0, 0, 0, {});
+  for (std::size_t n = 0; n < kTiles + 7; ++n) place(builder, 0, 0, 0);
   flush(builder, keep());
   ASSERT_EQ(handed.size(), 1U);
-  EXPECT_EQ(handed[0].info.returns, 3U);
+  EXPECT_EQ(handed[0].info.returns, kTiles);
   EXPECT_EQ(handed[0].info.losses.overflow_full_returns, 7U);
   EXPECT_EQ(builder.total_losses().overflow_full_returns, 7U);
 }
 
 TEST_F(FrameBuilderTest, AFrameSeenFromSeamToSeamIsComplete) {
   builder.start(-1, -200);
-  builder.place(0, 0, 0, {});
+  place(builder, 0, 0, 0);
   builder.note_packet({5, 0, -1, 0, kRevolution + 100}, kStep, kSpread);
   roll(builder, keep());
   roll(builder, keep());
@@ -143,11 +154,11 @@ TEST_F(FrameBuilderTest, AFrameSeenFromSeamToSeamIsComplete) {
 
 TEST_F(FrameBuilderTest, AFrameWhoseStartOrEndWasNotSeenIsIncomplete) {
   builder.start(-1, -50);  // the foremost beam was 60 past the seam already
-  builder.place(0, 0, 0, {});
+  place(builder, 0, 0, 0);
   builder.note_packet({5, 0, -1, 0, kRevolution + 100}, kStep, kSpread);
   flush(builder, keep());
   builder.start(-1, -200);
-  builder.place(0, 0, 0, {});
+  place(builder, 0, 0, 0);
   builder.note_packet({5, 0, -1, 0, kRevolution + 80}, kStep, kSpread);
   flush(builder, keep());
   ASSERT_EQ(handed.size(), 2U);
@@ -155,23 +166,23 @@ TEST_F(FrameBuilderTest, AFrameWhoseStartOrEndWasNotSeenIsIncomplete) {
   EXPECT_FALSE(handed[1].info.complete);
 }
 
-TEST_F(FrameBuilderTest, GoesOnWithTheImageItIsGivenInExchange) {
+TEST_F(FrameBuilderTest, GoesOnWithTheBufferItIsGivenInExchange) {
   // A reader that keeps whatever is handed over and gives back what it had before.
-  frame::RangeImage* at_the_reader = &builder.images()[2];
+  frame::MeasuredReturns* at_the_reader = &builder.buffers()[2];
   const auto exchange = [&](const frame::FrameInfo& info,
-                            frame::RangeImage& image) noexcept -> frame::RangeImage* {
-    handed.push_back({info, &image});
-    return std::exchange(at_the_reader, &image);
+                            frame::MeasuredReturns& returns) noexcept {
+    handed.push_back({info, &returns});
+    return std::exchange(at_the_reader, &returns);
   };
   builder.start(0, 0);
   for (std::int64_t frame = 0; frame < 6; ++frame) {
-    for (int i = 0; i <= frame; ++i) builder.place(frame, 0, i, {});
+    for (int i = 0; i <= frame; ++i) place(builder, frame, 0, static_cast<std::size_t>(i));
     roll(builder, exchange);
     EXPECT_EQ(handed.back().info.returns, frame + 1);
-    builder.place(frame + 1, 3, 19, {});
-    builder.place(frame + 2, 3, 19, {});
+    place(builder, frame + 1, 3, 19);
+    place(builder, frame + 2, 3, 19);
     EXPECT_EQ(at_the_reader->returns(), handed.back().info.returns);  // nobody writes to it
-    ASSERT_EQ(handed.back().image, at_the_reader);
+    ASSERT_EQ(handed.back().returns, at_the_reader);
     flush(builder, exchange);
     builder.start(frame + 1, 0);
   }
@@ -180,7 +191,7 @@ TEST_F(FrameBuilderTest, GoesOnWithTheImageItIsGivenInExchange) {
 TEST_F(FrameBuilderTest, AHoleMakesAFrameIncompleteUntilItIsFilled) {
   for (const bool filled : {false, true}) {
     builder.start(-1, -200);
-    builder.place(0, 0, 0, {});
+    place(builder, 0, 0, 0);
     builder.lose({1000, 1060}, kSpread, kStep);
     if (filled) builder.regain({1000, 1060}, kSpread);
     builder.note_packet({5, 0, -1, 0, kRevolution + 100}, kStep, kSpread);
@@ -192,10 +203,10 @@ TEST_F(FrameBuilderTest, AHoleMakesAFrameIncompleteUntilItIsFilled) {
 
 TEST_F(FrameBuilderTest, AHoleAtTheSeamCountsOnceButSpoilsBothFrames) {
   builder.start(-1, -200);
-  builder.place(0, 0, 0, {});
+  place(builder, 0, 0, 0);
   builder.note_packet({5, 0, -1, 0, 0}, kStep, kSpread);
   roll(builder, keep());  // frame -1, without returns
-  builder.place(1, 0, 0, {});
+  place(builder, 1, 0, 0);
   builder.lose({kRevolution - 30, kRevolution + 30}, kSpread, kStep);
   builder.note_packet({6, 0, 0, 1, kRevolution + 100}, kStep, kSpread);
   roll(builder, keep());
@@ -210,10 +221,10 @@ TEST_F(FrameBuilderTest, AHoleAtTheSeamCountsOnceButSpoilsBothFrames) {
 
 TEST_F(FrameBuilderTest, AHoleOverWholeFramesIsCountedInFull) {
   builder.start(0, 0);
-  builder.place(0, 0, 0, {});
+  place(builder, 0, 0, 0);
   builder.lose({kRevolution / 2, 3 * kRevolution + kRevolution / 2}, kSpread, kStep);
   for (int n = 0; n < 3; ++n) roll(builder, keep());
-  builder.place(3, 0, 0, {});
+  place(builder, 3, 0, 0);
   flush(builder, keep());
   EXPECT_EQ(builder.total_losses().azimuth_hole_columns,
             static_cast<std::uint64_t>(3 * kRevolution / kStep));
@@ -221,8 +232,8 @@ TEST_F(FrameBuilderTest, AHoleOverWholeFramesIsCountedInFull) {
 
 TEST_F(FrameBuilderTest, KeepsThePacketStampsOfEachFrame) {
   builder.start(0, 0);
-  builder.place(0, 0, 0, {});
-  builder.place(1, 0, 0, {});
+  place(builder, 0, 0, 0);
+  place(builder, 1, 0, 0);
   builder.note_packet({10, 0, 0, 0, 100}, kStep, kSpread);
   builder.note_packet({20, kRevolution, 0, 1, 200}, kStep, kSpread);
   builder.note_packet({15, kRevolution / 2, 0, 1, 200}, kStep, kSpread);  // out of order

@@ -127,9 +127,9 @@ class HeardStream {
     EXPECT_LE(frames, packets <= 1 ? 2U : 4U);
   }
   [[nodiscard]] auto keep() {
-    return [this](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
+    return [this](const frame::FrameInfo& info, const frame::MeasuredReturns& returns) noexcept {
       frames.push_back(info);
-      returns_handed_over += image.returns();
+      returns_handed_over += returns.returns();
     };
   }
 

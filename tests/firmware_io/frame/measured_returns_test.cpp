@@ -4,93 +4,30 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "firmware_io/frame/frame_points.hpp"
-#include "firmware_io/frame/range_image.hpp"
+#include "tests/firmware_io/frame/plain_tiles.hpp"
 
 namespace terracut::frame {
 namespace {
 
 constexpr ImageShape kShape{8, 200};
-constexpr auto kLasers = static_cast<std::size_t>(kShape.rows);
-
-/// Points that tell where they were measured: x is the wire distance, y the head's azimuth, z the
-/// laser; the range is x. Laser i is of row 7 - i.
-class PlainReader final : public TileReader {
- public:
-  void open(const TileHeads& heads,
-            const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING override {
-    heads_ = heads;
-    raw_ = raw;
-  }
-  void compute_points(std::size_t laser,
-                      const PointsOut& out) noexcept TERRACUT_NONBLOCKING override {
-    for (std::size_t f = 0; f < kTileFirings; ++f) {
-      const auto raw = static_cast<float>(raw_[laser * kTileFirings + f]);
-      out.x_m[f] = out.ground_range_m[f] = raw;
-      out.y_m[f] = static_cast<float>(heads_.head_cdeg[f]);
-      out.z_m[f] = raw == 0 ? kNoHeight_m : static_cast<float>(laser);
-    }
-  }
-  [[nodiscard]] std::span<const std::int32_t> rows() const noexcept TERRACUT_NONBLOCKING override {
-    return rows_;
-  }
-  void set_row(std::size_t laser, std::int32_t row) { rows_[laser] = row; }
-
- private:
-  TileHeads heads_{};
-  const std::uint16_t* raw_ = nullptr;
-  std::array<std::int32_t, kLasers> rows_{7, 6, 5, 4, 3, 2, 1, 0};
-};
-
-/// One tile, of which nothing was measured yet.
-struct Measured {
-  std::array<TileRow<std::uint16_t>, kLasers> raw{};
-  std::array<TileRow<std::uint8_t>, kLasers> intensity{};
-  std::array<BeamColumns, kLasers> beams{};
-  TileHeads heads{};
-
-  explicit Measured(std::int32_t first_column) {
-    for (std::size_t f = 0; f < kTileFirings; ++f) {
-      const std::int32_t column = first_column + static_cast<std::int32_t>(f);
-      heads.head_cdeg[f] = column;
-      for (BeamColumns& beam : beams) beam.column[f] = column;
-    }
-    settle();
-  }
-  /// After a change of columns.
-  void settle() {
-    for (BeamColumns& beam : beams) {
-      const auto [least, most] = std::ranges::minmax(beam.column);
-      beam.least = least;
-      beam.most = most;
-      beam.is_one_run = true;
-      for (std::size_t f = 1; f < kTileFirings; ++f) {
-        beam.is_one_run &= beam.column[f] == beam.column[f - 1] + 1;
-      }
-    }
-  }
-};
+using Measured = test::PlainTile;
+using test::PlainReader;
 
 struct MeasuredReturnsTest : testing::Test {
   std::uint32_t add(const Measured& tile, CellOwner owner = CellOwner::kFirstArrived,
                     std::int32_t first_column = 0) {
-    return image.measured()->add({.heads = tile.heads,
-                                  .raw = tile.raw[0].data(),
-                                  .intensity = tile.intensity[0].data(),
-                                  .beams = tile.beams,
-                                  .first_column = first_column},
-                                 owner, reader);
+    return tile.add_to(returns, reader, owner, first_column);
   }
   /// x of the return that owns a cell of laser 2's row; 0: none.
   float owner_in(int column) {
     FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
-    points.begin(image);
-    points.make_until(kShape.columns, image, [](int, float, float) {});
+    points.begin(returns);
+    points.make_until(kShape.columns, returns, [](int, float, float) {});
     const std::size_t cell = kShape.cell(5, column);
     return std::isnan(points.planes().z_m[cell]) ? 0 : points.planes().x_m[cell];
   }
@@ -98,14 +35,14 @@ struct MeasuredReturnsTest : testing::Test {
   std::vector<float> extras() {
     std::vector<float> found;
     FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
-    points.begin(image);
-    points.make_until(kShape.columns, image,
+    points.begin(returns);
+    points.make_until(kShape.columns, returns,
                       [&](int, float, float range_m) { found.push_back(range_m); });
     return found;
   }
 
   memory::FixedMemory memory;
-  RangeImage image{kShape, MeasuredReturns(kShape, kLasers, 4, memory)};
+  MeasuredReturns returns{kShape, test::kPlainLasers, 4, memory};
   PlainReader reader;
 };
 
@@ -113,9 +50,8 @@ TEST_F(MeasuredReturnsTest, AreNumberedFiringByFiringLaserByLaser) {
   Measured tile(10);
   tile.raw[0][0] = tile.raw[3][0] = tile.raw[1][5] = tile.raw[7][23] = 100;
   EXPECT_EQ(add(tile), 0U);
-  const MeasuredReturns& returns = *image.measured();
   ASSERT_EQ(returns.tiles(), 1U);
-  EXPECT_EQ(image.returns(), 4U);
+  EXPECT_EQ(returns.returns(), 4U);
   EXPECT_EQ(returns.tile(0).first_return[0], 0U);
   EXPECT_EQ(returns.tile(0).first_return[1], 2U);
   EXPECT_EQ(returns.tile(0).first_return[5], 2U);
@@ -130,13 +66,13 @@ TEST_F(MeasuredReturnsTest, OfAnotherFrameAreLeftOut) {
   Measured tile(190);  // columns 190 .. 213, of which 200 is the next frame's first
   tile.raw[2].fill(50);
   EXPECT_EQ(add(tile), 0U);
-  EXPECT_EQ(image.returns(), 10U);
-  EXPECT_EQ(image.measured()->row(0, 2).owned, (1U << 10) - 1);
-  image.clear();
+  EXPECT_EQ(returns.returns(), 10U);
+  EXPECT_EQ(returns.row(0, 2).owned, (1U << 10) - 1);
+  returns.clear();
   EXPECT_EQ(add(tile, CellOwner::kFirstArrived, kShape.columns), 0U);
-  EXPECT_EQ(image.returns(), 14U);
-  EXPECT_EQ(image.measured()->column(0, 2, 10), 0);
-  EXPECT_EQ(image.measured()->column(0, 2, 23), 13);
+  EXPECT_EQ(returns.returns(), 14U);
+  EXPECT_EQ(returns.column(0, 2, 10), 0);
+  EXPECT_EQ(returns.column(0, 2, 23), 13);
 }
 
 TEST_F(MeasuredReturnsTest, OfALaserThatIsAheadOfTheOthersMayAllBeOfTheNextFrame) {
@@ -146,9 +82,9 @@ TEST_F(MeasuredReturnsTest, OfALaserThatIsAheadOfTheOthersMayAllBeOfTheNextFrame
   for (std::int32_t& column : tile.beams[7].column) column += 150;
   tile.settle();
   EXPECT_EQ(add(tile), 0U);
-  EXPECT_EQ(image.returns(), 10U);
-  EXPECT_EQ(image.measured()->row(0, 7).returns, 0U);
-  EXPECT_EQ(image.measured()->tile(0).most, 199);
+  EXPECT_EQ(returns.returns(), 10U);
+  EXPECT_EQ(returns.row(0, 7).returns, 0U);
+  EXPECT_EQ(returns.tile(0).most, 199);
 }
 
 TEST_F(MeasuredReturnsTest, ThatFindNoRoomAreCounted) {
@@ -156,7 +92,7 @@ TEST_F(MeasuredReturnsTest, ThatFindNoRoomAreCounted) {
   tile.raw[4][3] = tile.raw[5][3] = 9;
   for (int i = 0; i < 4; ++i) EXPECT_EQ(add(tile), 0U);
   EXPECT_EQ(add(tile), 2U);
-  EXPECT_EQ(image.returns(), 8U);
+  EXPECT_EQ(returns.returns(), 8U);
 }
 
 TEST_F(MeasuredReturnsTest, ShareACellThatOneOfThemOwns) {
@@ -170,18 +106,39 @@ TEST_F(MeasuredReturnsTest, ShareACellThatOneOfThemOwns) {
   tile.beams[2].column[1] = tile.beams[2].column[2] = 20;
   tile.settle();
   const auto owner_by = [&](CellOwner owner) {
-    image.clear();
+    returns.clear();
     EXPECT_EQ(add(tile, owner), 0U);
     EXPECT_EQ(extras().size(), 2U);
-    EXPECT_TRUE(image.measured()->has_shared(5, {20, 21}));
-    EXPECT_FALSE(image.measured()->has_shared(5, {21, kShape.columns}));
-    EXPECT_FALSE(image.measured()->has_shared(4, {0, kShape.columns}));
+    EXPECT_TRUE(returns.has_shared(5, {20, 21}));
+    EXPECT_FALSE(returns.has_shared(5, {21, kShape.columns}));
+    EXPECT_FALSE(returns.has_shared(4, {0, kShape.columns}));
     return owner_in(20);
   };
   EXPECT_EQ(owner_by(CellOwner::kFirstArrived), 30);
   EXPECT_EQ(owner_by(CellOwner::kStrongest), 40) << "the earlier one of equals";
   EXPECT_EQ(owner_by(CellOwner::kNearest), 20);
   EXPECT_EQ(owner_by(CellOwner::kFarthest), 40);
+}
+
+TEST_F(MeasuredReturnsTest, OfAPairAreCompared) {
+  Measured tile(20);
+  for (std::size_t f = 0; f < kTileFirings; ++f) {
+    const auto pair = static_cast<std::int32_t>(f / 2);
+    tile.beams[2].column[f] = 20 + pair;
+    const bool is_second = f % 2 == 1;
+    tile.raw[2][f] = static_cast<std::uint16_t>(is_second == (pair % 2 == 1) ? 30 : 50);
+  }
+  tile.settle();
+  const auto owners_by = [&](CellOwner owner) {
+    returns.clear();
+    EXPECT_EQ(add(tile, owner), 0U);
+    EXPECT_EQ(extras().size(), kTileFirings / 2);
+    EXPECT_TRUE(returns.has_shared(5, {20, 21}));
+    return std::pair{owner_in(20), owner_in(21)};
+  };
+  EXPECT_EQ(owners_by(CellOwner::kFirstArrived), (std::pair{30.0F, 50.0F}));
+  EXPECT_EQ(owners_by(CellOwner::kNearest), (std::pair{30.0F, 30.0F}));
+  EXPECT_EQ(owners_by(CellOwner::kFarthest), (std::pair{50.0F, 50.0F}));
 }
 
 TEST_F(MeasuredReturnsTest, OfALaterTileMayTakeACellFromAnEarlierOne) {
@@ -204,11 +161,11 @@ TEST_F(MeasuredReturnsTest, AreToldOfOnceWhereTheyLoseTheirCellAsPoints) {
   FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
   std::vector<std::pair<int, float>> told;
   const auto tell = [&](int column, float, float range_m) { told.emplace_back(column, range_m); };
-  points.begin(image);
-  points.make_until(kShape.columns, image, tell);
+  points.begin(returns);
+  points.make_until(kShape.columns, returns, tell);
   EXPECT_TRUE(told.empty());
   EXPECT_EQ(add(late, CellOwner::kNearest), 0U);
-  points.make_until(kShape.columns, image, tell);
+  points.make_until(kShape.columns, returns, tell);
   EXPECT_EQ(points.planes().x_m[kShape.cell(5, 30)], 10);
   EXPECT_EQ(told, (std::vector{std::pair{30, 30.0F}}));
 }
@@ -219,9 +176,9 @@ TEST_F(MeasuredReturnsTest, OfTwoLasersMayShareARow) {
   tile.raw[2].fill(30);
   tile.raw[6].fill(10);
   EXPECT_EQ(add(tile, CellOwner::kNearest), 0U);
-  EXPECT_EQ(image.measured()->row(0, 2).owned, 0U);
-  EXPECT_EQ(image.measured()->row(0, 6).owned, image.measured()->row(0, 6).returns);
-  EXPECT_EQ(image.measured()->row(0, 6).returns, (1U << kTileFirings) - 1);
+  EXPECT_EQ(returns.row(0, 2).owned, 0U);
+  EXPECT_EQ(returns.row(0, 6).owned, returns.row(0, 6).returns);
+  EXPECT_EQ(returns.row(0, 6).returns, (1U << kTileFirings) - 1);
 }
 
 TEST_F(MeasuredReturnsTest, MayComeToColumnsThatWereLeftOut) {
@@ -262,20 +219,20 @@ TEST_F(MeasuredReturnsTest, AreMadePointsOfAsColumnsAreAskedFor) {
     return !std::isnan(points.planes().z_m[kShape.cell(3, column)]);
   };
   const auto no_extra = [](int, float, float) { ADD_FAILURE() << "each owns its cell"; };
-  points.begin(image);
-  points.make_until(30, image, no_extra);
+  points.begin(returns);
+  points.make_until(30, returns, no_extra);
   EXPECT_TRUE(has(0) && has(29));
   EXPECT_FALSE(has(48));
-  points.make_until(60, image, no_extra);
+  points.make_until(60, returns, no_extra);
   EXPECT_TRUE(has(59));
   EXPECT_EQ(points.planes().z_m[kShape.cell(3, 59)], 4);
   EXPECT_EQ(points.planes().y_m[kShape.cell(3, 59)], 59);
   bool was_asked = false;
-  points.make_where(image, [&](int, ColumnRange) { return was_asked = true; });
+  points.make_where(returns, [&](int, ColumnRange) { return was_asked = true; });
   EXPECT_FALSE(was_asked) << "all points are made";
 
   FramePoints some(kShape, std::make_unique<PlainReader>(), memory);
-  some.make_where(image, [](int row, ColumnRange columns) {
+  some.make_where(returns, [](int row, ColumnRange columns) {
     return row == 3 && columns.begin <= 50 && columns.end > 50;
   });
   EXPECT_EQ(some.planes().x_m[kShape.cell(3, 50)], 49);

@@ -112,47 +112,12 @@ TEST_F(SmallImage, AFullOverflowListRefusesAndCountsNothing) {
   EXPECT_EQ(image.return_capacity(), 4U * 32U + 3U);
 }
 
-TEST_F(SmallImage, ReturnsNumberedAheadArePlacedInAnyOrder) {
-  ASSERT_TRUE(image.place(0, 0, {}));
-  ASSERT_EQ(image.take_numbers(3), 1U);
-  ASSERT_TRUE(image.place_numbered(1, 1, {1, 0, 0, 1, 0}, CellOwner::kFirstArrived, 3));
-  ASSERT_TRUE(image.place_numbered(2, 2, {2, 0, 0, 2, 0}, CellOwner::kFirstArrived, 1));
-  ASSERT_TRUE(image.place_numbered(2, 2, {3, 0, 0, 3, 0}, CellOwner::kFarthest, 2));
-  ASSERT_TRUE(image.place(3, 3, {}));
-  EXPECT_EQ(image.returns(), 5U);
-  EXPECT_EQ(image.return_index()[1 * 32 + 1], 3U);
-  EXPECT_EQ(image.return_index()[2 * 32 + 2], 2U);
-  EXPECT_EQ(image.overflow()[0].return_index, 1U);
-  EXPECT_EQ(image.return_index()[3 * 32 + 3], 4U);
-}
-
-TEST_F(SmallImage, SaysForHowManyReturnsThereIsRoomWhereverTheyFall) {
-  EXPECT_TRUE(image.has_room_for(3));
-  EXPECT_FALSE(image.has_room_for(4));
-  ASSERT_TRUE(image.place(0, 0, {}));
-  EXPECT_TRUE(image.has_room_for(3)) << "it took a cell";
-  ASSERT_TRUE(image.place(0, 0, {}));
-  EXPECT_FALSE(image.has_room_for(3));
-}
-
-TEST_F(SmallImage, CellsTakenTogetherHoldAReturnWhereTheyHaveAHeight) {
-  ASSERT_TRUE(image.place(1, 3, {}));
-  EXPECT_FALSE(image.is_empty_from(1, 3));
-  ASSERT_TRUE(image.is_empty_from(1, 4));
-  ASSERT_EQ(image.take_numbers(1), 1U);
-  const RangeImage::Cells cells = image.take_cells(1, 4, 2);
-  EXPECT_FALSE(image.is_empty_from(1, 5));
-  EXPECT_TRUE(image.is_empty_from(1, 6));
-  EXPECT_TRUE(image.is_empty_from(2, 0)) << "another row";
-  cells.x_m[0] = 7;
-  cells.z_m[0] = 0;
-  cells.z_m[1] = NAN;
-  cells.return_index[0] = 1;
-  EXPECT_TRUE(image.has_return(image.shape().cell(1, 4)));
-  EXPECT_FALSE(image.has_return(image.shape().cell(1, 5)));
-  EXPECT_EQ(image.x_m()[image.shape().cell(1, 4)], 7);
-  image.clear();
-  EXPECT_TRUE(image.is_empty_from(1, 0));
+TEST_F(SmallImage, AReturnWithoutAHeightHasANumberAndNoCell) {
+  ASSERT_TRUE(image.place(1, 3, {.z_m = kNoHeight_m}));
+  ASSERT_TRUE(image.place(1, 4, {}));
+  EXPECT_EQ(image.returns(), 2U);
+  EXPECT_FALSE(image.has_return(32 + 3));
+  EXPECT_EQ(image.return_index()[32 + 4], 1U);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ TEST(Hdl64eDecoderMemory, DecodingAllocatesNothing) {
   memory::FixedMemory memory;
   decode::Decoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory);
   std::uint64_t frames = 0, returns = 0;
-  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::MeasuredReturns&) noexcept {
     ++frames;
     returns += info.returns;
   };
@@ -44,7 +44,7 @@ TEST(Hdl64eDecoderMemory, TakingTheMotionOutAllocatesNothing) {
   config.motion = &motion;
   decode::Decoder decoder(hdl64e::nominal_hdl64e(), {}, config, memory);
   std::uint64_t frames = 0, deskewed = 0;
-  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::MeasuredReturns&) noexcept {
     ++frames;
     deskewed += info.deskew.state == frame::DeskewState::kDone ? 1U : 0U;
   };

@@ -258,7 +258,7 @@ TEST(Hdl64eDecoder, RefusesSettingsOutsideTheirRange) {
   config.columns = 15;
   EXPECT_THROW(Recorder{config}, std::invalid_argument);
   config.columns = 2083;
-  config.images = 2;
+  config.buffers = 2;
   EXPECT_THROW(Recorder{config}, std::invalid_argument);
 }
 

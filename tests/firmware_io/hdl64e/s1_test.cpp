@@ -45,7 +45,9 @@ constexpr std::uint64_t kReturnsAPacket = 12 * 32;
 
 TEST(Hdl64eS1, EveryReturnOfASteadyStreamIsPlacedAndNothingIsLost) {
   for (const double spin_hz : {5.0, 7.93, 10.0, 15.0}) {
-    test::Recorder recorder;
+    test::Recorder::Config config;
+    config.columns = static_cast<int>(1e9 / spin_hz / kS1UpperFiring_ns);
+    test::Recorder recorder(config);
     const std::vector<Packet> packets = s1_packets(3.2, spin_hz);
     recorder.decode_all(packets);
     recorder.flush();
@@ -130,7 +132,7 @@ TEST(Hdl64eS1, IsDecodedWithoutAllocating) {
   memory::FixedMemory memory;
   decode::Decoder decoder(nominal_hdl64e(), {}, {}, memory);
   std::uint64_t returns = 0;
-  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::MeasuredReturns&) noexcept {
     returns += info.returns;
   };
   const std::uint64_t before = test::allocations_of_this_thread();

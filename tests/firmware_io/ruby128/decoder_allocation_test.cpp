@@ -26,7 +26,7 @@ TEST_P(Ruby128DecoderMemory, DecodingAllocatesNothing) {
   memory::FixedMemory memory;
   decode::Decoder decoder(nominal_ruby128(), {}, {}, memory);
   std::uint64_t frames = 0, returns = 0;
-  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::MeasuredReturns&) noexcept {
     ++frames;
     returns += info.returns;
   };

@@ -152,7 +152,7 @@ TEST(Ruby128Decoder, TakesDeviceInformationForNoLoss) {
   std::vector<std::uint8_t> difop(kRubyPacketBytes, 0);
   const std::array<std::uint8_t, 8> start{0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55};
   std::copy(start.begin(), start.end(), difop.begin());
-  const auto nothing = [](const frame::FrameInfo&, const frame::RangeImage&) noexcept {};
+  const auto nothing = [](const frame::FrameInfo&, const frame::MeasuredReturns&) noexcept {};
   EXPECT_EQ(test::decode(decoder, packet::Datagram{.payload = difop}, nothing),
             frame::Reject::kDeviceInfo);
   EXPECT_EQ(decoder.losses().rejected_total(), 0U);

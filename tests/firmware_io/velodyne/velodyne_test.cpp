@@ -200,9 +200,8 @@ TYPED_TEST(VelodyneStream, IsDecodedWithoutAllocating) {
     memory::FixedMemory memory;
     decode::Decoder decoder(velodyne::factory_table(TypeParam::sheet().model), {}, {}, memory);
     std::uint64_t returns = 0;
-    const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
-      returns += info.returns;
-    };
+    const auto on_frame = [&](const frame::FrameInfo& info,
+                              const frame::MeasuredReturns&) noexcept { returns += info.returns; };
     const std::size_t planned = memory.total_bytes();
     const std::uint64_t before = test::allocations_of_this_thread();
     for (int loop = 0; loop < 3; ++loop) {

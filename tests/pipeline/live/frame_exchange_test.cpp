@@ -15,17 +15,17 @@ namespace {
 class FrameExchangeTest : public testing::Test {
  protected:
   FrameExchangeTest() {
-    for (std::size_t i = 0; i < FrameExchange::kImages; ++i) {
-      images_.emplace_back(frame::ImageShape{1, 16}, 0, memory_);
+    for (std::size_t i = 0; i < FrameExchange::kBuffers; ++i) {
+      buffers_.emplace_back(frame::ImageShape{1, 16}, 8, 0, memory_);
     }
-    exchange_.emplace(images_);
-    open_ = {&images_[0], &images_[1]};
+    exchange_.emplace(buffers_);
+    open_ = {&buffers_[0], &buffers_[1]};
   }
 
-  /// The frame goes over in the older of the two open images; the numbers of those skipped.
+  /// The frame goes over in the older of the two open buffers; the numbers of those skipped.
   void hand_over(std::uint32_t number) {
     run::Frame frame;
-    frame.image = open_[0];
+    frame.returns = open_[0];
     frame.record.info.number = number;
     open_[0] = open_[1];
     open_[1] = exchange_->hand_over(frame, [this](const run::Frame& skipped) noexcept {
@@ -34,9 +34,9 @@ class FrameExchangeTest : public testing::Test {
   }
 
   memory::FixedMemory memory_;
-  std::vector<frame::RangeImage> images_;
+  std::vector<frame::MeasuredReturns> buffers_;
   std::optional<FrameExchange> exchange_;
-  std::array<frame::RangeImage*, 2> open_{};
+  std::array<frame::MeasuredReturns*, 2> open_{};
   std::vector<std::uint32_t> skipped_;
 };
 
@@ -67,13 +67,13 @@ TEST_F(FrameExchangeTest, LeavesEveryFrameEitherTakenOrSkipped) {
   EXPECT_EQ(all.size(), 100U);
 }
 
-TEST_F(FrameExchangeTest, NeverGivesBackAnImageThatSomebodyHas) {
-  const frame::RangeImage* read = nullptr;
+TEST_F(FrameExchangeTest, NeverGivesBackABufferThatSomebodyHas) {
+  const frame::MeasuredReturns* read = nullptr;
   for (std::uint32_t number = 0; number < 100; ++number) {
     hand_over(number);
     EXPECT_NE(open_[1], read);
     EXPECT_NE(open_[1], open_[0]);
-    if (number % 3 == 0) read = exchange_->take_if_new()->image;
+    if (number % 3 == 0) read = exchange_->take_if_new()->returns;
     EXPECT_NE(read, open_[0]);
     EXPECT_NE(read, open_[1]);
   }

@@ -194,13 +194,12 @@ class LiveFrames : public testing::Test {
     decode::Decoder::Config config;
     config.columns = 2083;
     config.reorder_packets = 0;
-    config.keeps_measured = true;
     return config;
   }
   LivePipeline chain_{calibration_, profile_, decoder_config(), {}, memory_};
   std::vector<std::vector<Packet>> sent_;
   MadeSource source_{time_, chain_.decoder};
-  FrameExchange frames_{chain_.decoder.images()};
+  FrameExchange frames_{chain_.decoder.buffers()};
   Expected<threads::WakeEvent> frame_ready_ = threads::WakeEvent::make();
   FrameRecords skipped_{memory_}, segmented_{memory_};
   queues::LatestValue<status::InputState> intake_;
@@ -427,12 +426,12 @@ TEST_F(LiveFrames, CoarseStagesThatWereNotFarEnoughAreDoneByTheSegmentingHalf) {
     FramePool<frame::Label>::Frame frame;
     ASSERT_TRUE(labels_.take(frame));
     (frame.record.stages_ahead > 0 ? ahead : late) += 1;
-    const auto image =
-        std::ranges::find_if(chain_.decoder.images(), [&](const frame::RangeImage& candidate) {
+    const auto returns = std::ranges::find_if(
+        chain_.decoder.buffers(), [&](const frame::MeasuredReturns& candidate) {
           return candidate.returns() == frame.record.info.returns;
         });
-    ASSERT_NE(image, chain_.decoder.images().end());
-    (void)at_once.segment(*image);
+    ASSERT_NE(returns, chain_.decoder.buffers().end());
+    (void)at_once.segment(*returns);
     EXPECT_TRUE(std::ranges::equal(frame.items, at_once.labels())) << frame.record.info.number;
     labels_.give_back(true);
   }

@@ -24,7 +24,8 @@ class PacketPipelineTest : public testing::Test {
 
   std::unique_ptr<PacketPipeline> pipeline(Timing timing = Timing::kPackets) {
     return std::make_unique<PacketPipeline>(unit_, profile_, decode::Decoder::Config{},
-                                            ground::maker_of({}), memory_, timing);
+                                            ground::maker_of({}), memory_,
+                                            PacketPipeline::Makes::kPoints, timing);
   }
 
   memory::FixedMemory memory_;

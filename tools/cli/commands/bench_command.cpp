@@ -192,10 +192,10 @@ ExitCode run_bench(const Options& options) {
 
   warn_of_other_senders(*capture, capture->source.counters(), options.capture);
   memory::FixedMemory memory;
-  const auto decoder_config =
-      decoder_config_of(options, capture->sensor.columns, FramesAreFor::kLabels);
+  const auto decoder_config = decoder_config_of(options, capture->sensor.columns);
   run::PacketPipeline pipeline(capture->calibration, *profile, decoder_config,
                                method_of(options.method), memory,
+                               frames_with(run::PacketPipeline::Makes::kLabels, options),
                                run::PacketPipeline::Timing::kFrames);
   decode::Decoder decoder(capture->calibration, profile->mount, decoder_config, memory);
   const int core = stay_on_core(options.bench_core);

@@ -46,11 +46,12 @@ std::size_t take_memory(const Options& options, const calib::SensorCalibration& 
                         memory::FixedMemory& memory) {
   std::optional<vehicle::EgoMotion> motion;
   if (has_motion) motion.emplace(ego_motion_config_of(options.motion), memory);
-  const FramesAreFor purpose =
-      options.fleet.format == FleetFormat::kLabels ? FramesAreFor::kLabels : FramesAreFor::kPoints;
+  const auto makes = options.fleet.format == FleetFormat::kLabels
+                         ? run::PacketPipeline::Makes::kLabels
+                         : run::PacketPipeline::Makes::kPoints;
   const run::PacketPipeline pipeline(
-      calibration, profile, decoder_config_of(options, 0, purpose, motion ? &*motion : nullptr),
-      method_of(options.method), memory);
+      calibration, profile, decoder_config_of(options, 0, motion ? &*motion : nullptr),
+      method_of(options.method), memory, frames_with(makes, options));
   return pipeline.decoder().return_capacity();
 }
 

@@ -126,15 +126,21 @@ class Replay {
   /// Hands on a frame. The first error of an output is kept and ends the replay.
   void take(const run::Frame& frame) {
     const FrameInfo& info = frame.record.info;
-    const frame::RangeImage& image = *frame.image;
     const std::span<const frame::Label> labels = capture_.labels();
     const std::string name = fmt::format("{:06}", info.number);
-    const std::span<const std::uint32_t> truth = truth_.read(name, image.returns());
+    const std::span<const std::uint32_t> truth = truth_.read(name, info.returns);
     if (!truth.empty()) capture_.report().score(labels, truth);
     sinks_ = outputs_.write_labels(name, labels);
-    if (sinks_) sinks_ = outputs_.write_frame(name, image, labels, truth);
-    if (sinks_) sinks_ = outputs_.publish(frame.record, image, labels, capture_.timing(frame));
+    if (sinks_ && frame.image != nullptr) sinks_ = write_points(name, frame, truth);
     progress_.update(static_cast<double>(capture_.report().totals.frames));
+  }
+
+  [[nodiscard]] Status write_points(const std::string& name, const run::Frame& frame,
+                                    std::span<const std::uint32_t> truth) {
+    const auto labels = capture_.labels();
+    const Status written = outputs_.write_frame(name, *frame.image, labels, truth);
+    if (!written) return written;
+    return outputs_.publish(frame.record, *frame.image, labels, capture_.timing(frame));
   }
 
   ExitCode conclude() {
@@ -173,8 +179,8 @@ ExitCode run_replay(const Options& options) {
                                              options.output.truth.string()));
   }
   auto capture = LabelledCapture::open(options, FrameOutputs::need_points(options.output)
-                                                    ? FramesAreFor::kPoints
-                                                    : FramesAreFor::kLabels);
+                                                    ? LabelledCapture::Makes::kPoints
+                                                    : LabelledCapture::Makes::kLabels);
   if (!capture) return refuse_work(capture.error());
   catch_stop_signals();
   return Replay(options, **capture).run();

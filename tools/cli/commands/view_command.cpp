@@ -55,7 +55,7 @@ ExitCode run_view(const Options& as_said) {
                  .mount = (*clouds)->sensor_mount()},
                 options);
   }
-  auto capture = LabelledCapture::open(options, FramesAreFor::kPoints);
+  auto capture = LabelledCapture::open(options, LabelledCapture::Makes::kPoints);
   if (!capture) return refuse_work(capture.error());
   say_what_is_read((*capture)->capture());
   PlayedCapture played(**capture, options);

@@ -56,15 +56,17 @@ Status visit_capture(const Options& options, Wanted wanted, const Visit& visit) 
     if (!opened) return tl::unexpected(opened.error());
     motion.emplace(*std::move(opened));
   }
-  decode::Decoder decoder(capture->calibration, *mount,
-                          decoder_config_of(options, capture->sensor.columns, FramesAreFor::kPoints,
-                                            motion ? &motion->motion() : nullptr),
-                          memory);
+  decode::Decoder decoder(
+      capture->calibration, *mount,
+      decoder_config_of(options, capture->sensor.columns, motion ? &motion->motion() : nullptr),
+      memory);
+  frame::PointImage points = decoder.point_image(memory);
   const auto take_frames = [&]() -> Status {
     while (const frame::Frame* const frame = decoder.next()) {
       const auto its = wanted.find(fmt::format("{:06}", frame->info.number));
       if (its == wanted.end()) continue;
-      if (Status visited = visit(*its->second, *frame->image); !visited) return visited;
+      const frame::RangeImage& image = points.make(*frame->returns, frame->motions);
+      if (Status visited = visit(*its->second, image); !visited) return visited;
       wanted.erase(its);
     }
     return {};
@@ -97,16 +99,14 @@ Status visit_clouds(const Options& options, const Wanted& wanted, const Visit& v
     memory::FixedMemory memory;
     const auto points = static_cast<std::uint32_t>(cloud.points.size());
     frame::RangeImage image({.rows = 1, .columns = static_cast<int>(points)}, 0, memory);
-    (void)image.take_numbers(points);
     for (std::uint32_t i = 0; i < points; ++i) {
       const scan::ScanPoint& point = cloud.points[i];
-      if (!scan::is_place(point)) continue;
       const auto at = mount::apply(T, point.x_m, point.y_m, point.z_m);
-      image.place_numbered(0, static_cast<int>(i),
-                           {.x_m = static_cast<float>(at[0]),
-                            .y_m = static_cast<float>(at[1]),
-                            .z_m = static_cast<float>(at[2])},
-                           frame::CellOwner::kFirstArrived, i);
+      const bool is_place = scan::is_place(point);
+      image.place(0, static_cast<int>(i),
+                  {.x_m = static_cast<float>(at[0]),
+                   .y_m = static_cast<float>(at[1]),
+                   .z_m = is_place ? static_cast<float>(at[2]) : frame::kNoHeight_m});
     }
     if (Status visited = visit(*its->second, image); !visited) return visited;
   }

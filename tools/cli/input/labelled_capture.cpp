@@ -10,18 +10,19 @@
 #include "pipeline/live/latest_near_ground.hpp"
 #include "recorded_frames.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/settings/decoder_choice.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 
 namespace terracut::cli {
 
 Expected<std::unique_ptr<LabelledCapture>> LabelledCapture::open(const Options& options,
-                                                                 FramesAreFor purpose) {
+                                                                 Makes makes) {
   std::unique_ptr<LabelledCapture> opened(new LabelledCapture(options));
-  if (Status ready = opened->prepare(purpose); !ready) return tl::unexpected(ready.error());
+  if (Status ready = opened->prepare(makes); !ready) return tl::unexpected(ready.error());
   return opened;
 }
 
-Status LabelledCapture::prepare(FramesAreFor purpose) {
+Status LabelledCapture::prepare(Makes makes) {
   auto capture = open_capture(options_.capture);
   if (!capture) return tl::unexpected(capture.error());
   capture_ = *std::move(capture);
@@ -37,10 +38,10 @@ Status LabelledCapture::prepare(FramesAreFor purpose) {
     if (!motion) return tl::unexpected(motion.error());
     motion_.emplace(*std::move(motion));
   }
-  pipeline_.emplace(capture_->calibration, *profile,
-                    decoder_config_of(options_, capture_->sensor.columns, purpose,
-                                      motion_ ? &motion_->motion() : nullptr),
-                    method_of(options_.method), memory_);
+  pipeline_.emplace(
+      capture_->calibration, *profile,
+      decoder_config_of(options_, capture_->sensor.columns, motion_ ? &motion_->motion() : nullptr),
+      method_of(options_.method), memory_, frames_with(makes, options_));
   clock_of_device_.emplace(options_.capture.clock_offset_s);
   sensor_mount_ = profile->mount;
   mount_.emplace(sensor_mount_, *mount);

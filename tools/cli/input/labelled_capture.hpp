@@ -20,7 +20,6 @@
 #include "tools/cli/input/device_clock.hpp"
 #include "tools/cli/input/mount_watch.hpp"
 #include "tools/cli/options.hpp"
-#include "tools/cli/settings/decoder_choice.hpp"
 
 namespace terracut::cli {
 
@@ -28,10 +27,13 @@ namespace terracut::cli {
 /// vehicle's motion, decoder and method, the mount (found unless stated), and the report.
 class LabelledCapture {
  public:
-  /// Opens the capture and reads its beginning to find sensor, calibration and mount. Fails with
+  using Makes = run::PacketPipeline::Makes;
+
+  /// Opens the capture and reads its beginning to find sensor, calibration and mount. `makes` says
+  /// what frames are to come with. Fails with
   /// the errors of open_capture(), choose_mount(), ring_profile_of() and RecordedMotion::open().
   [[nodiscard]] static Expected<std::unique_ptr<LabelledCapture>> open(const Options& options,
-                                                                       FramesAreFor purpose);
+                                                                       Makes makes);
   LabelledCapture(const LabelledCapture&) = delete;
   LabelledCapture& operator=(const LabelledCapture&) = delete;
 
@@ -77,7 +79,7 @@ class LabelledCapture {
 
  private:
   explicit LabelledCapture(const Options& options) : options_(options) {}
-  Status prepare(FramesAreFor purpose);
+  Status prepare(Makes makes);
   [[nodiscard]] bool decode_one();
   void note_packet(const packet::Datagram& datagram);
 

@@ -76,10 +76,11 @@ Status CaptureFrames::pass(Frames& frames, std::size_t most, Take take) {
 Status CaptureFrames::each_frame(const mount::Mount& mount, std::size_t most,
                                  const OnFrame& on_frame) {
   memory::FixedMemory memory;
-  decode::Decoder decoder(
-      capture_.calibration, mount,
-      decoder_config_of(options_, capture_.sensor.columns, FramesAreFor::kPoints), memory);
-  return pass(decoder, most, [&](const frame::Frame& frame) { return on_frame(*frame.image); });
+  decode::Decoder decoder(capture_.calibration, mount,
+                          decoder_config_of(options_, capture_.sensor.columns), memory);
+  frame::PointImage points = decoder.point_image(memory);
+  return pass(decoder, most,
+              [&](const frame::Frame& frame) { return on_frame(points.make(*frame.returns)); });
 }
 
 Status CaptureFrames::look_for_mount(std::size_t most, mount::MountFinder& finder) {
@@ -90,10 +91,10 @@ Status CaptureFrames::look_for_mount(std::size_t most, mount::MountFinder& finde
 
 Status CaptureFrames::look_for_standing_mount(std::size_t most, mount::MountFinder& finder) {
   memory::FixedMemory memory;
-  run::PacketPipeline pipeline(
-      capture_.calibration, ring_profile(mount::kAtTheSensor),
-      decoder_config_of(options_, capture_.sensor.columns, FramesAreFor::kLabels),
-      method_of(options_.method), memory);
+  run::PacketPipeline pipeline(capture_.calibration, ring_profile(mount::kAtTheSensor),
+                               decoder_config_of(options_, capture_.sensor.columns),
+                               method_of(options_.method), memory,
+                               frames_with(run::PacketPipeline::Makes::kLabels, options_));
   const auto ground = std::make_unique<ground::NearGround>();
   return pass(pipeline, most, [&](run::Frame& frame) {
     pipeline.label(frame);

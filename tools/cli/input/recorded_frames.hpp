@@ -49,8 +49,7 @@ class CaptureFrames : public RecordedFrames {
                                   const OnFrame& on_frame) override;
   [[nodiscard]] mount::RingProfile ring_profile(const mount::Mount& mount) const override;
   /// Tries first with the objects that label the capture, so that it takes no more memory than the
-  /// run. Only a sensor that is not upright needs frames with points, which are three times as
-  /// large.
+  /// run. Only a sensor that is not upright needs images of points.
   [[nodiscard]] Status look_for_mount(std::size_t most, mount::MountFinder& finder) override;
 
   /// Returns the counters of the last pass.

@@ -159,8 +159,7 @@ live::LiveConfig live_config_of(const Options& options, const streams::SensorOnA
   const RealtimeOptions& realtime = options.realtime;
   const bool wants_points = !options.stream.empty() || wants_sinks(options.output);
   live::LiveConfig config;
-  config.decoder = decoder_config_of(options, sensor.columns,
-                                     wants_points ? FramesAreFor::kPoints : FramesAreFor::kLabels);
+  config.decoder = decoder_config_of(options, sensor.columns);
   config.reorder_packets = options.capture.reorder_packets.value_or(config.reorder_packets);
   config.method = method_config_of(options.method).segmenter;
   config.threads = {

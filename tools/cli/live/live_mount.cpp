@@ -13,7 +13,7 @@ MountChoice mount_on_air(net::LiveSource& source, const streams::SensorOnAir& se
   if (!is_mount_open(options.mount)) return {.options = options.mount};
   constexpr std::chrono::seconds kForAGuess{3};
   const mount::MountFinder finder = run::mount_on_air(
-      source, sensor, decoder_config_of(options, sensor.columns, FramesAreFor::kPoints),
+      source, sensor, decoder_config_of(options, sensor.columns),
       options.mount.may_guess ? kForAGuess : run::kGroundPatience, stop_wanted, on_waiting);
   return choose_mount(guessing(options.mount), finder).value();
 }

@@ -7,7 +7,7 @@
 
 namespace terracut::cli {
 
-decode::Decoder::Config decoder_config_of(const Options& options, int columns, FramesAreFor purpose,
+decode::Decoder::Config decoder_config_of(const Options& options, int columns,
                                           vehicle::EgoMotion* motion) {
   const CaptureOptions& capture = options.capture;
   decode::Decoder::Config config;
@@ -17,11 +17,14 @@ decode::Decoder::Config decoder_config_of(const Options& options, int columns, F
   config.hdl64e.geometry = capture.geometry;
   config.ruby128.timestamp = capture.timestamp;
   config.velodyne.is_named = capture.sensor.has_value();
-  config.keeps_measured = purpose == FramesAreFor::kLabels &&
-                          !baselines::needs_all_points(method_config_of(options.method));
   config.motion = motion;
   config.deskew_at = options.motion.deskew_to;
   return config;
+}
+
+run::PacketPipeline::Makes frames_with(run::PacketPipeline::Makes wanted, const Options& options) {
+  const bool needs_points = baselines::needs_all_points(method_config_of(options.method));
+  return needs_points ? run::PacketPipeline::Makes::kPoints : wanted;
 }
 
 }  // namespace terracut::cli

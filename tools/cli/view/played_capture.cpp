@@ -8,6 +8,7 @@
 
 #include "firmware_io/capture/capture_clock.hpp"
 #include "pipeline/points/labelled_points.hpp"
+#include "tools/cli/settings/decoder_choice.hpp"
 
 namespace terracut::cli {
 
@@ -18,8 +19,7 @@ class PlayedCapture::Counter {
   Counter(const OpenCapture& capture, const Options& options)
       : source_(open_again(capture, options.capture)),
         decoder_(capture.calibration, mount::kAtTheSensor,
-                 decoder_config_of(options, capture.sensor.columns, FramesAreFor::kLabels),
-                 memory_) {
+                 decoder_config_of(options, capture.sensor.columns), memory_) {
     if (source_) part_.emplace(*source_, CaptureOptions{});
   }
 

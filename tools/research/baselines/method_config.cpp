@@ -80,8 +80,7 @@ Expected<MethodConfig> method_named(std::string_view name) {
 }
 
 bool needs_all_points(const MethodConfig& config) noexcept {
-  return config.kind != MethodKind::kSegmenter || config.segmenter.road.enabled ||
-         config.segmenter.region.rule == random_field::RegionRule::kHistogram;
+  return config.kind != MethodKind::kSegmenter;
 }
 
 ground::MethodMaker maker_of(const MethodConfig& config) {

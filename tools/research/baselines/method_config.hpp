@@ -41,7 +41,7 @@ struct MethodName {
 /// kInvalidArgument; the message lists all.
 [[nodiscard]] Expected<MethodConfig> method_named(std::string_view name);
 
-/// True if the method needs the points of an image.
+/// True if the method labels images of points only.
 [[nodiscard]] bool needs_all_points(const MethodConfig& config) noexcept;
 
 /// Returns the function that makes the chosen method.

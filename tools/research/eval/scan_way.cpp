@@ -37,7 +37,8 @@ PacketWay::PacketWay(const hdl64e::Hdl64eCalibration& calibration, const encode:
                      const mount::Mount& mount, memory::FixedMemory& memory)
     : calibration_(calibration),
       spin_hz_(spin.spin_hz()),
-      decoder_(calibration, mount, with_columns(spin.firings()), memory) {}
+      decoder_(calibration, mount, with_columns(spin.firings()), memory),
+      points_(decoder_.point_image(memory)) {}
 
 Status PacketWay::encode(std::span<const scan::ScanPoint> points,
                          std::span<const std::int16_t> ring_of_point) {
@@ -78,7 +79,8 @@ Expected<PlacedScan> PacketWay::place(std::span<const scan::ScanPoint> points,
   PlacedScan placed{nullptr, point_of_return_, 0};
   const auto take_frames = [&] {
     while (const frame::Frame* frame = decoder_.next()) {
-      if (frame->info.returns == point_of_return_.size()) placed.image = frame->image;
+      if (frame->info.returns != point_of_return_.size()) continue;
+      placed.image = &points_.make(*frame->returns);
     }
   };
   const std::int64_t begun_ns = measure::thread_cpu_ns();

@@ -63,6 +63,7 @@ class PacketWay {
   hdl64e::Hdl64eCalibration calibration_;
   double spin_hz_;
   decode::Decoder decoder_;
+  frame::PointImage points_;
   std::vector<std::vector<std::uint8_t>> packets_;
   std::vector<std::uint32_t> point_of_return_;
 };

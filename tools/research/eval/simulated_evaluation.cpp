@@ -78,6 +78,7 @@ Expected<mount::FoundMount> mount_of(const fs::path& capture,
   if (!source) return tl::unexpected(source.error());
   memory::FixedMemory memory;
   decode::Decoder decoder(calibration, mount::kAtTheSensor, decoder_config(columns), memory);
+  frame::PointImage points = decoder.point_image(memory);
   ground::MountSearch search;
   for (bool is_over = false; !is_over && !search.has_enough_frames();) {
     const auto next = source->next();
@@ -88,7 +89,9 @@ Expected<mount::FoundMount> mount_of(const fs::path& capture,
     } else {
       decoder.push(**next);
     }
-    while (const frame::Frame* frame = decoder.next()) search.add_frame(*frame->image);
+    while (const frame::Frame* frame = decoder.next()) {
+      search.add_frame(points.make(*frame->returns));
+    }
   }
   return search.found();
 }
@@ -103,6 +106,7 @@ class DriveEvaluation {
         scene_(std::move(scene)),
         truth_folder_(std::move(truth)),
         decoder_(calibration, mount, decoder_config(columns), memory_),
+        points_(decoder_.point_image(memory_)),
         profile_(calib::ring_profile(calibration, mount)),
         bench_(config.methods, profile_, decoder_.shape(), decoder_.return_capacity(), memory_),
         keeper_(keeper),
@@ -132,8 +136,9 @@ class DriveEvaluation {
   void take_frames() {
     const frame::Frame* frame = decoder_.next();
     for (; frame != nullptr; frame = decoder_.next()) {
+      const frame::RangeImage& image = points_.make(*frame->returns);
       decode_ns_ += measure::thread_cpu_ns() - resumed_ns_;
-      take(frame->info, *frame->image);
+      take(frame->info, image);
       decode_ns_ = 0;
       resumed_ns_ = measure::thread_cpu_ns();
     }
@@ -185,6 +190,7 @@ class DriveEvaluation {
   fs::path truth_folder_;
   memory::FixedMemory memory_;
   decode::Decoder decoder_;
+  frame::PointImage points_;
   mount::RingProfile profile_;
   MethodBench bench_;
   ResultKeeper& keeper_;

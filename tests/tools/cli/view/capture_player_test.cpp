@@ -50,7 +50,7 @@ class CapturePlayerTest : public test::InScratchFolder {
     open();
   }
   void open() {
-    auto capture = LabelledCapture::open(options_, FramesAreFor::kPoints);
+    auto capture = LabelledCapture::open(options_, LabelledCapture::Makes::kPoints);
     ASSERT_TRUE(capture) << capture.error().message;
     capture_ = *std::move(capture);
     played_ = std::make_unique<PlayedCapture>(*capture_, options_);

@@ -55,7 +55,7 @@ class FaultsToDecoder : public LiveTest {
     source.refresh_drops();
 
     decode::Decoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory_);
-    const auto on_frame = [&](const frame::FrameInfo&, const frame::RangeImage&) noexcept {
+    const auto on_frame = [&](const frame::FrameInfo&, const frame::MeasuredReturns&) noexcept {
       ++result.frames;
     };
     for (Received& each : received) {

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "firmware_io/frame/each_return.hpp"
+#include "firmware_io/frame/point_image.hpp"
 #include "pipeline/output/label_sink.hpp"
+#include "tests/firmware_io/frame/plain_tiles.hpp"
 #include "tests/pipeline/output/small_frame.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/synthetic_frame.hpp"
@@ -106,6 +108,62 @@ TEST(LabelledPoints, ArePackedWithoutAllocation) {
   const bool packed = pack_in_real_time(small.image, small.labels, points);
   EXPECT_EQ(test::allocations_of_this_thread(), before);
   EXPECT_TRUE(packed);
+}
+
+/// A frame of two tiles, cells with two returns and a missing return, and its labels.
+struct PackedTiles : testing::Test {
+  static constexpr frame::ImageShape kShape{8, 100};
+
+  PackedTiles() {
+    test::PlainTile first(10), second(30);  // the second begins in columns of the first
+    for (std::size_t i = 0; i < test::kPlainLasers; ++i) {
+      for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
+        first.raw[i][f] = static_cast<std::uint16_t>(i == 3 && f % 5 == 0 ? 0 : 100 + 30 * i + f);
+        second.raw[i][f] = static_cast<std::uint16_t>(200 + 30 * i + f);
+        first.intensity[i][f] = static_cast<std::uint8_t>(i + f);
+      }
+    }
+    EXPECT_EQ(first.add_to(returns, reader), 0U);
+    EXPECT_EQ(second.add_to(returns, reader, frame::CellOwner::kFarthest), 0U);
+    for (std::uint32_t n = 0; n < returns.returns(); ++n) {
+      labels.push_back(n % 3 == 0 ? Label::kObstacle : Label::kGround);
+    }
+    packed.resize(labels.size());
+    expected.resize(labels.size());
+  }
+
+  memory::FixedMemory memory;
+  test::PlainReader reader;
+  frame::MeasuredReturns returns{kShape, test::kPlainLasers, 2, memory};
+  frame::PointImage image{kShape, returns.return_capacity(), std::make_unique<test::PlainReader>(),
+                          memory};
+  std::vector<Label> labels;
+  std::vector<LabelledPoint> packed, expected;
+};
+
+TEST_F(PackedTiles, AreThePointsOfTheImageMadeOfThem) {
+  const std::vector<float> beam_turns{0, 0.01F, 0, -0.01F, 0, 0, 0.02F, 0};
+  const FrameTiming timing{{0, 1}, 0.1, beam_turns};
+  ASSERT_TRUE(pack_labelled_points(image.make(returns), labels, expected, timing));
+  ASSERT_TRUE(pack_labelled_points(returns, {}, reader, labels, packed, timing));
+  EXPECT_EQ(packed, expected);
+  EXPECT_GT(packed.back().time_s, 0);
+}
+
+TEST_F(PackedTiles, AreMovedWhereTheFrameIsDeskewed) {
+  const std::vector<float> cosine(100, 0.8F), sine(100, 0.6F), x_m(100, 5), y_m(100, -2);
+  const std::vector<frame::PlanarMotions> motions(8, {cosine, sine, x_m, y_m});
+  ASSERT_TRUE(pack_labelled_points(image.make(returns, motions), labels, expected));
+  ASSERT_TRUE(pack_labelled_points(returns, motions, reader, labels, packed));
+  EXPECT_EQ(packed, expected);
+}
+
+TEST_F(PackedTiles, ThatDoNotFitAreNotWritten) {
+  packed.pop_back();
+  EXPECT_FALSE(pack_labelled_points(returns, {}, reader, labels, packed));
+  labels.pop_back();
+  EXPECT_FALSE(pack_labelled_points(returns, {}, reader, labels, packed));
+  EXPECT_EQ(packed, std::vector<LabelledPoint>(packed.size()));
 }
 
 }  // namespace

@@ -36,8 +36,8 @@ class ReturnLabels {
   void assign(const frame::RangeImage& image,
               const CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
-  /// Labels every return of a frame that keeps its returns as measured. `points` must be valid in
-  /// cells with several returns. `reader` is the sensor's tile reader.
+  /// Labels every return of a decoded frame. `points` must be valid in cells with several returns.
+  /// `reader` is the sensor's tile reader.
   void assign(const frame::MeasuredReturns& returns, const frame::PointPlanes& points,
               frame::TileReader& reader, const CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 

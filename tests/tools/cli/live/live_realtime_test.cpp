@@ -64,8 +64,7 @@ class LiveRealtime : public Cli, public testing::WithParamInterface<Scan> {
   }
 };
 
-// Without the vehicle's motion frames keep their returns as they were measured; with it they have
-// points, which are deskewed.
+// With and without the vehicle's motion, by which points of the outputs are deskewed.
 
 TEST_P(LiveRealtime, WholeMethodMakesNoCallThatMayWait) {
   const Outcome heard = hear("--deadline 10000");

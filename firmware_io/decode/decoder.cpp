@@ -62,7 +62,7 @@ Decoder::SensorReturns Decoder::sensor_of(const calib::SensorCalibration& calibr
                     });
 }
 
-FrameBuilder::Config Decoder::frame_config(const Model& model, const Config& config) {
+FrameBuilder::Config Decoder::frame_config(const Model& model) {
   // Beams point up to 10 degrees before and behind the head, so tiles around the seam (azimuth 0)
   // are kept in both frames. Tiles are also cut short where a frame ends or the return mode
   // changes.
@@ -71,7 +71,6 @@ FrameBuilder::Config Decoder::frame_config(const Model& model, const Config& con
   return {.shape = {model.rows, model.columns},
           .lasers = model.lasers,
           .tiles = (firings + firings / kAroundSeam) / frame::kTileFirings + kCutTiles,
-          .buffers = config.buffers,
           .revolution_ticks = packet::kRevolution_ticks};
 }
 
@@ -89,7 +88,7 @@ Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration
       dual_owner_(config.dual_owner),
       sensor_(sensor_of(calibration, mount, config, model.columns, memory)),
       tracker_(model.clock_wrap_us, memory),
-      frames_(frame_config(model, config), memory),
+      frames_(frame_config(model), memory),
       clock_(model.clock_wrap_us),
       in_doubt_(model.packet_bytes, memory) {
   std::vector<std::int32_t> beam_ticks(static_cast<std::size_t>(model.rows));
@@ -106,7 +105,7 @@ Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration
   });
   if (config.motion == nullptr) return;
   deskewer_.emplace(Deskewer::Config{config.motion, config.deskew_at, frames_.shape(),
-                                     packet::kRevolution_ticks, frames_.buffers().size()},
+                                     packet::kRevolution_ticks, FrameBuilder::kBuffers},
                     beam_ticks, memory);
 }
 
@@ -148,15 +147,15 @@ void Decoder::end_stream() noexcept {
   begin_anew(Step::kEnd);
 }
 
-frame::Frame* Decoder::next(frame::MeasuredReturns* in_exchange) noexcept {
-  frame::Frame* frame = frames_.next(in_exchange);
+frame::Frame* Decoder::next() noexcept {
+  frame::Frame* frame = frames_.next();
   while (frame == nullptr && go_on()) frame = frames_.next();
   if (frame == nullptr) return nullptr;
   frame->info.blind = blind();
   if (!deskewer_) return frame;
   // Motions are kept as long as the returns: there is a place for those of each buffer.
-  const auto place = static_cast<std::size_t>(frame->returns - frames_.buffers().data());
-  const Deskewer::Deskewed deskewed = deskewer_->deskew(frames_.oldest(), place);
+  const Deskewer::Deskewed deskewed =
+      deskewer_->deskew(frames_.oldest(), frames_.number_of(*frame->returns));
   frame->info.deskew = deskewed.info;
   frame->motions = deskewed.by_row;
   return frame;
@@ -305,6 +304,7 @@ void Decoder::place() noexcept {
                       job_.step_ticks, job_.spread);
   const PacketPlace place{
       .rotor_cdeg = job_.placed.rotor_cdeg,
+      .stamp_ns = job_.stamp_ns,
       .late_columns = job_.late_columns,
       .owner = azimuths_.dual_return ? dual_owner_ : frame::CellOwner::kFirstArrived};
   const bool is_placed = with_sensor([&](auto& returns) noexcept {
@@ -315,9 +315,9 @@ void Decoder::place() noexcept {
   columns_ += static_cast<std::uint64_t>(azimuths_.columns - job_.late_columns);
 
   const std::int64_t late_packets = reorder_packets_ > 0 ? reorder_packets_ + 1 : 0;
-  completes_behind_ticks_ =
+  const std::int64_t behind_ticks =
       late_packets * job_.stride.widest_ticks + job_.step_ticks - job_.spread.hindmost_ticks;
-  complete_ticks_ = (late_packets > 0 ? frontier_ticks_ : next_ticks) - completes_behind_ticks_;
+  complete_ticks_ = (late_packets > 0 ? frontier_ticks_ : next_ticks) - behind_ticks;
   if (is_placed) placed_ticks_ = complete_ticks_;
   end_frames_before(frame_of(complete_ticks_));
   step_ = after_packet_;

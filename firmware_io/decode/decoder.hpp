@@ -59,7 +59,6 @@ class Decoder {
     int returns_per_cell = 0;
     /// In dual return, which of the two returns owns the cell. Both are placed and labelled.
     frame::CellOwner dual_owner = frame::CellOwner::kStrongest;
-    int buffers = 3;  ///< FrameBuilder::Config::buffers
     /// A packet that arrives up to this many packets late still reaches its frame: a frame is
     /// handed over only when the hindmost beam of a later packet begins past the seam and this many
     /// more packets have come. The latency grows by the time of that many packets, plus one; with
@@ -92,9 +91,8 @@ class Decoder {
 
   /// Returns the next frame completed by push() or end_stream(); null if there is none and all
   /// pushed packets are decoded. Call this until it returns null. The frame is valid until the next
-  /// call. For `in_exchange` and the lifetime of the returns see FrameBuilder::next().
-  [[nodiscard]] frame::Frame* next(frame::MeasuredReturns* in_exchange = nullptr) noexcept
-      TERRACUT_NONBLOCKING;
+  /// call, its returns and motions as long as FrameBuilder::next() says.
+  [[nodiscard]] frame::Frame* next() noexcept TERRACUT_NONBLOCKING;
   /// Returns why the last datagram was rejected (and counted, unless kDeviceInfo); nothing if it
   /// was not rejected. Valid once next() has returned null.
   [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept { return rejected_; }
@@ -103,12 +101,7 @@ class Decoder {
   /// is complete.
   [[nodiscard]] frame::ArrivingFrame arriving() noexcept {
     if (!frames_.started()) return {};
-    const packet::RotorInterval to_come{
-        complete_ticks_ + completes_behind_ticks_,
-        (frames_.oldest() + 1) * packet::kRevolution_ticks + completes_behind_ticks_};
-    return {&frames_.returns_of(frames_.oldest()), complete_columns(),
-            static_cast<float>(blind_.sector().outside_ticks(to_come)) /
-                static_cast<float>(packet::kRevolution_ticks)};
+    return {&frames_.returns_of(frames_.oldest()), complete_columns()};
   }
 
   /// Returns the losses since construction. Missing packets that may still come late are counted as
@@ -147,7 +140,6 @@ class Decoder {
   }
   /// Returns all buffers, for handing frames over by exchange (FrameBuilder); the first two are
   /// open at the start.
-  [[nodiscard]] std::span<frame::MeasuredReturns> buffers() noexcept { return frames_.buffers(); }
 
  private:
   template <class... VelodyneModel>
@@ -169,7 +161,7 @@ class Decoder {
   [[nodiscard]] static SensorReturns sensor_of(const calib::SensorCalibration& calibration,
                                                const mount::Mount& mount, const Config& config,
                                                int columns, memory::FixedMemory& memory);
-  [[nodiscard]] static FrameBuilder::Config frame_config(const Model& model, const Config& config);
+  [[nodiscard]] static FrameBuilder::Config frame_config(const Model& model);
   Decoder(const Model& model, const calib::SensorCalibration& calibration,
           const mount::Mount& mount, const Config& config, memory::FixedMemory& memory);
 
@@ -328,10 +320,9 @@ class Decoder {
     Step then = Step::kNothing;
   } anew_;  ///< Set while packets that were in doubt become the stream.
   std::optional<frame::Reject> rejected_;
-  std::int64_t frontier_ticks_ = 0;          ///< The head has been seen up to this azimuth.
-  std::int64_t complete_ticks_ = 0;          ///< No more returns are expected up to this azimuth.
-  std::int64_t placed_ticks_ = 0;            ///< All returns are placed up to this azimuth.
-  std::int64_t completes_behind_ticks_ = 0;  ///< Usual distance of complete_ticks_ behind the head.
+  std::int64_t frontier_ticks_ = 0;  ///< The head has been seen up to this azimuth.
+  std::int64_t complete_ticks_ = 0;  ///< No more returns are expected up to this azimuth.
+  std::int64_t placed_ticks_ = 0;    ///< All returns are placed up to this azimuth.
   std::int64_t steps_ticks_ = 0, steps_ = 0;
   bool has_crossed_ = false;  ///< True if the last packet has a sector inside.
   std::uint64_t packets_ = 0, columns_ = 0;

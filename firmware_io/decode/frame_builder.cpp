@@ -9,26 +9,16 @@
 namespace terracut::decode {
 FrameBuilder::FrameBuilder(const Config& config, memory::FixedMemory& memory)
     : shape_(config.shape), revolution_ticks_(config.revolution_ticks) {
-  if (config.buffers < 3) {
-    throw std::invalid_argument("FrameBuilder needs 3 buffers or more: two open, one handed over");
-  }
   if (config.shape.rows < 1 || config.shape.columns < 1 || config.revolution_ticks < 1) {
     throw std::invalid_argument("FrameBuilder needs at least one row, one column and one tick");
   }
-  buffers_.reserve(static_cast<std::size_t>(config.buffers));
-  for (int i = 0; i < config.buffers; ++i) {
+  buffers_.reserve(kBuffers);
+  for (std::size_t i = 0; i < kBuffers; ++i) {
     buffers_.emplace_back(config.shape, config.lasers, config.tiles, memory);
   }
   open_[0].returns = &buffers_[0];
   open_[1].returns = &buffers_[1];
-  for (std::size_t i = 2; i < buffers_.size(); ++i) free_.push_back(&buffers_[i]);
-}
-
-frame::MeasuredReturns& FrameBuilder::exchange(frame::MeasuredReturns& handed_over) noexcept {
-  frame::MeasuredReturns& longest_free = *free_[next_free_];
-  free_[next_free_] = &handed_over;
-  next_free_ = (next_free_ + 1) % free_.size();
-  return longest_free;
+  free_ = &buffers_[2];
 }
 
 void FrameBuilder::open(std::size_t slot, std::int64_t frame,
@@ -36,13 +26,15 @@ void FrameBuilder::open(std::size_t slot, std::int64_t frame,
   OpenFrame& opened = open_[slot];
   opened = OpenFrame{};
   opened.returns = &buffer;
-  buffer.clear();
+  last_turn_ = std::max(last_turn_, frame + turn_of_frame_0_);
+  buffer.clear(frame + turn_of_frame_0_);
   add_missing(opened, frame, last_gap_, +1, spread_);
 }
 
 void FrameBuilder::start(std::int64_t oldest_frame, std::int64_t rotor_ticks) noexcept {
   started_ = true;
   oldest_ = over_before_ = oldest_frame;
+  turn_of_frame_0_ = last_turn_ + 2 - oldest_frame;  // no turn of a new stream follows an old one
   rolls_ = 0;
   start_ticks_ = frontier_ticks_ = rotor_ticks;
   last_gap_ = {};
@@ -165,9 +157,9 @@ void FrameBuilder::flush() noexcept {
   is_ending_ = true;
 }
 
-frame::Frame* FrameBuilder::next(frame::MeasuredReturns* in_exchange) noexcept {
+frame::Frame* FrameBuilder::next() noexcept {
   if (frame_.returns != nullptr) {
-    open_next(in_exchange != nullptr ? *in_exchange : exchange(*frame_.returns));
+    open_next(*std::exchange(free_, frame_.returns));
     frame_.returns = nullptr;
   }
   for (; oldest_ < over_before_ && rolls_ > 0; open_next(*open_[0].returns)) {

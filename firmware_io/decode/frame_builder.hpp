@@ -31,9 +31,8 @@ namespace terracut::decode {
 ///   hindmost beam     ............|------ frame k ---|=== frame k+1
 ///
 /// Frames are pulled: roll_to() and flush() say which frames have ended, next() hands these out one
-/// by one. With n buffers, the one handed out stays untouched until the (n - 2)th frame after it.
-/// If the next call of next() gets another buffer in exchange, the builder goes on with that one
-/// and never touches the buffer it handed out, which may go to a reader on another thread.
+/// by one. There is a third buffer, so that the returns of a frame stay untouched until the frame
+/// after it was handed out, too.
 ///
 /// Memory is taken in the constructor; nothing else allocates, locks or throws. One thread.
 class FrameBuilder {
@@ -42,7 +41,6 @@ class FrameBuilder {
     frame::ImageShape shape;
     std::size_t lasers = 0;             ///< Lasers in each tile of returns.
     std::size_t tiles = 0;              ///< Most tiles of a frame.
-    int buffers = 3;                    ///< >= 3: two open, one handed out.
     std::int64_t revolution_ticks = 0;  ///< Ticks of azimuth in 360 degrees.
   };
 
@@ -93,10 +91,8 @@ class FrameBuilder {
   void flush() noexcept TERRACUT_NONBLOCKING;
 
   /// Returns the oldest ended frame that has returns; null if there is none. The frame is valid
-  /// until the next call. `in_exchange` is one of buffers() that nobody else uses and replaces the
-  /// one handed out last; if null, the builder reuses the buffer that it handed out longest ago.
-  [[nodiscard]] frame::Frame* next(frame::MeasuredReturns* in_exchange = nullptr) noexcept
-      TERRACUT_NONBLOCKING;
+  /// until the next call, its returns until the call after the one that returns the next frame.
+  [[nodiscard]] frame::Frame* next() noexcept TERRACUT_NONBLOCKING;
 
   /// Returns the losses since the last frame was handed over, so that the decoder can add the ones
   /// it finds.
@@ -109,8 +105,11 @@ class FrameBuilder {
   [[nodiscard]] std::size_t return_capacity() const noexcept {
     return buffers_[0].return_capacity();
   }
-  /// Returns all buffers; the first two are open at the start.
-  [[nodiscard]] std::span<frame::MeasuredReturns> buffers() noexcept { return buffers_; }
+  /// The number of buffers, and the number of one that next() returned.
+  static constexpr std::size_t kBuffers = 3;
+  [[nodiscard]] std::size_t number_of(const frame::MeasuredReturns& buffer) const noexcept {
+    return static_cast<std::size_t>(&buffer - buffers_.data());
+  }
 
  private:
   struct OpenFrame {
@@ -124,9 +123,6 @@ class FrameBuilder {
     bool touched = false;
   };
 
-  /// Takes `handed_over` out of use and returns the buffer that was handed over longest ago.
-  [[nodiscard]] frame::MeasuredReturns& exchange(frame::MeasuredReturns& handed_over) noexcept
-      TERRACUT_NONBLOCKING;
   void open(std::size_t slot, std::int64_t frame, frame::MeasuredReturns& buffer) noexcept;
   struct Missing {
     packet::RotorInterval head;
@@ -147,14 +143,13 @@ class FrameBuilder {
   frame::ImageShape shape_;
   std::int64_t revolution_ticks_;
   std::vector<frame::MeasuredReturns> buffers_;
-  /// Buffers that are not open: a ring, the oldest at next_free_.
-  std::vector<frame::MeasuredReturns*> free_;
-  std::size_t next_free_ = 0;
+  frame::MeasuredReturns* free_ = nullptr;  ///< The buffer that is not open.
 
   bool started_ = false;
   std::int64_t oldest_ = 0;
-  std::int64_t over_before_ = 0;  ///< Frames before this one have ended.
-  int rolls_ = 0;                 ///< The number of ended frames that may have returns.
+  std::int64_t over_before_ = 0;                      ///< Frames before this one have ended.
+  std::int64_t turn_of_frame_0_ = 0, last_turn_ = 0;  ///< See MeasuredReturns::turn().
+  int rolls_ = 0;  ///< The number of ended frames that may have returns.
   bool is_ending_ = false;
   std::array<OpenFrame, 2> open_;  ///< Frames oldest_ and oldest_ + 1.
   std::int64_t start_ticks_ = 0, frontier_ticks_ = 0, step_ticks_ = 1;

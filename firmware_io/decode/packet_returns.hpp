@@ -25,6 +25,7 @@ namespace terracut::decode {
 /// Where the returns of a packet belong.
 struct PacketPlace {
   std::int64_t rotor_cdeg = 0;  ///< See Placement::rotor_cdeg.
+  std::int64_t stamp_ns = 0;    ///< Of the packet's datagram.
   int late_columns = 0;  ///< Number of columns at the beginning that are left out and counted.
   frame::CellOwner owner{};
 };
@@ -96,6 +97,8 @@ class PacketReturns {
       const std::uint32_t bit = 1U << firing;
       heads_.is_dual = azimuths.dual_return ? heads_.is_dual | bit : heads_.is_dual & ~bit;
     }
+    if (firings_ == 0) first_ns_ = place.stamp_ns;
+    last_ns_ = place.stamp_ns;
     if (place.late_columns > 0) leave_out(place.late_columns, azimuths, frames.losses());
     firings_ += columns;
     if (firings_ == frame::kTileFirings) flush(frames);
@@ -165,7 +168,9 @@ class PacketReturns {
                                                  .raw = tile_[0].raw[0].data(),
                                                  .intensity = tile_[0].intensity[0].data(),
                                                  .beams = beams_,
-                                                 .first_column = n * columns_},
+                                                 .first_column = n * columns_,
+                                                 .first_ns = first_ns_,
+                                                 .last_ns = last_ns_},
                                                 owner_, reader_);
   }
 
@@ -178,7 +183,8 @@ class PacketReturns {
   std::span<frame::BeamColumns> beams_;          ///< Indexed by laser.
   frame::TileRow<std::int64_t> rotor_cdeg_{};    ///< Indexed by firing.
   frame::TileHeads heads_{};
-  std::size_t firings_ = 0;  ///< Firings added and not placed yet.
+  std::size_t firings_ = 0;                  ///< Firings added and not placed yet.
+  std::int64_t first_ns_ = 0, last_ns_ = 0;  ///< Stamps of the packets of the tile.
   frame::CellOwner owner_{};
 };
 

@@ -63,9 +63,6 @@ struct ArrivingFrame {
   /// Columns [0, complete_columns) are complete; only a packet later than the decoder waits for may
   /// still change them.
   int complete_columns = 0;
-  /// Share of the revolution that the head has still to pass after the last packet, without a blind
-  /// sector.
-  float share_to_come = 0;
 };
 
 }  // namespace terracut::frame

@@ -110,15 +110,13 @@ MeasuredReturns::MeasuredReturns(ImageShape shape, std::size_t lasers, std::size
       columns_(memory.take<std::uint16_t>("measured returns", raw_.size())),
       intensity_(memory.take<std::uint8_t>("measured returns", raw_.size())),
       taken_(memory.take<std::uint64_t>("measured returns",
-                                        static_cast<std::size_t>(shape.rows) * words_)),
-      shared_(memory.take<std::uint64_t>("measured returns", taken_.size())) {}
+                                        static_cast<std::size_t>(shape.rows) * words_)) {}
 
-void MeasuredReturns::clear() noexcept {
-  ++generation_;
+void MeasuredReturns::clear(std::int64_t turn) noexcept {
+  turn_ = turn;
   used_ = 0;
   returns_ = 0;
   std::fill(taken_.begin(), taken_.end(), std::uint64_t{0});
-  std::fill(shared_.begin(), shared_.end(), std::uint64_t{0});
 }
 
 std::uint32_t MeasuredReturns::add(const NewTile& tile, CellOwner owner,
@@ -137,7 +135,12 @@ std::uint32_t MeasuredReturns::add(const NewTile& tile, CellOwner owner,
   std::memcpy(&raw_[used_ * values], tile.raw, values * sizeof(tile.raw[0]));
   std::memcpy(&intensity_[used_ * values], tile.intensity, values);
   Tile& added = tiles_[used_];
-  added = {.heads = tile.heads, .first_return = {}, .least = shape_.columns, .most = -1};
+  added = {.heads = tile.heads,
+           .first_return = {},
+           .least = shape_.columns,
+           .most = -1,
+           .first_ns = tile.first_ns,
+           .last_ns = tile.last_ns};
   const std::size_t number = used_++;
   open_ = kNoTile;
   const std::span<const std::int32_t> rows = reader.rows();
@@ -235,15 +238,15 @@ void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::ui
     });
     add_bits(cells, column, now & ~before);
     left &= ~taken.owned;
-    left &= ~take_pairs(laser, row, left, owner, reader);
+    left &= ~take_pairs(laser, left, owner, reader);
   }
   for_each_firing(left, [&](std::size_t f) noexcept {
     take_cell({used_ - 1, laser, f}, row, columns[f], owner, reader);
   });
 }
 
-std::uint32_t MeasuredReturns::take_pairs(std::size_t laser, int row, std::uint32_t left,
-                                          CellOwner owner, TileReader& reader) noexcept {
+std::uint32_t MeasuredReturns::take_pairs(std::size_t laser, std::uint32_t left, CellOwner owner,
+                                          TileReader& reader) noexcept {
   LaserRow& taken = row_at(used_ - 1, laser);
   const std::size_t values = ((used_ - 1) * lasers_ + laser) * kTileFirings;
   const std::uint16_t* const columns = &columns_[values];
@@ -251,11 +254,6 @@ std::uint32_t MeasuredReturns::take_pairs(std::size_t laser, int row, std::uint3
       left & taken.owned << 1U &
       where_after(columns, [](std::uint16_t own, std::uint16_t before) { return own == before; });
   if (pairs == 0) return 0;
-  std::uint64_t cells = 0;
-  for_each_firing(pairs, [&](std::size_t f) noexcept {
-    cells |= std::uint64_t{1} << (columns[f] - static_cast<unsigned>(taken.least));
-  });
-  add_bits(bits_of(shared_, row), static_cast<std::size_t>(taken.least), cells);
   const std::uint32_t won = pairs & [&]() noexcept -> std::uint32_t {
     const auto is_more = [](auto own, auto before) { return own > before; };
     const auto is_less = [](auto own, auto before) { return own < before; };
@@ -287,23 +285,11 @@ void MeasuredReturns::take_cell(const Place& at, int row, int column, CellOwner 
     mine.owned |= firing;
     return;
   }
-  bits_of(shared_, row)[bit / kWordBits] |= mask;
   if (owner == CellOwner::kFirstArrived) return;
   const Place other = owner_before(at, row, column, reader);
   if (!goes_before(at, other, owner, reader)) return;
   mine.owned |= firing;
   row_at(other.tile, other.laser).owned &= ~(1U << other.firing);
-}
-
-bool MeasuredReturns::has_shared(int row, ColumnRange columns) const noexcept {
-  constexpr int kBits = int{kWordBits};
-  const std::span<const std::uint64_t> bits = bits_of(shared_, row);
-  for (int column = columns.begin; column < columns.end; column += kBits) {
-    const int left = columns.end - column;
-    const std::uint64_t meant = left < kBits ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
-    if ((bits_from(bits, static_cast<std::size_t>(column)) & meant) != 0) return true;
-  }
-  return false;
 }
 
 MeasuredReturns::Place MeasuredReturns::owner_before(const Place& newest, int row, int column,

@@ -37,6 +37,8 @@ class MeasuredReturns {
     TileHeads heads;                      ///< Azimuths, counted from the start of this frame.
     TileRow<std::uint32_t> first_return;  ///< The number of each firing's first return.
     std::int32_t least = 0, most = -1;    ///< The least and the greatest column over all lasers.
+    std::int64_t first_ns = 0,
+                 last_ns = 0;  ///< Stamps of the packets of its first and last firing.
   };
   /// A tile to be added.
   struct NewTile {
@@ -46,6 +48,8 @@ class MeasuredReturns {
     /// Columns of the beams, indexed by laser; this frame's columns begin at `first_column`.
     std::span<const BeamColumns> beams;
     std::int32_t first_column;
+    std::int64_t first_ns = 0,
+                 last_ns = 0;  ///< Stamps of the packets of its first and last firing.
   };
 
   static constexpr std::size_t kMostLasers = 256;
@@ -55,7 +59,8 @@ class MeasuredReturns {
   MeasuredReturns(ImageShape shape, std::size_t lasers, std::size_t tiles,
                   memory::FixedMemory& memory);
 
-  void clear() noexcept TERRACUT_NONBLOCKING;
+  /// Removes all returns; those to come are of this turn.
+  void clear(std::int64_t turn) noexcept TERRACUT_NONBLOCKING;
 
   /// Adds the part of a tile that belongs to this frame. If several returns fall into a cell,
   /// `owner` says which of them owns it (the earlier if equal). `reader` is the sensor's; any tile
@@ -64,10 +69,15 @@ class MeasuredReturns {
   [[nodiscard]] std::uint32_t add(const NewTile& tile, CellOwner owner,
                                   TileReader& reader) noexcept TERRACUT_NONBLOCKING;
 
-  /// Returns a number that changes with every clear().
-  [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
+  /// Returns the number of the turn. Turns follow each other without a gap exactly if their numbers
+  /// do; no two have the same.
+  [[nodiscard]] std::int64_t turn() const noexcept { return turn_; }
   [[nodiscard]] std::size_t tiles() const noexcept { return used_; }
   [[nodiscard]] const Tile& tile(std::size_t number) const noexcept { return tiles_[number]; }
+  /// Returns the number of the first return after those of a tile.
+  [[nodiscard]] std::uint32_t end_of(std::size_t tile) const noexcept {
+    return tile + 1 < used_ ? tiles_[tile + 1].first_return[0] : returns_;
+  }
   [[nodiscard]] const LaserRow& row(std::size_t tile, std::size_t laser) const noexcept {
     return rows_[tile * lasers_ + laser];
   }
@@ -78,8 +88,6 @@ class MeasuredReturns {
   [[nodiscard]] const std::uint8_t* intensity(std::size_t tile, std::size_t laser) const noexcept {
     return &intensity_[(tile * lasers_ + laser) * kTileFirings];
   }
-  /// True if one of these cells of the row has several returns.
-  [[nodiscard]] bool has_shared(int row, ColumnRange columns) const noexcept TERRACUT_NONBLOCKING;
   /// Returns the column of a return.
   [[nodiscard]] int column(std::size_t tile, std::size_t laser, std::size_t firing) const noexcept {
     const std::size_t row = tile * lasers_ + laser;
@@ -120,8 +128,8 @@ class MeasuredReturns {
   /// Of the returns `left` of a laser, handles those whose cell belongs to the previous firing, the
   /// other return of the same beam: decides the owner of such a cell. Returns the mask of these
   /// firings.
-  [[nodiscard]] std::uint32_t take_pairs(std::size_t laser, int row, std::uint32_t left,
-                                         CellOwner owner, TileReader& reader) noexcept;
+  [[nodiscard]] std::uint32_t take_pairs(std::size_t laser, std::uint32_t left, CellOwner owner,
+                                         TileReader& reader) noexcept;
   /// Places a return in a cell that may be taken already.
   void take_cell(const Place& at, int row, int column, CellOwner owner,
                  TileReader& reader) noexcept;
@@ -146,7 +154,7 @@ class MeasuredReturns {
 
   ImageShape shape_;
   std::size_t lasers_, words_;
-  std::uint32_t generation_ = 1;
+  std::int64_t turn_ = 0;
   std::size_t used_ = 0;
   std::size_t open_ = kNoTile;  ///< The tile that is open in the reader of add().
   std::uint32_t returns_ = 0;
@@ -157,7 +165,7 @@ class MeasuredReturns {
   std::span<std::uint16_t> columns_;
   std::span<std::uint8_t> intensity_;
   // For each row, one bit per column.
-  std::span<std::uint64_t> taken_, shared_;
+  std::span<std::uint64_t> taken_;
 };
 
 }  // namespace terracut::frame

@@ -39,7 +39,6 @@ RangeImage::RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::
 }
 
 void RangeImage::clear() noexcept {
-  ++generation_;
   returns_ = 0;
   overflow_used_ = 0;
   std::ranges::fill(z_m_, kNoHeight_m);

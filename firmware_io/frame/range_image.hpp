@@ -80,8 +80,6 @@ class RangeImage {
   void move(std::span<const PlanarMotions> by_row) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const ImageShape& shape() const noexcept { return shape_; }
-  /// Returns a number that changes with every clear().
-  [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
   [[nodiscard]] bool has_return(std::size_t cell) const noexcept { return !std::isnan(z_m_[cell]); }
   /// Returns the number of returns placed since clear(), overflow list included.
   [[nodiscard]] std::uint32_t returns() const noexcept { return returns_; }
@@ -124,7 +122,6 @@ class RangeImage {
                     CellOwner owner) noexcept TERRACUT_NONBLOCKING;
 
   ImageShape shape_;
-  std::uint32_t generation_ = 1;
   std::uint32_t returns_ = 0;
   std::size_t overflow_used_ = 0;
   std::span<float> x_m_, y_m_, z_m_, ground_range_m_;

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "calib/api/calibration_table.hpp"
+#include "firmware_io/api/points.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/net/live_source.hpp"
 #include "firmware_io/streams/hear_sensor.hpp"
-#include "firmware_io/api/points.hpp"
 #include "pipeline/live/live_parts.hpp"
 #include "pipeline/run/mount_on_air.hpp"
 #include "rt/memory/locked_memory.hpp"
@@ -33,13 +33,10 @@ Expected<streams::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Co
 live::LiveConfig live_config_of(const LiveRun::Config& config, int columns) {
   live::LiveConfig of_run;
   of_run.decoder.columns = columns;
-  of_run.threads.deadline_ns = static_cast<std::int64_t>(config.deadline_ms * 1e6);
-  of_run.threads.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
-  of_run.threads.keeps_points = true;
-  of_run.threads.receive =
-      live::thread_request("tc-receive", config.receive_priority, std::nullopt);
-  of_run.threads.segment =
-      live::thread_request("tc-segment", config.segment_priority, std::nullopt);
+  of_run.thread.deadline_ns = static_cast<std::int64_t>(config.deadline_ms * 1e6);
+  of_run.thread.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
+  of_run.thread.keeps_points = true;
+  of_run.thread.thread = live::thread_request("tc-label", config.priority, std::nullopt);
   return of_run;
 }
 
@@ -60,7 +57,7 @@ struct LiveRun::Engine {
         live::LiveParts::build(config, sensor, profile, source, memory, locks_memory, grants);
     if (!built) return tl::unexpected(built.error());
     parts = *std::move(built);
-    points.resize(parts->pipeline.decoder.return_capacity());
+    points.resize(parts->turns.decoder().return_capacity());
     labels.resize(points.size());
     times_s.resize(points.size());
     return {};
@@ -72,7 +69,7 @@ struct LiveRun::Engine {
     }
   }
   void hand_out(const OnFrame& on_frame) {
-    auto& slots = *parts->threads.points();
+    auto& slots = *parts->thread.points();
     for (live::FramePool<points::LabelledPoint>::Frame taken; slots.take(taken);) {
       for (std::size_t i = 0; i < taken.items.size(); ++i) {
         const points::LabelledPoint& point = taken.items[i];
@@ -95,9 +92,8 @@ struct LiveRun::Engine {
     }
   }
   void judge() {
-    for (status::FrameRecord frame; parts->threads.take_record(frame);) {
+    for (status::FrameRecord frame; parts->thread.take_record(frame);) {
       parts->monitor.judge(frame);
-      figures.frames_skipped += frame.level == status::Level::kSkipped ? 1 : 0;
       figures.deadlines_missed += frame.missed ? 1 : 0;
     }
   }
@@ -173,7 +169,7 @@ void LiveRun::run(const StopWanted& stop_wanted, const OnFrame& on_frame) {
   of.note(of.parts->start());
   constexpr std::int64_t kAWhile_ns = 50'000'000;
   while (!stop_wanted()) {
-    (void)of.parts->threads.points_ready().wait(-1, kAWhile_ns);
+    (void)of.parts->thread.points_ready().wait(-1, kAWhile_ns);
     of.hand_out(on_frame);
     of.judge();
   }
@@ -184,10 +180,10 @@ void LiveRun::run(const StopWanted& stop_wanted, const OnFrame& on_frame) {
 
 LiveRun::Figures LiveRun::figures() const noexcept {
   Figures figures = engine_->figures;
-  const status::InputState& intake = engine_->parts->threads.intake();
+  const status::InputState& intake = engine_->parts->thread.intake();
   figures.datagrams = intake.account.source.received;
   figures.decoded = intake.account.decoded;
-  figures.frames_left_out = engine_->parts->threads.points()->unused();
+  figures.frames_left_out = engine_->parts->thread.points()->unused();
   return figures;
 }
 

@@ -8,7 +8,7 @@
 #include "calib/api/calibration_table.hpp"
 #include "firmware_io/api/points.hpp"
 #include "pipeline/api/profile.hpp"
-#include "pipeline/ground/segmenter.hpp"
+#include "pipeline/ground/stream_segmenter.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
 
 namespace terracut {
@@ -18,7 +18,7 @@ struct PacketPipeline::Engine {
          const decode::Decoder::Config& decoder)
       : pipeline(calibration.table().unit,
                  calib::ring_profile(calibration.table().unit, mount_of(config.mount)), decoder,
-                 ground::maker_of(config_of(config.profile)), memory,
+                 ground::turn_maker_of(config_of(config.profile)), memory,
                  run::PacketPipeline::Makes::kPoints),
         room(pipeline.decoder().return_capacity()) {}
 
@@ -54,7 +54,6 @@ void PacketPipeline::end_stream() noexcept {
 const Frame* PacketPipeline::next() noexcept {
   run::Frame* frame = engine_->pipeline.next();
   if (frame == nullptr) return nullptr;
-  engine_->pipeline.label(*frame);
   engine_->frame = public_frame(frame->record.info, *frame->image, engine_->room);
   engine_->frame.labels = engine_->pipeline.labels();
   return &engine_->frame;

@@ -51,21 +51,16 @@ constexpr int kTogether = 32;
   return {rows.lower.from(-std::max(offset, 0)), rows.upper.from(std::min(offset, 0))};
 }
 
-/// The columns of pairs: the right return is in `right`, the left one in `leftmost` or right of it.
-struct PairColumns {
-  frame::ColumnRange right;
-  int leftmost;
-};
-
-/// Calls `mark` for the rows shifted by each offset.
+/// Calls `mark` for the rows shifted by each offset; the right returns are in `columns`, and no
+/// left one lies across the seam.
 template <class Mark>
-[[gnu::always_inline]] inline void for_each_offset(const RowPair& rows, const PairColumns& columns,
+[[gnu::always_inline]] inline void for_each_offset(const RowPair& rows, frame::ColumnRange columns,
                                                    int reach, Mark mark) noexcept {
   for (int offset = -reach; offset <= reach; ++offset) {
-    const int begin = std::max(columns.right.begin, columns.leftmost + std::abs(offset));
-    if (begin >= columns.right.end) continue;
+    const int begin = std::max(columns.begin, std::abs(offset));
+    if (begin >= columns.end) continue;
     const RowPair pair = shifted(rows, offset);
-    mark(RowPair{pair.lower.from(begin), pair.upper.from(begin)}, columns.right.end - begin);
+    mark(RowPair{pair.lower.from(begin), pair.upper.from(begin)}, columns.end - begin);
   }
 }
 
@@ -166,17 +161,16 @@ struct SpacingRule {
 };
 
 /// Compares 32 columns at a time; the last block overlaps the one before, harmlessly. Columns are
-/// compared one by one if the left returns of a block would lie left of the leftmost.
-TERRACUT_VECTOR_CLONES void mark_by_slope(const RowPair rows, const PairColumns columns, int reach,
-                                          const SlopeRule rule) noexcept {
-  const auto [begin_column, end_column] = columns.right;
-  const int last = end_column - kTogether, first = columns.leftmost + reach;
-  const int together = last < first ? end_column : std::max(begin_column, first);
-  for (int column = begin_column; column < together; ++column) {
-    for_each_offset(rows, {{column, column + 1}, columns.leftmost}, reach,
+/// compared one by one if the left returns of a block would lie across the seam.
+TERRACUT_VECTOR_CLONES void mark_by_slope(const RowPair rows, const frame::ColumnRange columns,
+                                          int reach, const SlopeRule rule) noexcept {
+  const int last = columns.end - kTogether;
+  const int together = last < reach ? columns.end : std::max(columns.begin, reach);
+  for (int column = columns.begin; column < together; ++column) {
+    for_each_offset(rows, {column, column + 1}, reach,
                     [&](const RowPair& one, int count) { rule.mark(one, count); });
   }
-  for (int column = together; column < end_column; column += kTogether) {
+  for (int column = together; column < columns.end; column += kTogether) {
     const int begin = std::min(column, last);
     const RowPair some{rows.lower.from(begin), rows.upper.from(begin)};
     if (!may_matter(some, reach)) continue;
@@ -186,7 +180,7 @@ TERRACUT_VECTOR_CLONES void mark_by_slope(const RowPair rows, const PairColumns 
   }
 }
 
-TERRACUT_VECTOR_CLONES void mark_by_spacing(const RowPair rows, const PairColumns columns,
+TERRACUT_VECTOR_CLONES void mark_by_spacing(const RowPair rows, const frame::ColumnRange columns,
                                             int reach, const SpacingRule rule) noexcept {
   for_each_offset(rows, columns, reach,
                   [&](const RowPair& shifted, int count) { rule.mark(shifted, count); });
@@ -267,26 +261,25 @@ void AdjacentPoints::for_each_row_pair(const frame::PointPlanes& points, stage::
 }
 
 void AdjacentPoints::compare(const frame::PointPlanes& points, frame::ColumnRange columns,
-                             int leftmost, stage::CellPlanes& planes) noexcept {
-  const PairColumns pairs{columns, leftmost};
+                             stage::CellPlanes& planes) noexcept {
   if (config_.rule == AdjacentRule::kSlope) {
     const SlopeRule rule{config_.min_rise_m, tan_max_slope_squared_};
     for_each_row_pair(points, planes, [&](const RowPair& rows, float) noexcept {
-      mark_by_slope(rows, pairs, reach(), rule);
+      mark_by_slope(rows, columns, reach(), rule);
     });
   } else {
     for_each_row_pair(points, planes, [&](const RowPair& rows, float bound_m) noexcept {
-      mark_by_spacing(rows, pairs, reach(), SpacingRule{bound_m});
+      mark_by_spacing(rows, columns, reach(), SpacingRule{bound_m});
     });
   }
 }
 
-void AdjacentPoints::compare_across(int column, const frame::PointPlanes& points,
-                                    stage::CellPlanes& planes) noexcept {
+void AdjacentPoints::compare_across_seam(const frame::PointPlanes& points,
+                                         stage::CellPlanes& planes) noexcept {
   const auto mark = [&](const RowPair& rows, auto rule) noexcept {
     for (int offset = 1; offset <= reach(); ++offset) {
-      for (int right = column; right < column + offset; ++right) {
-        const int left = right - offset < 0 ? right - offset + shape_.columns : right - offset;
+      for (int right = 0; right < offset; ++right) {
+        const int left = right - offset + shape_.columns;
         rule.mark({rows.lower.from(left), rows.upper.from(right)}, 1);
         rule.mark({rows.lower.from(right), rows.upper.from(left)}, 1);
       }

@@ -42,22 +42,20 @@ class AdjacentPoints {
   AdjacentPoints(const Config& config, float max_height_m, const mount::RingProfile& profile,
                  frame::ImageShape shape, memory::FixedMemory& memory);
 
-  // Order of calls for a frame, which may still be arriving (CoarseStages): reset() and compare()
-  // for all columns, compare_across() where columns came last that lie left of the first, then
-  // mark() for the columns that may have become steep.
+  // Order of calls for columns: reset(), compare() and, for those that begin a turn,
+  // compare_across_seam(), then mark() for the columns that may have become steep.
 
   /// Clears `steep` in these columns; the heights in them must be final. All functions of this
   /// class are real-time safe.
   void reset(frame::ColumnRange columns,
              stage::CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
   /// Sets `steep` for pairs of returns with one return in these columns and the other in the same
-  /// column or a column to the left, from `leftmost` on.
-  void compare(const frame::PointPlanes& points, frame::ColumnRange columns, int leftmost,
+  /// column or a column to the left, on this side of the seam.
+  void compare(const frame::PointPlanes& points, frame::ColumnRange columns,
                stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
-  /// Sets `steep` for pairs with one return left of `column` and one in this column or right of it;
-  /// column 0 is right of the last one.
-  void compare_across(int column, const frame::PointPlanes& points,
-                      stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
+  /// Sets `steep` for pairs with one return in the last columns and one in the first.
+  void compare_across_seam(const frame::PointPlanes& points,
+                           stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
   /// Labels the steep returns of these columns kObstacle.
   void mark(frame::ColumnRange columns,
             stage::CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;

@@ -193,26 +193,25 @@ using EightInts = std::int32_t __attribute__((vector_size(32)));
   store(3, __builtin_shufflevector(low_behind, high_behind, 2, 3, 10, 11, 6, 7, 14, 15));
 }
 
-/// Does the same for any number of cells. Returns how many have a return.
-TERRACUT_VECTOR_CLONES_OF_INLINED std::uint32_t find_extremes(
-    const float* __restrict ground_m, const float* __restrict z_m, const float* __restrict range_m,
-    std::uint32_t row, std::size_t count, std::uint32_t* __restrict halves) noexcept {
+/// Does the same for any number of cells.
+TERRACUT_VECTOR_CLONES_OF_INLINED void find_extremes(const float* __restrict ground_m,
+                                                     const float* __restrict z_m,
+                                                     const float* __restrict range_m,
+                                                     std::uint32_t row, std::size_t count,
+                                                     std::uint32_t* __restrict halves) noexcept {
   constexpr std::size_t kEight = 8;
-  std::uint32_t returns = 0;
-  for (std::size_t i = 0; i < count; ++i) returns += z_m[i] == z_m[i];
   if (count < kEight) {
     for (std::size_t i = 0; i < count; ++i) {
       Extremes one = z_m[i] == z_m[i] ? extremes_of(z_m[i], range_m[i], row) : nothing();
       if (ground_m[i] != ground_m[i]) one[0] = nothing()[0];
       std::memcpy(halves + 4 * i, &one, sizeof(one));
     }
-    return returns;
+    return;
   }
   for (std::size_t next = 0; next < count; next += kEight) {
     const std::size_t first = std::min(next, count - kEight);  // the last block overlaps
     find_eight_extremes(ground_m + first, z_m + first, range_m + first, row, halves + 4 * first);
   }
-  return returns;
 }
 
 /// Adds each return of a row to the extremes of its grid cell; unrolled, as one return takes only a
@@ -255,46 +254,51 @@ RingElevationMap::RingElevationMap(const Config& config, const mount::RingProfil
       row_steps_(memory.take<std::uint16_t>("ring grid", row_halves_.size() / 4)),
       row_kept_m_(memory.take<float>("ring grid", row_steps_.size())) {}
 
-void RingElevationMap::reset() noexcept {
-  const auto starting_at = [this](int sector) {
-    return Progress{sector, sector, sector + grid_.sectors()};
-  };
-  taken_ = starting_at(0);
-  traced_ = starting_at(opening_.behind());
-  given_ = starting_at(traced_.begin + (has_surface() ? GroundSurface::kStripBehind : 0));
-  settled_ = starting_at(given_.begin + (has_surface() ? surface_.behind() : 0));
-  settles_at_end_ = settled_.begin >= grid_.sectors();
-  if (settles_at_end_) traced_ = given_ = settled_ = starting_at(0);
-  seen_ = seen_overflow_ = 0;
-  was_overtaken_ = false;
+void RingElevationMap::begin() noexcept {
+  taken_ = traced_ = given_ = settled_ = 0;
   std::fill(extremes_.begin(), extremes_.end(), nothing());
 }
 
-void RingElevationMap::take_to(int end, const frame::FrameReturns& frame,
-                               const frame::PointPlanes& points) noexcept {
-  if (frame.measured() == nullptr) take_overflow(*frame.image());
-  if (taken_.next < end) take_columns(points, {taken_.next, end});
-  taken_.next = end;
-  settle();
+void RingElevationMap::begin_next_turn() noexcept {
+  for (int* step : {&taken_, &traced_, &given_, &settled_}) *step -= grid_.sectors();
+}
+
+void RingElevationMap::take_to(int end, const frame::PointPlanes& points) noexcept {
+  if (taken_ < end) take_columns(points, {taken_, end});
+  taken_ = end;
+}
+
+bool RingElevationMap::can_go_on() const noexcept {
+  const int opening = opening_.behind() + opening_.ahead();
+  const int strip = GroundSurface::kStripBehind + GroundSurface::kStripAhead;
+  return has_surface() && opening + strip + surface_.behind() + surface_.ahead() < grid_.sectors();
 }
 
 void RingElevationMap::settle() noexcept {
-  if (settles_at_end_ && taken_.next < taken_.end) return;
-  const auto go_on = [](Progress& step, int stop, auto take) {
-    for (; step.next < std::min(step.end, stop); ++step.next) take(step.next);
-  };
-  go_on(traced_, taken_.stop_of_next_step(opening_.ahead()), [this](int sector) {
-    find_lowest(grid_.wrapped(sector));
-    if (has_surface()) surface_.trace(grid_, sector, lowest_);
-  });
+  const int traced = taken_ - opening_.ahead();
+  const int given = traced - GroundSurface::kStripAhead;
+  settle_to(traced, given, given - surface_.ahead());
+}
+
+void RingElevationMap::settle_until(int sector) noexcept {
+  settle_to(sector, sector, sector);
+}
+
+void RingElevationMap::settle_to(int traced, int given, int settled) noexcept {
+  for (; traced_ < traced; ++traced_) trace(grid_.wrapped(traced_));
   if (!has_surface()) {
-    settled_.next = traced_.next;
+    given_ = settled_ = traced_;
     return;
   }
-  go_on(given_, traced_.stop_of_next_step(GroundSurface::kStripAhead),
-        [this](int sector) { surface_.find_donors(grid_, sector); });
-  go_on(settled_, given_.stop_of_next_step(surface_.ahead()),
-        [this](int sector) { surface_.estimate(grid_, sector, lowest_); });
+  for (; given_ < given; ++given_) surface_.find_donors(grid_, grid_.wrapped(given_));
+  for (; settled_ < settled; ++settled_) {
+    surface_.estimate(grid_, grid_.wrapped(settled_), lowest_);
+  }
+}
+
+void RingElevationMap::trace(int sector) noexcept {
+  find_lowest(sector);
+  if (has_surface()) surface_.trace(grid_, sector, lowest_);
 }
 
 void RingElevationMap::take_columns(const frame::PointPlanes& points,
@@ -313,8 +317,8 @@ void RingElevationMap::take_columns(const frame::PointPlanes& points,
       ground_m = row_kept_m_.data();
     }
     if (opening_.has(row)) opening_.take(row, sectors, ground_m, range_m, grid_);
-    seen_ += find_extremes(ground_m, z_m, range_m, static_cast<std::uint32_t>(row), columns.size(),
-                           row_halves_.data());
+    find_extremes(ground_m, z_m, range_m, static_cast<std::uint32_t>(row), columns.size(),
+                  row_halves_.data());
     grid_.find_steps({range_m, steps.size()}, steps);
     take_each(row_halves_.data(), first_cell, steps, grid_, extremes_.data());
   }
@@ -333,22 +337,29 @@ void RingElevationMap::find_lowest(int sector) noexcept {
     lowest_[i] = {has_only_lone ? highest_m : height_m,
                   std::bit_cast<float>(range_and_row & ~kRowBits), highest_m,
                   has_only_lone || stands_out ? 1 : 0};
+    extremes_[i] = nothing();
   }
 }
 
 void RingElevationMap::take_extra(int column, float z_m, float ground_range_m) noexcept {
   const int sector = grid_.sector_of(column);
-  was_overtaken_ |= sector < taken_.next;
+  if (sector < traced_) return;
   take(extremes_of(z_m, ground_range_m, kNoRow),
        extremes_[grid_.cell(sector, grid_.band_of(ground_range_m))]);
-  ++seen_overflow_;
 }
 
-void RingElevationMap::take_overflow(const frame::RangeImage& image) noexcept {
-  const auto stride = static_cast<std::uint32_t>(image.shape().stride());
-  for (const frame::OverflowReturn& extra : image.overflow().subspan(seen_overflow_)) {
-    take_extra(static_cast<int>(extra.cell % stride), extra.point.z_m, extra.point.ground_range_m);
+float RingElevationMap::height_of(int column, float z_m, float ground_range_m) const noexcept {
+  const auto i = static_cast<std::size_t>(column);
+  float height_m = 0;
+  if (has_surface()) {
+    find_heights(&z_m, &ground_range_m,
+                 {&grid_.first_cell_of_column()[i], &grid_.share_across()[i],
+                  surface_.heights().data(), grid_.mixes()},
+                 {&height_m, 1});
+  } else {
+    find_heights_above(lowest_, grid_, &z_m, &ground_range_m, column, {&height_m, 1});
   }
+  return height_m;
 }
 
 void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRange columns,

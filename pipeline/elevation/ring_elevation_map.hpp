@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <span>
 
-#include "firmware_io/frame/frame_returns.hpp"
 #include "firmware_io/frame/point_planes.hpp"
+#include "firmware_io/frame/range_image.hpp"
 #include "pipeline/elevation/ground_surface.hpp"
 #include "pipeline/elevation/lone_returns.hpp"
 #include "pipeline/elevation/ring_grid.hpp"
@@ -43,32 +42,37 @@ class RingElevationMap {
   RingElevationMap(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                    memory::FixedMemory& memory);
 
-  // Order of calls for a frame, which may still be arriving (CoarseStages): reset(); take_to() for
-  // sector after sector; label() for sectors that are settled.
+  // Order of calls for a turn of the sensor: take_to() as its sectors come, and label() for sectors
+  // that are settled; at its end settle_until(), if what comes next is not waited for, and
+  // begin_next_turn(). Sectors are numbered from the beginning of the turn; those of the turn
+  // before it have numbers below 0.
 
-  /// Begins a frame. All functions of this class are real-time safe.
-  void reset() noexcept TERRACUT_NONBLOCKING;
-  /// Takes a return that shares its cell with another return, if frames keep returns as measured.
+  /// Forgets all turns and begins one. All functions of this class are real-time safe.
+  void begin() noexcept TERRACUT_NONBLOCKING;
+  void begin_next_turn() noexcept TERRACUT_NONBLOCKING;
+  /// Takes a return that owns no cell. Leaves it out if it comes late, after its sector was traced.
   void take_extra(int column, float z_m, float ground_range_m) noexcept TERRACUT_NONBLOCKING;
-  /// Takes the sectors from taken() to `end`, whose columns must be complete, and settles those
-  /// whose ground is known by now. `points` has the returns that own their cells; other returns are
-  /// in an image's overflow list or came by take_extra().
-  void take_to(int end, const frame::FrameReturns& frame,
-               const frame::PointPlanes& points) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] int taken() const noexcept { return taken_.next; }
-  /// Returns false if a return came after its sector was taken, which makes the result invalid.
-  /// Call it once all sectors have been taken.
-  [[nodiscard]] bool saw_all_of(const frame::FrameReturns& frame) const noexcept {
-    return !was_overtaken_ && seen_ + seen_overflow_ == frame.returns();
-  }
-  /// Returns the sectors whose ground is known. They are numbered on beyond the last sector: the
-  /// ground of the first ones depends on the last, so these come at the end.
-  [[nodiscard]] RingGrid::Sectors settled() const noexcept {
-    return {settled_.begin, settled_.next};
-  }
+  /// Takes the sectors from taken() to `end`, whose columns must be complete. `points` has the
+  /// returns that own their cells.
+  void take_to(int end, const frame::PointPlanes& points) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] int taken() const noexcept { return taken_; }
+  /// Settles the sectors whose ground is known by now: all but the newest ahead() that are taken.
+  /// For turns that follow a whole turn.
+  void settle() noexcept TERRACUT_NONBLOCKING;
+  /// Settles the sectors before this one, which must be taken. What is not taken yet is seen as it
+  /// was a turn before; behind the first turn's first sector lies its last one.
+  void settle_until(int sector) noexcept TERRACUT_NONBLOCKING;
+  /// Sectors before this one are settled.
+  [[nodiscard]] int settled() const noexcept { return settled_; }
+  /// True if the circle has more sectors than one sector's ground depends on.
+  [[nodiscard]] bool can_go_on() const noexcept;
+
   /// Fills `height_m` and `label` in these columns, which must be of settled sectors.
   void label(const frame::PointPlanes& points, frame::ColumnRange columns,
              stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
+  /// Returns how high a return lies above the ground; its column must have been labelled.
+  [[nodiscard]] float height_of(int column, float z_m,
+                                float ground_range_m) const noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const RingGrid& grid() const noexcept { return grid_; }
 
@@ -76,10 +80,10 @@ class RingElevationMap {
   [[nodiscard]] bool has_surface() const noexcept {
     return config_.reference == GroundReference::kLocalSurface;
   }
-  void take_overflow(const frame::RangeImage& image) noexcept;
   void take_columns(const frame::PointPlanes& points, RingGrid::Sectors sectors) noexcept;
-  /// Lets each step go on as far as the step before it has come.
-  void settle() noexcept;
+  /// Lets each step go on to a sector, or as far as the step before it has come.
+  void settle_to(int traced, int given, int settled) noexcept;
+  void trace(int sector) noexcept;
   void find_lowest(int sector) noexcept;
   /// Labels what stands out of a row obstacle.
   void label_standing_out(const float* z_m, int row, frame::ColumnRange columns,
@@ -92,22 +96,10 @@ class RingElevationMap {
   LoneReturns lone_;
   RowOpening opening_;
   int rows_with_lone_;  // number of rows, from the lowest, whose lone returns are looked for
-  /// How far a step has come on its way around the circle, in sectors.
-  struct Progress {
-    int begin = 0, next = 0, end = 0;
-
-    /// Returns where a step must stop that needs `ahead` sectors of this one beyond its own.
-    [[nodiscard]] int stop_of_next_step(int ahead) const noexcept {
-      return next == end ? std::numeric_limits<int>::max() : next - ahead;
-    }
-  };
-  Progress taken_, traced_, given_, settled_;  // in this order; given_: donors are found
-  bool settles_at_end_ = false;                // true for circles of few sectors
-  std::size_t seen_ = 0;  // number of returns in the taken sectors that own a cell
-  // Number of returns that own no cell: from the overflow list or take_extra().
-  std::size_t seen_overflow_ = 0;
-  bool was_overtaken_ = false;
-  // One element per grid cell; during the search extremes_ has lowest and highest returns.
+  // How far each step has come; each follows the one before it. given_: donors are found.
+  int taken_ = 0, traced_ = 0, given_ = 0, settled_ = 0;
+  // One element per grid cell; extremes_ has the lowest and highest returns of sectors that are not
+  // traced yet.
   std::span<GroundSurface::LowestReturn> lowest_;
   std::span<Extremes> extremes_;
   // Work space for one row, from the first column in work: the extremes of its returns in halves,

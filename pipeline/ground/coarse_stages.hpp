@@ -2,14 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstdint>
-#include <limits>
-#include <span>
-
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/frame/frame_points.hpp"
-#include "firmware_io/frame/frame_returns.hpp"
 #include "firmware_io/frame/point_planes.hpp"
+#include "firmware_io/frame/range_image.hpp"
 #include "pipeline/elevation/adjacent_points.hpp"
 #include "pipeline/elevation/ring_elevation_map.hpp"
 #include "pipeline/ground/profile.hpp"
@@ -20,70 +15,65 @@
 
 namespace terracut::ground {
 
-/// The coarse stages of the method: elevation map and adjacent points. Most of the work can be done
-/// while the frame is arriving, on columns just written and still in the core's caches:
+/// The coarse stages of the method, elevation map and adjacent points, on a circle of columns. The
+/// circle is one turn closed with itself, or turn after turn, each in place of the one before:
 ///
-///   columns   0 ......................................................... all
-///             | later |  labelled  |  taken: their lowest returns known |  to come  |
-///                 |                '-- a sector's ground depends on the 15 sectors that follow
-///                 '-- labelled at the end: their ground depends on the last columns, too
-///
-/// The labels are bit for bit the same as if the whole frame had come at once, in whatever order
-/// packets came and whatever was labelled ahead.
+///   columns of a turn   0 ........................................................... all
+///                       |  labelled  |  taken: their lowest returns known |  to come  |
+///                                    '-- a sector's ground depends on the 15 sectors that follow
 ///
 /// All memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
 class CoarseStages {
  public:
-  /// `profile` must have shape.rows rings. `made` computes points of decoded frames, and is null
-  /// for clouds: advance() computes the columns it needs, finish() all.
+  /// `profile` must have shape.rows rings.
   CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
-               frame::ImageShape shape, memory::FixedMemory& memory,
-               frame::FramePoints* made = nullptr);
+               frame::ImageShape shape, memory::FixedMemory& memory);
 
-  /// Does part of the work on a frame that is still arriving: labels columns in blocks, at most
-  /// `most_blocks` per call. Columns [0, complete_columns) of `frame` must be complete and stay
-  /// unchanged. The labels go to `planes`, which belong to this frame until finish(). Another
-  /// frame drops the work done for the previous one.
-  void advance(const frame::FrameReturns& frame, int complete_columns, stage::CellPlanes& planes,
-               stage::StageObserver* observer = nullptr,
-               int most_blocks = kAnyNumber) noexcept TERRACUT_NONBLOCKING;
-  /// Returns the share of a frame's sectors, [0, 1], that are already labelled before finish().
-  [[nodiscard]] float share_ahead(const frame::FrameReturns& frame) const noexcept
-      TERRACUT_NONBLOCKING {
-    if (!has_begun(frame)) return 0;
-    return static_cast<float>(labelled_ - map_.settled().begin) /
-           static_cast<float>(map_.grid().sectors());
+  /// Forgets all turns and begins one.
+  void begin() noexcept TERRACUT_NONBLOCKING;
+  /// Begins the turn that follows a labelled one. Columns labelled are counted from its beginning.
+  void begin_next_turn() noexcept TERRACUT_NONBLOCKING;
+
+  /// Takes a return that owns no cell.
+  void take_extra(int column, float z_m, float ground_range_m) noexcept TERRACUT_NONBLOCKING {
+    map_.take_extra(column, z_m, ground_range_m);
+  }
+  /// Takes the turn's columns before this sector, which must be complete.
+  void take_to(int sector, const frame::PointPlanes& points,
+               stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
+  /// Labels what can be labelled of turns that follow a labelled one: fills `height_m`, `label`
+  /// and, if adjacent points are among the stages, `steep`.
+  void label(const frame::PointPlanes& points, stage::CellPlanes& planes,
+             stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
+  /// Labels the columns before this sector, which must be taken, without waiting for what follows
+  /// them: that is seen as it was a turn before. All of a turn labelled so is a circle.
+  void label_until(int sector, const frame::PointPlanes& points, stage::CellPlanes& planes,
+                   stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
+  void label_circle(const frame::PointPlanes& points, stage::CellPlanes& planes,
+                    stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING {
+    label_until(grid().sectors(), points, planes, observer);
   }
 
-  /// Completes a whole frame: fills `height_m`, `label` and, if adjacent points are among the
-  /// stages, `steep` of every cell.
-  void finish(const frame::FrameReturns& frame, stage::CellPlanes& planes,
-              stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] int taken_sectors() const noexcept { return map_.taken(); }
+  /// The turn's columns before this one have their final labels; below 0 if some of the turn before
+  /// it have not.
+  [[nodiscard]] int labelled_columns() const noexcept;
+  /// Returns how high a return of a labelled column lies above the ground.
+  [[nodiscard]] float height_of(int column, float z_m, float ground_range_m) const noexcept {
+    return map_.height_of(column, z_m, ground_range_m);
+  }
+  /// Returns the sectors, and by that the columns, in which turns are taken.
+  [[nodiscard]] const elevation::RingGrid& grid() const noexcept { return map_.grid(); }
+  /// True if turns can follow each other: the circle is wide enough.
+  [[nodiscard]] bool can_go_on() const noexcept { return map_.can_go_on(); }
 
  private:
-  static constexpr int kAnyNumber = std::numeric_limits<int>::max();
-
-  void begin(const frame::FrameReturns& frame) noexcept;
-  void done(stage::Stage stage) noexcept;
-  void take_to(int end, const frame::FrameReturns& frame) noexcept;
-  [[nodiscard]] frame::PointPlanes points_of(const frame::FrameReturns& frame) const noexcept {
-    return made_ != nullptr ? made_->planes() : frame.image()->points();
-  }
-  [[nodiscard]] bool has_begun(const frame::FrameReturns& frame) const noexcept {
-    return begun_ == frame.identity();
-  }
-  /// Labels the sectors that are settled and not labelled yet.
-  void label_settled(const frame::FrameReturns& frame, stage::CellPlanes& planes) noexcept;
-  void label(elevation::RingGrid::Sectors sectors, const frame::FrameReturns& frame,
-             stage::CellPlanes& planes) noexcept;
-  /// Compares the columns labelled first with those labelled last, on either side of `column`.
-  void compare_across(int column, const frame::FrameReturns& frame,
-                      stage::CellPlanes& planes) noexcept;
-  /// Returns the first column that is labelled.
-  [[nodiscard]] int first_column() const noexcept {
-    const int sector = map_.grid().wrapped(map_.settled().begin);
-    return map_.grid().columns_of({sector, sector + 1}).begin;
-  }
+  void label_settled(const frame::PointPlanes& points, stage::CellPlanes& planes,
+                     stage::StageObserver* observer) noexcept;
+  void label_sectors(elevation::RingGrid::Sectors sectors, const frame::PointPlanes& points,
+                     stage::CellPlanes& planes, stage::StageObserver* observer) noexcept;
+  void find_steep(frame::ColumnRange columns, const frame::PointPlanes& points,
+                  stage::CellPlanes& planes) noexcept;
   [[nodiscard]] bool uses_adjacent_points() const noexcept {
     return last_stage_ >= stage::Stage::kAdjacentPoints;
   }
@@ -92,10 +82,7 @@ class CoarseStages {
   frame::ImageShape shape_;
   elevation::RingElevationMap map_;
   elevation::AdjacentPoints adjacent_;
-  frame::FramePoints* made_;
-  frame::FrameReturns::Identity begun_;  // the frame being labelled
-  stage::StageObserver* observer_ = nullptr;
-  int labelled_ = 0;  // the next sector to label, among RingElevationMap::settled()
+  int labelled_ = 0;  // sectors before this one are labelled
 };
 
 }  // namespace terracut::ground

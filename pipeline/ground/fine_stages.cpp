@@ -2,15 +2,14 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/ground/fine_stages.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "pipeline/random_field/boundary_term.hpp"
 #include "rt/vector_clones.hpp"
 
 namespace terracut::ground {
 namespace {
-
-bool has_expired(const min_cut::CutBudget& budget) noexcept {
-  return budget.expired != nullptr && budget.expired(budget.context);
-}
 
 /// The edge weights, most of the cut's work, are compiled into this function.
 TERRACUT_VECTOR_CLONES_OF_INLINED min_cut::CutReport solve(
@@ -24,97 +23,135 @@ TERRACUT_VECTOR_CLONES_OF_INLINED min_cut::CutReport solve(
 }  // namespace
 
 FineStages::FineStages(const SegmenterConfig& config, const mount::RingProfile& profile,
-                       frame::ImageShape shape, std::size_t return_capacity,
-                       memory::FixedMemory& memory, frame::FramePoints* made)
+                       frame::ImageShape shape, memory::FixedMemory& memory)
     : config_(config),
       shape_(shape),
       seeds_(config.seeds, config.adjacent_points.row_step_deg, profile, shape, memory),
       region_(config.region),
-      made_(made),
-      near_unknown_(shape, memory),
-      min_cut_(shape, config.min_cut, memory),
-      return_labels_(config.returns, config.elevation_map.obstacle_height_m, return_capacity,
-                     memory) {
-  if (!config.road.enabled) return;
-  road_surface_.emplace(config.road, shape, memory);
-  if (made != nullptr) road_points_.emplace(shape, return_capacity, memory);
+      open_(shape, kOpenCells, memory),
+      min_cut_(shape, config.min_cut, memory) {}
+
+void FineStages::begin() noexcept {
+  seeded_columns_ = cut_columns_ = 0;
+  spent_ops_ = 0;
+  report_ = {};
+  open_.begin(0);
 }
 
-frame::PointPlanes FineStages::points_of(const frame::FrameReturns& frame, bool has_cut) noexcept {
-  if (made_ == nullptr) return frame.image()->points();
-  const frame::MeasuredReturns& returns = *frame.measured();
-  if (made_->has_all_of(returns)) return made_->planes();
-  const bool needs_all = has_cut && config_.region.rule == random_field::RegionRule::kHistogram;
-  if (has_cut) near_unknown_.find(seeds_.seeds());
-  made_->make_where(returns, [&](int row, frame::ColumnRange columns) noexcept {
-    return needs_all || (has_cut && near_unknown_.is_near(row, columns)) ||
-           returns.has_shared(row, columns);
-  });
-  return made_->planes();
+void FineStages::label_circle(const frame::PointPlanes& points, stage::CellPlanes& planes,
+                              const min_cut::CutBudget& budget,
+                              stage::StageObserver* observer) noexcept {
+  cut_columns_ = shape_.columns;
+  if (!has_cut()) return;
+  select_to(shape_.columns, points, planes);
+  stage::done(stage::Stage::kSeeds, observer);
+  cut({0, shape_.columns}, points, planes, budget);
+  stage::done(stage::Stage::kMinCut, observer);
 }
 
-const frame::RangeImage& FineStages::image_of(const frame::FrameReturns& frame) noexcept {
-  if (!road_points_) return *frame.image();
-  road_points_->fill(*frame.measured(), made_->reader());
-  return *road_points_;
+void FineStages::begin_next_turn() noexcept {
+  seeded_columns_ -= shape_.columns;
+  cut_columns_ -= shape_.columns;
+  spent_ops_ = 0;
 }
 
-void FineStages::take_near_ground(const frame::FrameReturns& frame, const stage::CellPlanes& planes,
-                                  NearGround& ground) noexcept {
-  if (made_ == nullptr) return ground::take_near_ground(*frame.image(), ground);
-  made_->make_where(*frame.measured(), [this](int, frame::ColumnRange columns) noexcept {
-    return has_near_ground_columns(columns, shape_);
-  });
-  ground::take_near_ground(made_->planes(), planes.height_m, shape_, ground);
-}
-
-stage::SegmentationReport FineStages::refine(const frame::FrameReturns& frame,
-                                             stage::CellPlanes& planes,
-                                             const min_cut::CutBudget& budget,
-                                             stage::StageObserver* observer) noexcept {
-  stage::SegmentationReport report;
-  const auto done = [observer](stage::Stage stage) noexcept {
-    if (observer != nullptr) observer->stage_done(stage);
-  };
-  if (observer != nullptr) observer->resumed();
-
-  // The cut labels all cells that are still uncertain together.
-  report.last_stage = config_.last_stage;
-  if (config_.last_stage >= stage::Stage::kMinCut && has_expired(budget)) {
-    report.last_stage = stage::Stage::kAdjacentPoints;
+void FineStages::label_to(int coarse_columns, const frame::PointPlanes& points,
+                          stage::CellPlanes& planes, const min_cut::CutBudget& budget,
+                          stage::StageObserver* observer) noexcept {
+  if (!has_cut()) {
+    cut_columns_ = coarse_columns;
+    return;
   }
-  frame::PointPlanes points{};
-  if (report.last_stage >= stage::Stage::kMinCut) {
-    seeds_.select(planes);
-    points = points_of(frame, true);
-    region_.look_at(points, planes, seeds_.seeds());
-    done(stage::Stage::kSeeds);
-    report.cut = cut(points, planes, budget);
-    done(stage::Stage::kMinCut);
-    if (report.cut.discarded) report.last_stage = stage::Stage::kAdjacentPoints;
-  } else {
-    points = points_of(frame, false);
-  }
-
-  if (made_ != nullptr) {
-    return_labels_.assign(*frame.measured(), points, made_->reader(), planes);
-  } else {
-    return_labels_.assign(*frame.image(), planes);
-  }
-  if (road_surface_) road_surface_->mark(image_of(frame), planes, return_labels_.mutable_labels());
-  done(stage::Stage::kLabels);
-
-  report.count(return_labels_.labels());
-  report.below = stage::count_below(planes.height_m, -2 * config_.elevation_map.obstacle_height_m);
-  return report;
+  // Seeds depend on coarse labels around them, which a cut replaces.
+  const int seeded = coarse_columns - seeds_.reach();
+  select_to(seeded, points, planes);
+  stage::done(stage::Stage::kSeeds, observer);
+  cut_to(seeded - seeds_.reach(), points, planes, budget);
+  stage::done(stage::Stage::kMinCut, observer);
 }
 
-min_cut::CutReport FineStages::cut(const frame::PointPlanes& points, stage::CellPlanes& planes,
-                                   const min_cut::CutBudget& budget) noexcept {
+void FineStages::label_until(int column, const frame::PointPlanes& points,
+                             stage::CellPlanes& planes, const min_cut::CutBudget& budget,
+                             stage::StageObserver* observer) noexcept {
+  if (has_cut()) {
+    select_to(column, points, planes);
+    stage::done(stage::Stage::kSeeds, observer);
+    cut_to(column, points, planes, budget);
+    cut_released(open_.release_all(seeds_.mutable_seeds()), points, planes, budget);
+    stage::done(stage::Stage::kMinCut, observer);
+  }
+  cut_columns_ = std::max(cut_columns_, column);
+}
+
+min_cut::CutReport FineStages::take_report() noexcept {
+  // Each cut says whether it was discarded; together they were if no cell is from a cut.
+  report_.discarded =
+      report_.unknown > 0 && report_.unknown == report_.coarse_by_cap + report_.coarse_by_budget;
+  return std::exchange(report_, {});
+}
+
+void FineStages::select_to(int end, const frame::PointPlanes& points,
+                           const stage::CellPlanes& planes) noexcept {
+  while (seeded_columns_ < end) {
+    const int first = seeded_columns_ < 0 ? seeded_columns_ + shape_.columns : seeded_columns_;
+    const int count = std::min(end - seeded_columns_, shape_.columns - first);
+    seeds_.select(planes, {first, first + count});
+    seeded_columns_ += count;
+  }
+  region_.look_at(points, planes, seeds_.seeds());
+}
+
+void FineStages::cut_to(int end, const frame::PointPlanes& points, stage::CellPlanes& planes,
+                        const min_cut::CutBudget& budget) noexcept {
+  while (cut_columns_ < end) {
+    // Steps end at the same columns of every turn.
+    const int of_turn = cut_columns_ < 0 ? cut_columns_ + shape_.columns : cut_columns_;
+    const int step = std::min({kColumnsAtOnce - of_turn % kColumnsAtOnce, shape_.columns - of_turn,
+                               open_.most_at_once()});
+    if (cut_columns_ + step > end) return;
+    if (!open_.has_room(step)) {
+      cut_released(open_.release_all(seeds_.mutable_seeds()), points, planes, budget);
+    }
+    const auto released = open_.take(step, seeds_.mutable_seeds());
+    cut_columns_ += step;
+    cut_released(released, points, planes, budget);
+  }
+}
+
+void FineStages::cut_released(const min_cut::OpenComponents::Released& released,
+                              const frame::PointPlanes& points, stage::CellPlanes& planes,
+                              const min_cut::CutBudget& budget) noexcept {
+  if (released.cells == 0) return;
+  // What would join an open component waits: it is cut later, against the labels found now.
+  if (released.cells_open > 0) {
+    change_next_column(min_cut::Seed::kUnknown, min_cut::Seed::kWaiting);
+  }
+  cut(released.window, points, planes, budget);
+  if (released.cells_open > 0) {
+    change_next_column(min_cut::Seed::kWaiting, min_cut::Seed::kUnknown);
+    report_.cut_open += released.cells_open;
+  }
+}
+
+void FineStages::change_next_column(min_cut::Seed from, min_cut::Seed to) noexcept {
+  const int column =
+      cut_columns_ < 0 ? cut_columns_ + shape_.columns : cut_columns_ % shape_.columns;
+  for (int row = 0; row < shape_.rows; ++row) {
+    min_cut::Seed& seed = seeds_.mutable_seeds()[shape_.cell(row, column)];
+    if (seed == from) seed = to;
+  }
+}
+
+void FineStages::cut(min_cut::ColumnWindow window, const frame::PointPlanes& points,
+                     stage::CellPlanes& planes, const min_cut::CutBudget& budget) noexcept {
   const min_cut::GridProblem problem{
-      shape_, seeds_.mutable_seeds(), {points.ground_range_m, shape_.cells()}};
+      shape_, window, seeds_.mutable_seeds(), {points.ground_range_m, shape_.cells()}};
   const random_field::BoundaryTerm boundary(config_.boundary, negative_exp_, points);
-  return solve(min_cut_, problem, region_, boundary, budget, planes.label);
+  min_cut::CutBudget left = budget;
+  left.ops -= spent_ops_;
+  const min_cut::CutReport cut = solve(min_cut_, problem, region_, boundary, left, planes.label);
+  spent_ops_ += cut.operations();
+  report_ += cut;
 }
 
 }  // namespace terracut::ground

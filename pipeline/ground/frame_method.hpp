@@ -9,9 +9,8 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/firing_tile.hpp"
-#include "firmware_io/frame/frame_returns.hpp"
 #include "firmware_io/frame/label.hpp"
-#include "pipeline/ground/near_ground.hpp"
+#include "firmware_io/frame/range_image.hpp"
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/stage/cell_planes.hpp"
 #include "pipeline/stage/segmentation_report.hpp"
@@ -20,27 +19,17 @@
 
 namespace terracut::ground {
 
-/// A method that labels frames: Segmenter, or a method that Segmenter is compared with. Takes
+/// A method that labels range images: Segmenter, or a method that Segmenter is compared with. Takes
 /// all memory in its constructor; real-time safe if the observer is. For one thread.
 class FrameMethod {
  public:
   virtual ~FrameMethod() = default;
 
-  /// May do part of the work on a frame while it is still arriving; does nothing by default. The
-  /// labels are the same without it. Overwrites planes(), but not labels().
-  virtual void advance(const frame::FrameReturns& /*frame*/, int /*complete_columns*/,
-                       stage::StageObserver* /*observer*/ = nullptr) noexcept {}
-
-  /// Labels one frame, which has the shape given at construction. Overwrites the previous frame's
+  /// Labels one frame; `image` has the shape given at construction. Overwrites the previous frame's
   /// result. `budget` limits the time for a cut.
   [[nodiscard]] virtual stage::SegmentationReport segment(
-      const frame::FrameReturns& frame, const min_cut::CutBudget& budget = {},
+      const frame::RangeImage& image, const min_cut::CutBudget& budget = {},
       stage::StageObserver* observer = nullptr) noexcept = 0;
-
-  /// Fills `ground` from the frame labelled last. In this default version it must have an image.
-  virtual void take_near_ground(const frame::FrameReturns& frame, NearGround& ground) noexcept {
-    ground::take_near_ground(*frame.image(), ground);
-  }
 
   /// Returns one label per return, in order of arrival (RangeImage::return_index()).
   [[nodiscard]] virtual std::span<const frame::Label> labels() const noexcept = 0;
@@ -53,7 +42,7 @@ struct FramesToCome {
   const mount::RingProfile& profile;  ///< Must have shape.rows rings.
   frame::ImageShape shape;
   std::size_t return_capacity = 0;
-  /// The sensor's tile reader if the frames are decoded; null for clouds.
+  /// The sensor's tile reader for turns of measured returns; null for images of points.
   std::unique_ptr<frame::TileReader> reader = nullptr;
 };
 

@@ -41,23 +41,17 @@ struct NearGround {
          range2_m2 <= farthest_m * farthest_m;
 }
 
-/// True if the strip may have a return in one of these columns: 30 degrees to either side of
-/// straight ahead and of straight behind.
-[[nodiscard]] bool has_near_ground_columns(
-    frame::ColumnRange columns, const frame::ImageShape& shape) noexcept TERRACUT_NONBLOCKING;
-
-/// Fills `ground` with returns of the strip up to `farthest_m`, evenly thinned. Examines at most
-/// kMostCellsLookedAt cells of the columns that may have near ground. `points` must be valid in
-/// these columns; of `height_m` only matters that it is NaN in cells without a return. Real-time
-/// safe.
-void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,
-                      const frame::ImageShape& shape, NearGround& ground,
-                      float farthest_m = NearGround::kFarthest_m) noexcept TERRACUT_NONBLOCKING;
-/// Fills `ground` with near ground from an image that has points.
+/// Adds the returns of the strip up to `farthest_m` in these columns to `ground`, evenly thinned:
+/// of a whole turn at most kMostCellsLookedAt cells are looked at. Real-time safe.
+void add_near_ground(const frame::PointPlanes& points, frame::ColumnRange columns,
+                     const frame::ImageShape& shape, NearGround& ground,
+                     float farthest_m = NearGround::kFarthest_m) noexcept TERRACUT_NONBLOCKING;
+/// Fills `ground` with near ground from an image.
 inline void take_near_ground(const frame::RangeImage& image, NearGround& ground,
                              float farthest_m = NearGround::kFarthest_m) noexcept
     TERRACUT_NONBLOCKING {
-  take_near_ground(image.points(), image.z_m(), image.shape(), ground, farthest_m);
+  ground.count = 0;
+  add_near_ground(image.points(), {0, image.shape().columns}, image.shape(), ground, farthest_m);
 }
 
 /// Fills `ground` with returns of the whole image, near and far, evenly thinned.

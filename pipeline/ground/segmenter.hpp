@@ -2,9 +2,8 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <span>
-#include <utility>
 
 #include "pipeline/ground/coarse_stages.hpp"
 #include "pipeline/ground/fine_stages.hpp"
@@ -12,69 +11,45 @@
 
 namespace terracut::ground {
 
-/// The coarse-to-fine method: labels every return of a frame.
+/// The coarse-to-fine method on range images, each by itself: labels every return. (On a stream of
+/// turns: StreamSegmenter.)
 ///
 /// All memory is taken in the constructor; no other function allocates, locks, throws or looks at a
-/// clock. The same frame gives the same labels on every machine (unless a budget with a clock cuts
-/// the min-cut short). One thread at a time; two threads use CoarseStages and FineStages instead.
+/// clock. The same image gives the same labels on every machine (unless a budget with a clock cuts
+/// the min-cut short). One thread at a time.
 class Segmenter final : public FrameMethod {
  public:
-  /// `profile` must have shape.rows rings. `return_capacity` is the most returns of a frame. If
-  /// frames are decoded, `reader` is the sensor's tile reader; null for clouds.
+  /// `profile` must have shape.rows rings. `return_capacity` is the most returns of an image.
   Segmenter(const SegmenterConfig& config, const mount::RingProfile& profile,
-            frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
-            std::unique_ptr<frame::TileReader> reader = nullptr)
-      : planes_(shape, memory),
-        made_(reader == nullptr
-                  ? nullptr
-                  : std::make_unique<frame::FramePoints>(shape, std::move(reader), memory)),
-        coarse_(config, profile, shape, memory, made_.get()),
-        fine_(config, profile, shape, return_capacity, memory, made_.get()) {}
+            frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory);
 
-  /// Does part of the work on a frame while it is still arriving (CoarseStages::advance()). The
-  /// labels are the same without it. Overwrites planes(), but not labels().
-  void advance(const frame::FrameReturns& frame, int complete_columns,
-               stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING override {
-    coarse_.advance(frame, complete_columns, planes_, observer);
-  }
-
-  /// Labels one frame, which has the shape given at construction. Overwrites the last frame's
-  /// result. `budget`: see FineStages::refine(). Real-time safe if the observer is.
+  /// Labels one image, of the shape given at construction. Overwrites the last image's result. If
+  /// `budget` expires before the random field, or early in the cut, the labels of the coarse stages
+  /// stay. Real-time safe if the observer is.
   [[nodiscard]] stage::SegmentationReport segment(
-      const frame::FrameReturns& frame, const min_cut::CutBudget& budget = {},
-      stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING override {
-    coarse_.finish(frame, planes_, observer);
-    return fine_.refine(frame, planes_, budget, observer);
-  }
-
-  /// Fills `ground` with near ground from the frame labelled last.
-  void take_near_ground(const frame::FrameReturns& frame,
-                        NearGround& ground) noexcept TERRACUT_NONBLOCKING override {
-    fine_.take_near_ground(frame, planes_, ground);
-  }
+      const frame::RangeImage& image, const min_cut::CutBudget& budget = {},
+      stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING override;
 
   /// Returns one label per return, in order of arrival (RangeImage::return_index()). kGround is all
   /// ground; with road.enabled, kGround is road and kOtherGround is all other ground.
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept override {
-    return fine_.labels();
+    return return_labels_.labels();
   }
   /// Returns for each cell its label and the height that led to the label; for pictures and
   /// measurements.
   [[nodiscard]] const stage::CellPlanes& planes() const noexcept override { return planes_; }
 
  private:
+  stage::Stage last_stage_;
+  float below_m_;
   stage::CellPlanes planes_;
-  std::unique_ptr<frame::FramePoints> made_;  // set if frames are decoded
   CoarseStages coarse_;
   FineStages fine_;
+  stage::ReturnLabels return_labels_;
+  std::optional<road::RoadSurface> road_surface_;  // empty unless enabled
 };
 
 /// Returns a function that makes Segmenters.
-[[nodiscard]] inline MethodMaker maker_of(const SegmenterConfig& config) {
-  return [config](FramesToCome frames, memory::FixedMemory& memory) {
-    return std::make_unique<Segmenter>(config, frames.profile, frames.shape, frames.return_capacity,
-                                       memory, std::move(frames.reader));
-  };
-}
+[[nodiscard]] MethodMaker maker_of(const SegmenterConfig& config);
 
 }  // namespace terracut::ground

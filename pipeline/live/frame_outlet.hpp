@@ -17,7 +17,7 @@
 
 namespace terracut::live {
 
-/// Takes labelled points from the segmenting thread and, on a thread of its own, hands them to the
+/// Takes labelled points from the labelling thread and, on a thread of its own, hands them to the
 /// readers of the stream and to the queue of every other output. The stream needs no queue: its
 /// server never waits, and a busy reader misses the frame. If the stream's address is in use,
 /// opening it is tried again.

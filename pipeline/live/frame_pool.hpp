@@ -16,10 +16,10 @@
 
 namespace terracut::live {
 
-/// Carries results, one T per return, from the segmenting thread to one thread without a deadline.
+/// Carries results, one T per return, from the labelling thread to one thread without a deadline.
 /// If that thread is too slow, frames are left out and counted.
 ///
-///   segmenting thread  pass_on() --full--> take()       the other thread
+///   labelling thread   pass_on() --full--> take()       the other thread
 ///                          ^                  |
 ///                          '------ free ---- give_back()
 template <class T>
@@ -41,7 +41,7 @@ class FramePool {
     }
   }
 
-  /// To be called on the segmenting thread: passes a frame on. `fill(std::span<T>)` writes the
+  /// To be called on the labelling thread: passes a frame on. `fill(std::span<T>)` writes the
   /// record.info.returns items of the frame to the span's start. Real-time safe if `fill` is.
   template <class Fill>
   void pass_on(const status::FrameRecord& record, Fill&& fill) noexcept {

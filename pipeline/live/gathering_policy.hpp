@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -12,8 +13,8 @@
 namespace terracut::live {
 
 /// Decides how long packets may gather in the kernel's buffer before they are fetched together:
-/// waking up for every packet costs more than decoding it. The last packets of a frame are fetched
-/// as they come, and the buffer never gets more than half full. Real-time safe; one thread.
+/// waking up for every packet costs more than decoding it. The buffer never gets more than half
+/// full. Real-time safe; one thread.
 class GatheringPolicy {
  public:
   struct Config {
@@ -25,17 +26,10 @@ class GatheringPolicy {
   explicit GatheringPolicy(const Config& config) noexcept
       : config_(config),
         frame_period_ns_(config.frame_period_ns),
-        longest_ns_(longest_ns(kMostPacketsAFrame)) {}
+        time_ns_(time_ns(kMostPacketsAFrame)) {}
 
-  /// Returns how long the next packets may gather; 0 if a packet that ends the frame may come
-  /// sooner than is worth a wait. `share_to_come` is the share of the arriving frame that has not
-  /// come yet, [0, 1].
-  [[nodiscard]] std::int64_t time_ns(float share_to_come) const noexcept {
-    const auto left_ns = static_cast<std::int64_t>((share_to_come - kFetchedAsTheyCome) *
-                                                   static_cast<float>(frame_period_ns_));
-    const std::int64_t time_ns = std::min(left_ns, longest_ns_);
-    return time_ns < kWorthwhile_ns ? 0 : time_ns;
-  }
+  /// Returns how long the next packets may gather.
+  [[nodiscard]] std::int64_t time_ns() const noexcept { return time_ns_; }
 
   /// Learns from a frame. `last_packet_ns` is the stamp of its last packet. `received` counts all
   /// datagrams up to now, as those of other senders fill the buffer, too. The period may become
@@ -48,21 +42,18 @@ class GatheringPolicy {
     if (period_ns == last_packet_ns) return;  // the first frame may have begun anywhere
     // A flood shortens gathering at once, and for some seconds after its end.
     many_packets_ = std::max(many_packets_ - many_packets_ / 16, packets);
-    longest_ns_ = longest_ns(many_packets_);
+    time_ns_ = time_ns(many_packets_);
   }
   /// Takes the number of datagrams received before the first frame.
   void begin(std::uint64_t received) noexcept { received_before_ = received; }
 
  private:
-  /// Gathering ends this share of a frame's period before the frame's last packet is due, so that a
-  /// thread that wakes up late is still in time.
-  static constexpr float kFetchedAsTheyCome = 0.02F;
-  static constexpr std::int64_t kWorthwhile_ns = 300'000;
   /// Packets per frame of a VLS-128 in dual return at 10 Hz.
   static constexpr std::uint64_t kMostPacketsAFrame = 1875;
 
-  /// Returns the time in which half the kernel's buffer fills at this number of packets per frame.
-  [[nodiscard]] std::int64_t longest_ns(std::uint64_t packets_a_frame) const noexcept {
+  /// Returns the time in which half the kernel's buffer fills at this number of packets per frame,
+  /// or the longest that is wanted.
+  [[nodiscard]] std::int64_t time_ns(std::uint64_t packets_a_frame) const noexcept {
     const double share_of_frame = static_cast<double>(config_.room_packets / 2) /
                                   static_cast<double>(std::max<std::uint64_t>(packets_a_frame, 1));
     const double half_full_ns = share_of_frame * static_cast<double>(frame_period_ns_);
@@ -71,8 +62,8 @@ class GatheringPolicy {
   }
 
   Config config_;
-  std::int64_t frame_period_ns_;       ///< Period of the newest frame, or less.
-  std::int64_t longest_ns_;            ///< Longest gathering time that the kernel's buffer allows.
+  std::int64_t frame_period_ns_;  ///< Period of the newest frame, or less.
+  std::int64_t time_ns_;
   std::uint64_t many_packets_ = 0;     ///< The most packets in a recent frame.
   std::uint64_t received_before_ = 0;  ///< Datagrams received up to the end of the last frame.
   std::int64_t last_packet_ns_ = 0;    ///< Stamp of the newest frame's last packet.

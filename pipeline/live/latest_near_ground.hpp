@@ -12,7 +12,7 @@
 
 namespace terracut::live {
 
-/// Carries the near ground of some frames from the segmenting thread to the thread that checks the
+/// Carries the near ground of some frames from the labelling thread to the thread that checks the
 /// mount. One thread on each side; neither thread waits for the other.
 class LatestNearGround {
  public:
@@ -22,12 +22,9 @@ class LatestNearGround {
   explicit LatestNearGround(memory::FixedMemory& memory)
       : slots_(memory.take<ground::NearGround>("near ground", queues::LatestSlot::kSlots)) {}
 
-  /// To be called on the segmenting thread: `take(NearGround&)` fills in the frame's near ground.
-  template <class Take>
-  void publish(Take take) noexcept {
-    take(slots_[slot_.writer_slot()]);
-    (void)slot_.publish();
-  }
+  /// To be called on the labelling thread: draft() is filled in, then publish() passes it on.
+  [[nodiscard]] ground::NearGround& draft() noexcept { return slots_[slot_.writer_slot()]; }
+  void publish() noexcept { (void)slot_.publish(); }
   /// To be called on the checking thread: returns the newest near ground, or null if it was
   /// returned before. Valid until the next call.
   [[nodiscard]] const ground::NearGround* newest() noexcept {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/ground/stream_segmenter.hpp"
+
 namespace terracut::live {
 namespace {
 
@@ -34,25 +36,26 @@ std::optional<recorder::FlightRecorder> recorder_of(const LiveConfig& config,
       memory);
 }
 
-LiveThreads::Config threads_config(const LiveConfig& config, const streams::SensorOnAir& sensor) {
+LiveThread::Config thread_config(const LiveConfig& config, const streams::SensorOnAir& sensor) {
   constexpr double kSlowest_hz = 5;  // assumed if the sensor has not reported its spin rate
-  LiveThreads::Config of_threads = config.threads;
-  of_threads.frame_period_ns =
+  LiveThread::Config of_thread = config.thread;
+  of_thread.frame_period_ns =
       static_cast<std::int64_t>(1e9 / std::max(sensor.spin_hz, kSlowest_hz));
-  return of_threads;
+  return of_thread;
 }
 
 }  // namespace
 
 LiveParts::LiveParts(const LiveConfig& config, const streams::SensorOnAir& sensor,
                      const mount::RingProfile& profile, net::LiveSource& source,
-                     LiveThreads::Events events, memory::FixedMemory& memory)
+                     threads::WakeEvent points_ready, memory::FixedMemory& memory)
     : motion(motion_of(config, memory)),
-      pipeline(sensor.calibration, profile, decoder_config(config, motion), config.method, memory),
+      turns(sensor.calibration, profile, decoder_config(config, motion),
+            ground::turn_maker_of(config.method, ground::Pace::kLatency), memory),
       recorder(recorder_of(config, sensor.model, memory)),
-      threads(threads_config(config, sensor), pipeline, source, std::move(events),
-              recorder ? &*recorder : nullptr, memory),
-      monitor({.deadline_ns = config.threads.deadline_ns,
+      thread(thread_config(config, sensor), turns, source, std::move(points_ready),
+             recorder ? &*recorder : nullptr, memory),
+      monitor({.deadline_ns = config.thread.deadline_ns,
                .stage_names = stage::kStageNames,
                .kept_frames = kKeptFrames},
               memory),
@@ -63,9 +66,10 @@ Expected<std::unique_ptr<LiveParts>> LiveParts::build(
     net::LiveSource& source, memory::FixedMemory& memory, bool locks_memory,
     std::vector<threads::Grant>& grants) {
   const auto build_in = [&](memory::FixedMemory& in) -> Expected<std::unique_ptr<LiveParts>> {
-    auto events = LiveThreads::Events::make();
-    if (!events) return tl::unexpected(events.error());
-    return std::make_unique<LiveParts>(config, sensor, profile, source, *std::move(events), in);
+    auto points_ready = threads::WakeEvent::make();
+    if (!points_ready) return tl::unexpected(points_ready.error());
+    return std::make_unique<LiveParts>(config, sensor, profile, source, *std::move(points_ready),
+                                       in);
   };
   memory::FixedMemory plan;
   if (auto trial = build_in(plan); !trial) return trial;
@@ -80,12 +84,12 @@ Expected<std::unique_ptr<LiveParts>> LiveParts::build(
 std::vector<threads::Grant> LiveParts::start() {
   std::vector<threads::Grant> grants;
   if (motion) grants = motion->start(motion_priority_);
-  for (threads::Grant& grant : threads.start()) grants.push_back(std::move(grant));
+  for (threads::Grant& grant : thread.start()) grants.push_back(std::move(grant));
   return grants;
 }
 
 void LiveParts::stop() {
-  threads.stop();
+  thread.stop();
   if (motion) motion->stop();
 }
 

@@ -14,14 +14,14 @@
 #include "firmware_io/vehicle/ego_motion.hpp"
 #include "firmware_io/vehicle/motion_signals.hpp"
 #include "pipeline/ground/profile.hpp"
-#include "pipeline/live/live_pipeline.hpp"
-#include "pipeline/live/live_threads.hpp"
+#include "pipeline/live/live_thread.hpp"
 #include "pipeline/live/vehicle_motion.hpp"
 #include "pipeline/recorder/flight_recorder.hpp"
 #include "pipeline/status/deadline_monitor.hpp"
 #include "rt/error.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/grant.hpp"
+#include "rt/threads/wake_event.hpp"
 
 namespace terracut::live {
 
@@ -39,7 +39,7 @@ struct LiveConfig {
   decode::Decoder::Config decoder;  ///< LiveParts sets `reorder_packets`, `motion` and `buffers`.
   int reorder_packets = 0;          ///< 0, because one cable keeps packets in order.
   ground::SegmenterConfig method = ground::terracut_profile();
-  LiveThreads::Config threads;  ///< LiveParts sets `frame_period_ns`.
+  LiveThread::Config thread;    ///< LiveParts sets `frame_period_ns`.
   double recorder_seconds = 0;  ///< How long packets are kept for dumps; 0: not kept.
   std::optional<VehicleConfig> vehicle;
 };
@@ -50,14 +50,14 @@ struct LiveParts {
   static constexpr std::size_t kKeptFrames = 256;  ///< Kept by `monitor` for traces and dumps.
 
   std::optional<VehicleMotion> motion;  ///< Exists if LiveConfig::vehicle is set.
-  LivePipeline pipeline;
+  run::LabelledTurns turns;
   std::optional<recorder::FlightRecorder> recorder;
-  LiveThreads threads;
+  LiveThread thread;
   status::DeadlineMonitor monitor;  ///< Used by the thread that takes records.
 
   LiveParts(const LiveConfig& config, const streams::SensorOnAir& sensor,
-            const mount::RingProfile& profile, net::LiveSource& source, LiveThreads::Events events,
-            memory::FixedMemory& memory);
+            const mount::RingProfile& profile, net::LiveSource& source,
+            threads::WakeEvent points_ready, memory::FixedMemory& memory);
   /// Builds the parts in one region of `memory`, locked on request. `grants` receives what the
   /// system granted. Fails with kCapacityExceeded if no descriptor or memory is left.
   [[nodiscard]] static Expected<std::unique_ptr<LiveParts>> build(

@@ -16,7 +16,7 @@ namespace terracut::live {
 /// A packet is dropped if it is older than a frame's duration and the deadline together: its frame
 /// is late, whatever is done now. After a standstill this drops the useless packets and no others.
 ///
-/// The backlog is dropped after three frames in a row were handed over too late. This thread
+/// The backlog is dropped after three frames in a row were labelled too late. This thread
 /// catches up with a standstill within two frames, so three late frames mean that it is too slow
 /// for the load. It goes on with the newest packets; later frames are in time until the lag has
 /// grown again.
@@ -38,7 +38,7 @@ class PacketGate {
                              std::int64_t now_ns) const noexcept TERRACUT_NONBLOCKING {
     return !lets_backlog_go_ && now_ns - stamp_ns <= oldest_useful_ns_;
   }
-  /// Notes that a frame whose last packet has this stamp was handed over.
+  /// Notes that a frame whose last packet has this stamp was labelled.
   void note_frame(std::int64_t last_packet_ns, std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING {
     late_frames_ = now_ns - last_packet_ns > deadline_ns_ ? late_frames_ + 1 : 0;
     if (late_frames_ < kCatchesUpWithin) return;
@@ -50,7 +50,7 @@ class PacketGate {
   static constexpr int kCatchesUpWithin = 3;
 
   std::int64_t deadline_ns_, oldest_useful_ns_;
-  int late_frames_ = 0;  ///< Successive frames handed over too late.
+  int late_frames_ = 0;  ///< Successive frames labelled too late.
   bool lets_backlog_go_ = false;
 };
 

@@ -20,7 +20,7 @@
 
 namespace terracut::min_cut {
 
-/// Builds the graph of the unknown cells, in one pass in row-major order.
+/// Builds the graph of the unknown cells of a window, in one pass in row-major order.
 ///
 /// An edge to a hard seed is cut exactly when the cell gets the other label. So its weight is added
 /// to the cost of that label, and hard seeds need no nodes; this is exact.
@@ -126,18 +126,24 @@ template <RegionCosts Costs, EdgeWeights Weights>
     begin_row(row);
     const bool has_rows_around = row > 0 && row + 1 < shape.rows;
     const std::uint32_t first = static_cast<std::uint32_t>(row) * stride;
-    const auto seeds = problem.seeds.subspan(first, static_cast<std::size_t>(columns_));
-    for_each_unknown(seeds, [&](std::size_t index) __attribute__((always_inline)) {
-      if (!has_time()) return;
-      const auto column = static_cast<int>(index);
-      const std::uint32_t cell = first + static_cast<std::uint32_t>(index);
-      if (has_rows_around && column > 0 && column + 1 < columns_) [[likely]] {
-        take_cell(costs, weights, cell, column, neighbours_inside(cell, stride), coarse[cell]);
-      } else {
-        take_cell_at_edge(costs, weights, cell, column, neighbour_cells(shape, row, column),
-                          coarse[cell]);
-      }
-    });
+    problem.window.for_each_range(
+        columns_, [&](frame::ColumnRange columns) __attribute__((always_inline)) {
+          const std::uint32_t begin = first + static_cast<std::uint32_t>(columns.begin);
+          for_each_unknown(problem.seeds.subspan(begin, columns.size()),
+                           [&](std::size_t index) __attribute__((always_inline)) {
+                             if (!has_time()) return;
+                             const int column = columns.begin + static_cast<int>(index);
+                             const std::uint32_t cell = begin + static_cast<std::uint32_t>(index);
+                             if (has_rows_around && column > 0 && column + 1 < columns_)
+                                 [[likely]] {
+                               take_cell(costs, weights, cell, column,
+                                         neighbours_inside(cell, stride), coarse[cell]);
+                             } else {
+                               take_cell_at_edge(costs, weights, cell, column,
+                                                 neighbour_cells(shape, row, column), coarse[cell]);
+                             }
+                           });
+        });
     if (is_stopped_) break;
   }
   graph.nodes = nodes_.first(size_);

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "rt/threads/nonblocking.hpp"
+
 namespace terracut::min_cut {
 
 /// The work of one min-cut and how far the cut got. Numbers count cells unless stated otherwise.
@@ -18,6 +20,9 @@ struct CutReport {
   std::uint32_t certified = 0;             ///< Cells proven optimal in the interrupted component.
   std::uint32_t coarse_by_cap = 0;     ///< The farthest cells, beyond GridCut::Config::max_unknown.
   std::uint32_t coarse_by_budget = 0;  ///< Cells in components not solved to the end.
+  /// Cells in components that stayed open for too many columns (OpenComponents) and were cut as
+  /// they were; whatever the label, it is counted above.
+  std::uint32_t cut_open = 0;
 
   std::uint32_t components = 0;         ///< Connected components left after persistency.
   std::uint32_t components_solved = 0;  ///< Number of components solved to the end.
@@ -44,6 +49,8 @@ struct CutReport {
   [[nodiscard]] constexpr std::int64_t operations() const noexcept {
     return persistency_ops + greedy_push_ops + boykov_kolmogorov_ops + push_relabel_ops;
   }
+  /// Adds the work of another cut of the same frame, whose cells lie apart.
+  CutReport& operator+=(const CutReport& other) noexcept TERRACUT_NONBLOCKING;
   /// True if every unknown cell has the label of one global optimum.
   [[nodiscard]] constexpr bool exact() const noexcept {
     return coarse_by_cap == 0 && coarse_by_budget == 0;

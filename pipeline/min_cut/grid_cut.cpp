@@ -51,7 +51,21 @@ std::int64_t residual_cost(const CutGraph& graph,
   return cost;
 }
 
-/// Writes the labels of decided cells; other labels stay.
+Seed pinned_to(frame::Label label) noexcept {
+  return label == frame::Label::kObstacle ? Seed::kPinnedObstacle : Seed::kPinnedGround;
+}
+
+/// Calls `visit(first cell, number of cells)` for the cells of each row of the problem's window.
+template <class Visit>
+void for_each_row_piece(const GridProblem& problem, Visit visit) noexcept {
+  for (int row = 0; row < problem.shape.rows; ++row) {
+    problem.window.for_each_range(problem.shape.columns, [&](frame::ColumnRange columns) {
+      visit(problem.shape.cell(row, columns.begin), columns.size());
+    });
+  }
+}
+
+/// Labels decided cells; others keep their label.
 TERRACUT_VECTOR_CLONES void take_decisions(std::span<const Seed> seeds,
                                            std::span<frame::Label> labels) noexcept {
   static_assert(static_cast<int>(Seed::kGround) == static_cast<int>(frame::Label::kGround) &&
@@ -70,6 +84,29 @@ TERRACUT_VECTOR_CLONES void take_decisions(std::span<const Seed> seeds,
 
 }  // namespace
 
+CutReport& CutReport::operator+=(const CutReport& other) noexcept {
+  unknown += other.unknown;
+  fixed_by_persistency += other.fixed_by_persistency;
+  solved += other.solved;
+  certified += other.certified;
+  coarse_by_cap += other.coarse_by_cap;
+  coarse_by_budget += other.coarse_by_budget;
+  cut_open += other.cut_open;
+  components += other.components;
+  components_solved += other.components_solved;
+  push_relabel_runs += other.push_relabel_runs;
+  largest_component = std::max(largest_component, other.largest_component);
+  persistency_ops += other.persistency_ops;
+  greedy_push_ops += other.greedy_push_ops;
+  boykov_kolmogorov_ops += other.boykov_kolmogorov_ops;
+  push_relabel_ops += other.push_relabel_ops;
+  budget_hit |= other.budget_hit;
+  discarded |= other.discarded;
+  energy += other.energy;
+  flow += other.flow;
+  return *this;
+}
+
 GridCut::GridCut(const frame::ImageShape& shape, const Config& config, memory::FixedMemory& memory)
     : config_(checked(shape, config)),
       contraction_(shape, config_.max_unknown, memory),
@@ -84,7 +121,18 @@ bool GridCut::is_worth_keeping(const CutReport& report) const noexcept {
          config_.least_finished * static_cast<float>(report.unknown - report.coarse_by_cap);
 }
 
-CutReport GridCut::discard(CutReport report) noexcept {
+CutReport GridCut::discard(const GridProblem& problem, std::span<const frame::Label> labels,
+                           CutReport report) noexcept {
+  for_each_row_piece(problem, [&](std::size_t first, std::size_t cells) noexcept {
+    for (std::size_t cell = first; cell < first + cells; ++cell) {
+      Seed& seed = problem.seeds[cell];
+      // What an earlier cut decided has its label.
+      const bool is_of_this_cut =
+          (seed == Seed::kDecidedGround && labels[cell] == frame::Label::kObstacle) ||
+          (seed == Seed::kDecidedObstacle && labels[cell] != frame::Label::kObstacle);
+      if (is_of_this_cut || seed == Seed::kUnknown) seed = pinned_to(labels[cell]);
+    }
+  });
   report.fixed_by_persistency = report.solved = report.certified = 0;
   report.coarse_by_budget = report.unknown - report.coarse_by_cap;
   report.budget_hit = report.discarded = true;
@@ -102,10 +150,13 @@ CutReport GridCut::solve_contracted(const GridProblem& problem,
   report.persistency_ops = contracted.ops;
   if (!contracted.finished) {
     report.unknown = contracted.decided + contracted.pinned;
-    for_each_unknown(problem.seeds, [&](std::size_t) noexcept { ++report.unknown; });
-    return discard(report);
+    for_each_row_piece(problem, [&](std::size_t first, std::size_t cells) noexcept {
+      for_each_unknown(problem.seeds.subspan(first, cells),
+                       [&](std::size_t) noexcept { ++report.unknown; });
+    });
+    return discard(problem, labels, report);
   }
-  if (clock.expired() && !is_worth_keeping(report)) return discard(report);
+  if (clock.expired() && !is_worth_keeping(report)) return discard(problem, labels, report);
   report.greedy_push_ops = push_one_hop(graph_);
   components_.find(graph_, contraction_.cells(), problem.ground_range_m);
   report.components = components_.count();
@@ -122,12 +173,18 @@ CutReport GridCut::solve_contracted(const GridProblem& problem,
       for (const std::uint32_t index : component) decide(index, problem.seeds);
     } else {
       report.budget_hit = true;
-      if (!is_worth_keeping(report)) return discard(report);
+      if (!is_worth_keeping(report)) return discard(problem, labels, report);
       cost_beyond_flow += finalize_unfinished(component, started, labels, problem.seeds, report);
     }
   }
 
-  take_decisions(problem.seeds, labels);
+  for_each_row_piece(problem, [&](std::size_t first, std::size_t cells) noexcept {
+    take_decisions(problem.seeds.subspan(first, cells), labels.subspan(first, cells));
+    if (!report.budget_hit) return;
+    for_each_unknown(problem.seeds.subspan(first, cells), [&](std::size_t i) noexcept {
+      problem.seeds[first + i] = pinned_to(labels[first + i]);
+    });
+  });
   report.flow = graph_.flow;
   report.energy = graph_.flow + cost_beyond_flow;
   return report;

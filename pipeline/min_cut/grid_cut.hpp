@@ -52,10 +52,10 @@ class GridCut {
   /// `config` is out of range (start-up only).
   GridCut(const frame::ImageShape& shape, const Config& config, memory::FixedMemory& memory);
 
-  /// Labels the unknown cells. On entry `labels` has the coarse label of every unknown cell
+  /// Labels the unknown cells of the window. On entry `labels` has the coarse label of each
   /// (anything but kObstacle counts as ground), on return its final one; other cells are not
-  /// changed. `problem.shape` must be the constructor's. Unless the cut is discarded, each formerly
-  /// unknown cell of `problem.seeds` is then decided or has its coarse label. Real-time safe.
+  /// changed. `problem.shape` must be the constructor's. Each formerly unknown cell of
+  /// `problem.seeds` is then decided or pinned to its coarse label. Real-time safe.
   template <RegionCosts Costs, EdgeWeights Weights>
   [[gnu::always_inline, nodiscard]] CutReport solve(const GridProblem& problem, const Costs& costs,
                                                     const Weights& weights, const CutBudget& budget,
@@ -72,8 +72,10 @@ class GridCut {
       std::span<frame::Label> labels) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] bool is_worth_keeping(const CutReport& report) const noexcept;
-  /// Returns the report of a cut whose labels are discarded.
-  [[nodiscard]] static CutReport discard(CutReport report) noexcept TERRACUT_NONBLOCKING;
+  /// Leaves all cells coarse, and returns the report of that.
+  [[nodiscard]] static CutReport discard(const GridProblem& problem,
+                                         std::span<const frame::Label> labels,
+                                         CutReport report) noexcept TERRACUT_NONBLOCKING;
 
   /// Solves one component. Returns false if the budget ran out before the end.
   [[nodiscard]] bool solve_component(std::span<const std::uint32_t> component, OpClock& clock,

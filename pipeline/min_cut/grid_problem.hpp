@@ -30,6 +30,21 @@ enum class Seed : std::uint8_t {
   kPinned = 16,
   kPinnedGround = kPinned | kGround,  ///< No node was free: keeps its coarse label.
   kPinnedObstacle = kPinned | kObstacle,
+  kWaiting = 32,  ///< Unknown, but not to be cut yet (OpenComponents); separates like kNone.
+};
+
+/// Columns of an image, which is a circle: the last column may lie left of the first.
+struct ColumnWindow {
+  int begin = 0;    ///< In [0, columns of the image).
+  int columns = 0;  ///< At most all.
+
+  /// Calls `visit(ColumnRange)` for the columns, from left to right, once or twice.
+  template <class Visit>
+  [[gnu::always_inline]] void for_each_range(int image_columns, Visit visit) const {
+    const int end = begin + columns;
+    if (end > image_columns) visit(frame::ColumnRange{0, end - image_columns});
+    visit(frame::ColumnRange{begin, end < image_columns ? end : image_columns});
+  }
 };
 
 /// Calls `visit(index)` for each unknown cell, in order. `visit` may change its own cell. Unknown
@@ -78,6 +93,7 @@ inline constexpr std::int32_t kMaxTerminalCost = 1 << 28;
 /// Pairs of two hard seeds are not part of E.
 struct GridProblem {
   frame::ImageShape shape;                ///< columns >= 3, rows >= 1.
+  ColumnWindow window;                    ///< Unknown cells elsewhere are not touched.
   std::span<Seed> seeds;                  ///< Input and output: unknown cells get their result.
   std::span<const float> ground_range_m;  ///< Near cells are solved first.
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 
 #include "pipeline/stage/row_steps.hpp"
@@ -35,11 +36,14 @@ min_cut::Seed kept(frame::Label label) noexcept {
   return min_cut::Seed::kNone;
 }
 
+constexpr std::size_t kTogether = 32;
+
 /// The windows around the cells of a row, and the share of ground from which ground is trusted.
 struct TrustedWindows {
   const std::uint8_t *ground_in_column, *returns_in_column;  ///< Starting at the first window.
   int columns;                                               ///< Columns of a window.
   float ground_share;
+  int share_65536;  ///< The same in 65536ths.
 };
 
 // Adds a row of labels to the counts of its columns; uncount() removes it.
@@ -73,13 +77,39 @@ template <class Sum>
   }
 }
 
-/// Finds the returns whose ground label is trusted: enough of the window around them is ground.
-/// `Sum` must be able to hold the count of a window.
-template <class Sum>
-[[gnu::always_inline]] inline void find_trusted_ground(const TrustedWindows& windows,
-                                                       Sum* __restrict ground,
-                                                       Sum* __restrict returns,
-                                                       std::span<std::uint8_t> trusted) noexcept {
+// These find the returns whose ground label is trusted: enough of the window around them is ground.
+
+/// For windows whose counts fit a byte: ground is trusted if there is more of it than
+/// `windows.share_65536` 65536ths of the returns, rounded down. Works on kTogether columns at a
+/// time, beyond the last one, too.
+TERRACUT_VECTOR_CLONES void find_trusted_ground_small(const TrustedWindows& windows,
+                                                      std::uint8_t* __restrict trusted,
+                                                      std::size_t columns) noexcept {
+  using Bytes = std::uint8_t __attribute__((vector_size(kTogether)));
+  const auto share = static_cast<std::uint16_t>(windows.share_65536);
+  const auto width = static_cast<std::size_t>(windows.columns);
+  for (std::size_t first = 0; first < columns; first += kTogether) {
+    Bytes ground{}, returns{};
+    for (std::size_t i = first; i < first + width; ++i) {
+      Bytes more_ground, more_returns;
+      std::memcpy(&more_ground, windows.ground_in_column + i, sizeof(Bytes));
+      std::memcpy(&more_returns, windows.returns_in_column + i, sizeof(Bytes));
+      ground += more_ground;
+      returns += more_returns;
+    }
+    std::uint8_t ground_of[kTogether], returns_of[kTogether];
+    std::memcpy(ground_of, &ground, sizeof(Bytes));
+    std::memcpy(returns_of, &returns, sizeof(Bytes));
+    for (std::size_t i = 0; i < kTogether; ++i) {
+      const auto bound = static_cast<std::uint16_t>(std::uint32_t{returns_of[i]} * share >> 16U);
+      trusted[first + i] = ground_of[i] > bound;
+    }
+  }
+}
+TERRACUT_VECTOR_CLONES void find_trusted_ground_large(const TrustedWindows& windows,
+                                                      std::uint16_t* __restrict ground,
+                                                      std::uint16_t* __restrict returns,
+                                                      std::span<std::uint8_t> trusted) noexcept {
   const std::size_t columns = trusted.size();
   sum_windows(windows.ground_in_column, windows.columns, columns, ground);
   sum_windows(windows.returns_in_column, windows.columns, columns, returns);
@@ -88,15 +118,25 @@ template <class Sum>
     out[i] = static_cast<float>(ground[i]) > windows.ground_share * static_cast<float>(returns[i]);
   }
 }
-TERRACUT_VECTOR_CLONES void find_trusted_ground_small(const TrustedWindows& windows,
-                                                      std::uint8_t* ground, std::uint8_t* returns,
-                                                      std::span<std::uint8_t> trusted) noexcept {
-  find_trusted_ground(windows, ground, returns, trusted);
-}
-TERRACUT_VECTOR_CLONES void find_trusted_ground_large(const TrustedWindows& windows,
-                                                      std::uint16_t* ground, std::uint16_t* returns,
-                                                      std::span<std::uint8_t> trusted) noexcept {
-  find_trusted_ground(windows, ground, returns, trusted);
+
+/// Returns the number of 65536ths that stands for a share of up to `most` returns; -1 if there is
+/// none that decides for every number of them as the share does.
+int in_65536ths(float share, int most) {
+  const auto decides_alike = [&](int share_65536) {
+    for (int returns = 0; returns <= most; ++returns) {
+      const auto whole = static_cast<float>(returns * share_65536 / 65536);
+      const float bound = share * static_cast<float>(returns);
+      if (whole > bound || whole + 1 <= bound) return false;
+    }
+    return true;
+  };
+  if (most > std::numeric_limits<std::uint8_t>::max()) return -1;
+  // No farther from the share than a float is from a number.
+  const auto near = static_cast<int>(share * 65536);
+  for (int share_65536 = near; share_65536 <= std::min(near + 2, 65535); ++share_65536) {
+    if (decides_alike(share_65536)) return share_65536;
+  }
+  return -1;
 }
 
 /// Keeps obstacles and trusted ground, and makes other ground unknown. Has no branches: they would
@@ -131,10 +171,11 @@ ConfidenceSeeds::ConfidenceSeeds(const Config& config, float row_step_deg,
       window_end_(memory.take<std::int32_t>("seeds", window_begin_.size())),
       seeds_(memory.take<min_cut::Seed>("seeds", shape.cells())),
       ground_in_column_(memory.take<std::uint8_t>(
-          "seeds", static_cast<std::size_t>(shape.columns + 2 * config.window_columns))),
+          "seeds",
+          static_cast<std::size_t>(shape.columns + 2 * config.window_columns) + kTogether)),
       returns_in_column_(memory.take<std::uint8_t>("seeds", ground_in_column_.size())),
       sums_(memory.take<std::uint16_t>("seeds", 2 * static_cast<std::size_t>(shape.columns))),
-      trusted_ground_(memory.take<std::uint8_t>("seeds", sums_.size() / 2)) {
+      trusted_ground_(memory.take<std::uint8_t>("seeds", sums_.size() / 2 + kTogether)) {
   const stage::RowSteps row_steps(profile, static_cast<double>(row_step_deg));
   for (int row = 0; row < shape.rows; ++row) {
     const auto i = static_cast<std::size_t>(row);
@@ -143,67 +184,65 @@ ConfidenceSeeds::ConfidenceSeeds(const Config& config, float row_step_deg,
     most_in_window_ = std::max(
         most_in_window_, (window_end_[i] - window_begin_[i]) * (2 * config.window_columns + 1));
   }
+  share_65536_ = in_65536ths(config.ground_share, most_in_window_);
 }
 
-void ConfidenceSeeds::select(const stage::CellPlanes& planes) noexcept {
-  const std::size_t cut_cells =
-      static_cast<std::size_t>(cut_rows_) * static_cast<std::size_t>(shape_.stride());
-  std::transform(planes.label.begin() + static_cast<std::ptrdiff_t>(cut_cells), planes.label.end(),
-                 seeds_.begin() + static_cast<std::ptrdiff_t>(cut_cells),
-                 [](frame::Label label) noexcept { return kept(label); });
-  start_counting();
-  for (int row = 0; row < cut_rows_; ++row) {
-    count_in_columns(planes, row);
-    select_in_row(planes, row);
-  }
-}
-
-void ConfidenceSeeds::select_in_row(const stage::CellPlanes& planes, int row) noexcept {
-  const std::size_t first =
-      static_cast<std::size_t>(row) * static_cast<std::size_t>(shape_.stride());
-  find_trusted_ground_in_row();
-  choose(&planes.label[first], trusted_ground_.data(),
-         seeds_.subspan(first, trusted_ground_.size()));
-}
-
-void ConfidenceSeeds::start_counting() noexcept {
-  std::fill(ground_in_column_.begin(), ground_in_column_.end(), std::uint8_t{0});
-  std::fill(returns_in_column_.begin(), returns_in_column_.end(), std::uint8_t{0});
-  counted_begin_ = counted_end_ = 0;
-}
-
-void ConfidenceSeeds::count_in_columns(const stage::CellPlanes& planes, int row) noexcept {
-  const auto labels_of = [&](int r) {
-    return &planes.label[static_cast<std::size_t>(r) * static_cast<std::size_t>(shape_.stride())];
-  };
-  const auto reach = static_cast<std::size_t>(config_.window_columns);
-  const auto columns = static_cast<std::size_t>(shape_.columns);
-  std::uint8_t* ground = &ground_in_column_[reach];
-  std::uint8_t* returns = &returns_in_column_[reach];
-  // Windows only move upwards, so every row is added once and removed once.
-  for (; counted_end_ < window_end_[static_cast<std::size_t>(row)]; ++counted_end_) {
-    count(labels_of(counted_end_), columns, ground, returns);
-  }
-  for (; counted_begin_ < window_begin_[static_cast<std::size_t>(row)]; ++counted_begin_) {
-    uncount(labels_of(counted_begin_), columns, ground, returns);
-  }
-  for (std::span<std::uint8_t> counts : {ground_in_column_, returns_in_column_}) {
-    for (std::size_t i = 0; i < reach; ++i) {
-      counts[i] = counts[columns + i];
-      counts[reach + columns + i] = counts[reach + i];
+void ConfidenceSeeds::select(const stage::CellPlanes& planes, frame::ColumnRange columns) noexcept {
+  start_counting(columns);
+  for (int row = 0; row < shape_.rows; ++row) {
+    const std::size_t first = shape_.cell(row, columns.begin);
+    const std::span<const frame::Label> labels = planes.label.subspan(first, columns.size());
+    const std::span<min_cut::Seed> seeds = seeds_.subspan(first, columns.size());
+    if (row < cut_rows_) {
+      const std::span<std::uint8_t> trusted = trusted_ground_.first(columns.size());
+      count_in_columns(planes, row, columns);
+      find_trusted_ground(trusted);
+      choose(labels.data(), trusted.data(), seeds);
+    } else {
+      std::ranges::transform(labels, seeds.begin(),
+                             [](frame::Label label) noexcept { return kept(label); });
     }
   }
 }
 
-void ConfidenceSeeds::find_trusted_ground_in_row() noexcept {
+void ConfidenceSeeds::start_counting(frame::ColumnRange columns) noexcept {
+  const std::size_t counted = columns.size() + 2 * static_cast<std::size_t>(reach());
+  std::ranges::fill(ground_in_column_.first(counted), std::uint8_t{0});
+  std::ranges::fill(returns_in_column_.first(counted), std::uint8_t{0});
+  counted_begin_ = counted_end_ = 0;
+}
+
+void ConfidenceSeeds::count_in_columns(const stage::CellPlanes& planes, int row,
+                                       frame::ColumnRange columns) noexcept {
+  // Calls `add` for the columns around, which go on beyond the seam.
+  const auto for_row = [&](int r, auto add) {
+    const int begin = columns.begin - reach(), end = columns.end + reach();
+    for (int at = begin; at < end;) {
+      const int column = (at + 8 * shape_.columns) % shape_.columns;
+      const int count = std::min(end - at, shape_.columns - column);
+      const auto i = static_cast<std::size_t>(at - begin);
+      add(&planes.label[shape_.cell(r, column)], static_cast<std::size_t>(count),
+          &ground_in_column_[i], &returns_in_column_[i]);
+      at += count;
+    }
+  };
+  // Windows only move upwards, so every row enters once and leaves once.
+  for (; counted_end_ < window_end_[static_cast<std::size_t>(row)]; ++counted_end_) {
+    for_row(counted_end_, count);
+  }
+  for (; counted_begin_ < window_begin_[static_cast<std::size_t>(row)]; ++counted_begin_) {
+    for_row(counted_begin_, uncount);
+  }
+}
+
+void ConfidenceSeeds::find_trusted_ground(std::span<std::uint8_t> trusted) noexcept {
   const TrustedWindows windows{ground_in_column_.data(), returns_in_column_.data(),
-                               2 * config_.window_columns + 1, config_.ground_share};
-  const std::size_t columns = trusted_ground_.size();
-  if (most_in_window_ <= std::numeric_limits<std::uint8_t>::max()) {
-    auto* const sums = reinterpret_cast<std::uint8_t*>(sums_.data());
-    find_trusted_ground_small(windows, sums, sums + columns, trusted_ground_);
+                               2 * config_.window_columns + 1, config_.ground_share, share_65536_};
+  const std::size_t columns = trusted.size();
+  if (share_65536_ >= 0) {
+    find_trusted_ground_small(windows, trusted.data(), columns);
   } else {
-    find_trusted_ground_large(windows, sums_.data(), &sums_[columns], trusted_ground_);
+    find_trusted_ground_large(windows, sums_.data(), &sums_[columns], trusted);
   }
 }
 

@@ -38,8 +38,11 @@ class ConfidenceSeeds {
   ConfidenceSeeds(const Config& config, float row_step_deg, const mount::RingProfile& profile,
                   frame::ImageShape shape, memory::FixedMemory& memory);
 
-  /// Chooses the seed of every cell from `planes`. Real-time safe.
-  void select(const stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
+  /// Chooses the seeds of these columns from the labels in them and reach() columns to either side.
+  /// Real-time safe.
+  void select(const stage::CellPlanes& planes,
+              frame::ColumnRange columns) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] int reach() const noexcept { return config_.window_columns; }
 
   [[nodiscard]] std::span<const min_cut::Seed> seeds() const noexcept { return seeds_; }
   /// Returns the seeds; the cut writes its decisions about unknown cells into them.
@@ -48,10 +51,10 @@ class ConfidenceSeeds {
   [[nodiscard]] int cut_rows() const noexcept { return cut_rows_; }
 
  private:
-  void start_counting() noexcept;
-  void count_in_columns(const stage::CellPlanes& planes, int row) noexcept;
-  void find_trusted_ground_in_row() noexcept;
-  void select_in_row(const stage::CellPlanes& planes, int row) noexcept;
+  void start_counting(frame::ColumnRange columns) noexcept;
+  void count_in_columns(const stage::CellPlanes& planes, int row,
+                        frame::ColumnRange columns) noexcept;
+  void find_trusted_ground(std::span<std::uint8_t> trusted) noexcept;
 
   Config config_;
   frame::ImageShape shape_;
@@ -59,12 +62,13 @@ class ConfidenceSeeds {
   std::span<std::int32_t> window_begin_, window_end_;  // by row: rows [begin, end) of its window
   int counted_begin_ = 0, counted_end_ = 0;            // rows included in the sums below
   std::span<min_cut::Seed> seeds_;
-  // Sums over the rows of a row's windows, by column; columns near the seam appear at both ends.
+  // Sums over the rows of a row's windows, by column from reach() before the first one selected.
   std::span<std::uint8_t> ground_in_column_;
   std::span<std::uint8_t> returns_in_column_;
-  // Sums over whole windows; stored as bytes if most_in_window_ fits a byte.
+  // Sums over whole windows; stored as bytes if there is share_65536_.
   std::span<std::uint16_t> sums_;
   int most_in_window_ = 0;                  // most returns in a window
+  int share_65536_ = -1;                    // ground_share in 65536ths; -1: windows are too large
   std::span<std::uint8_t> trusted_ground_;  // of the row being judged
 };
 

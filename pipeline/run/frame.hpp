@@ -14,7 +14,7 @@ namespace terracut::run {
 /// A frame on its way from packets to labels: its returns and all facts known so far. The function
 /// that returns a frame states how long they are valid.
 struct Frame {
-  frame::MeasuredReturns* returns = nullptr;
+  const frame::MeasuredReturns* returns = nullptr;
   std::span<const frame::PlanarMotions> motions;  ///< See frame::Frame::motions.
   const frame::RangeImage* image = nullptr;       ///< The points, where they were asked for.
   status::FrameRecord record;

@@ -14,20 +14,21 @@
 namespace terracut::run {
 
 /// Measures the times of the pipeline's stages, because the pipeline itself has no clock. Sums the
-/// times of a frame until take(), even if its work is interrupted. `Clock` is like
+/// processor time of a frame until take(), even if its work is interrupted. `Clock` is like
 /// measure::SystemClock.
 template <class Clock>
 class StageClockOf final : public stage::StageObserver {
  public:
   explicit StageClockOf(Clock clock = {}) noexcept : clock_(clock) {}
 
-  void resumed() noexcept TERRACUT_NONBLOCKING override { last_ = now(); }
+  void resumed() noexcept TERRACUT_NONBLOCKING override { last_ns_ = clock_.thread_cpu_ns(); }
   void stage_done(stage::Stage stage) noexcept TERRACUT_NONBLOCKING override {
-    const measure::ClockPair now = this->now();
-    const measure::ClockPair spent = now.since(last_);
-    times_.stage_ns[static_cast<std::size_t>(stage)] += spent.cpu_ns;
-    times_.segment_wall_ns += spent.wall_ns;
-    last_ = now;
+    const std::int64_t now_ns = clock_.thread_cpu_ns();
+    times_.stage_ns[static_cast<std::size_t>(stage)] += now_ns - std::exchange(last_ns_, now_ns);
+  }
+  /// Returns the time of the present frame's stages so far.
+  [[nodiscard]] std::int64_t sum_ns() const noexcept TERRACUT_NONBLOCKING {
+    return times_.sum_ns();
   }
   /// Returns the times of the present frame and begins the next frame.
   stage::StageTimes take() noexcept TERRACUT_NONBLOCKING {
@@ -35,13 +36,9 @@ class StageClockOf final : public stage::StageObserver {
   }
 
  private:
-  [[nodiscard]] measure::ClockPair now() const noexcept TERRACUT_NONBLOCKING {
-    return {clock_.thread_cpu_ns(), clock_.monotonic_ns()};
-  }
-
   Clock clock_;
   stage::StageTimes times_;
-  measure::ClockPair last_;
+  std::int64_t last_ns_ = 0;
 };
 
 using StageClock = StageClockOf<measure::SystemClock>;

@@ -20,9 +20,9 @@ void copy_where_measured(const frame::Label* __restrict from, const std::uint16_
   }
 }
 
-/// Writes the labels of a firing's returns, one after the other. `of_firing` has kNone, which is 0,
-/// where there is no return.
-void write_labels(std::span<const std::uint8_t> of_firing, frame::Label* next) noexcept {
+/// Writes the labels of a firing's returns, one after the other, and returns where the next one
+/// goes. `of_firing` has kNone, which is 0, where there is no return.
+frame::Label* write_labels(std::span<const std::uint8_t> of_firing, frame::Label* next) noexcept {
   static_assert(static_cast<int>(frame::Label::kNone) == 0);
   constexpr std::uint64_t kOnes = 0x0101'0101'0101'0101, kHighest = kOnes << 7U;
   for (std::size_t i = 0; i < of_firing.size(); i += sizeof(std::uint64_t)) {
@@ -40,6 +40,7 @@ void write_labels(std::span<const std::uint8_t> of_firing, frame::Label* next) n
       next += (eight & 0xFFU) != 0 ? 1 : 0;
     }
   }
+  return next;
 }
 
 }  // namespace
@@ -72,61 +73,61 @@ frame::Label ReturnLabels::label_of_extra(float above_owner_m, float behind_owne
                                           const CellPlanes& planes) const noexcept {
   const bool same_surface = std::fabs(behind_owner_m) < config_.same_surface_range_m &&
                             std::fabs(above_owner_m) < config_.same_surface_height_m;
-  const float height_m = planes.height_m[cell] + above_owner_m;
-  const frame::Label by_height =
-      height_m < obstacle_height_m_ ? frame::Label::kGround : frame::Label::kObstacle;
-  return same_surface ? planes.label[cell] : by_height;
+  return same_surface ? planes.label[cell] : label_of(planes.height_m[cell] + above_owner_m);
 }
 
-void ReturnLabels::assign(const frame::MeasuredReturns& returns, const frame::PointPlanes& points,
-                          frame::TileReader& reader, const CellPlanes& planes) noexcept {
-  returns_ = returns.returns();
-  const std::size_t lasers = returns.lasers();
+bool ReturnLabels::write_tile(const frame::MeasuredReturns& turn, std::size_t tile,
+                              const frame::PointPlanes& points, frame::TileReader& reader,
+                              const CellPlanes& planes) noexcept {
+  const std::size_t lasers = turn.lasers();
   const std::span<const std::int32_t> rows = reader.rows();
-  const auto stride = static_cast<std::size_t>(returns.shape().stride());
+  const auto stride = static_cast<std::size_t>(turn.shape().stride());
   std::array<TileLabels, frame::MeasuredReturns::kMostLasers> of_laser;
   std::array<std::uint8_t, of_laser.size() * frame::kTileFirings> of_firing;
-  for (std::size_t t = 0; t < returns.tiles(); ++t) {
-    const frame::MeasuredReturns::Tile& tile = returns.tile(t);
-    const std::uint16_t* const raw = returns.raw(t);
-    const frame::MeasuredReturns::LaserRow* const of_tile = &returns.row(t, 0);
-    bool is_open = false;
-    for (std::size_t i = 0; i < lasers; ++i) {
-      const frame::MeasuredReturns::LaserRow& row = of_tile[i];
-      if (row.is_run && row.owned == row.returns) {
-        const std::size_t cell =
-            static_cast<std::size_t>(rows[i]) * stride + static_cast<std::size_t>(row.least);
-        if (row.returns == kEveryFiring) {
-          std::memcpy(of_laser[i].data(), &planes.label[cell], frame::kTileFirings);
-        } else {
-          copy_where_measured(&planes.label[cell], raw + i * frame::kTileFirings,
-                              of_laser[i].data());
-        }
-        continue;
+  const frame::MeasuredReturns::Tile& at = turn.tile(tile);
+  const std::uint16_t* const raw = turn.raw(tile);
+  const frame::MeasuredReturns::LaserRow* const of_tile = &turn.row(tile, 0);
+  bool is_open = false;
+  for (std::size_t i = 0; i < lasers; ++i) {
+    const frame::MeasuredReturns::LaserRow& row = of_tile[i];
+    if (row.is_run && row.owned == row.returns) {
+      const std::size_t cell =
+          static_cast<std::size_t>(rows[i]) * stride + static_cast<std::size_t>(row.least);
+      if (row.returns == kEveryFiring) {
+        std::memcpy(of_laser[i].data(), &planes.label[cell], frame::kTileFirings);
+      } else {
+        copy_where_measured(&planes.label[cell], raw + i * frame::kTileFirings, of_laser[i].data());
       }
-      if (row.owned != row.returns && !std::exchange(is_open, true)) reader.open(tile.heads, raw);
-      of_laser[i] = labels_of_row(returns, t, i, points, reader, planes);
+      continue;
     }
-    frame::transpose(of_laser[0].data(), lasers, frame::kTileFirings, of_firing.data());
-    for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
-      write_labels({&of_firing[f * lasers], lasers}, &labels_[tile.first_return[f]]);
-    }
+    if (row.owned != row.returns && !std::exchange(is_open, true)) reader.open(at.heads, raw);
+    of_laser[i] = labels_of_row(turn, tile, i, points, reader, planes);
   }
+  frame::transpose(of_laser[0].data(), lasers, frame::kTileFirings, of_firing.data());
+  returns_ = turn.end_of(tile);
+  bool is_whole = true;
+  for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
+    const frame::Label* const next =
+        write_labels({&of_firing[f * lasers], lasers}, &labels_[at.first_return[f]]);
+    const std::size_t last = f + 1 < frame::kTileFirings ? at.first_return[f + 1] : returns_;
+    is_whole &= next == labels_.data() + last;
+  }
+  return is_whole;
 }
 
-ReturnLabels::TileLabels ReturnLabels::labels_of_row(const frame::MeasuredReturns& returns,
+ReturnLabels::TileLabels ReturnLabels::labels_of_row(const frame::MeasuredReturns& turn,
                                                      std::size_t tile, std::size_t laser,
                                                      const frame::PointPlanes& points,
                                                      frame::TileReader& reader,
                                                      const CellPlanes& planes) const noexcept {
   TileLabels labels{};
-  const frame::MeasuredReturns::LaserRow& row = returns.row(tile, laser);
+  const frame::MeasuredReturns::LaserRow& row = turn.row(tile, laser);
   if (row.returns == 0) return labels;
   frame::TilePoints extra;
   if (row.owned != row.returns) reader.compute_points(laser, all_of(extra));
-  const std::size_t first = returns.shape().cell(reader.rows()[laser], 0);
+  const std::size_t first = turn.shape().cell(reader.rows()[laser], 0);
   const frame::Label* const owners = &planes.label[first];
-  const frame::TileRow<std::uint16_t> columns = returns.columns(tile, laser);
+  const frame::TileRow<std::uint16_t> columns = turn.columns(tile, laser);
   frame::for_each_firing(row.returns, [&](std::size_t f) noexcept {
     labels[f] = static_cast<std::uint8_t>(owners[columns[f]]);
   });

@@ -20,6 +20,8 @@ struct SegmentationReport {
   std::uint32_t obstacles = 0;     ///< Returns labelled obstacle.
   /// Cells whose return lies two obstacle heights or more below the ground: ghosts, or a hole.
   std::uint32_t below = 0;
+  /// Returns that came after their columns were labelled, into empty cells: judged by their height.
+  std::uint32_t late = 0;
   Stage last_stage = Stage::kMinCut;  ///< The last stage that ran.
   min_cut::CutReport cut;             ///< All zero if there was no cut.
 

@@ -34,11 +34,19 @@ inline constexpr std::array<std::string_view, kStages> kStageNames{
 class StageObserver {
  public:
   virtual ~StageObserver() = default;
-  /// Called on the segmenting thread when it starts or resumes work on a frame.
+  /// Called on the labelling thread when it starts or resumes work on a frame.
   virtual void resumed() noexcept TERRACUT_NONBLOCKING {}
-  /// Called on the segmenting thread right after `stage` or a part of `stage`. Both functions must
+  /// Called on the labelling thread right after `stage` or a part of `stage`. Both functions must
   /// be real-time safe.
   virtual void stage_done(Stage stage) noexcept TERRACUT_NONBLOCKING = 0;
 };
+
+/// Notifies an observer, if there is one.
+inline void resumed(StageObserver* observer) noexcept TERRACUT_NONBLOCKING {
+  if (observer != nullptr) observer->resumed();
+}
+inline void done(Stage stage, StageObserver* observer) noexcept TERRACUT_NONBLOCKING {
+  if (observer != nullptr) observer->stage_done(stage);
+}
 
 }  // namespace terracut::stage

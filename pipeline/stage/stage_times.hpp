@@ -11,14 +11,12 @@
 
 namespace terracut::stage {
 
-/// Processor time of one frame by stage, in nanoseconds, summed over the threads that worked on it.
+/// The processor time that a thread spent on one frame by stage, in nanoseconds.
 struct StageTimes {
   std::array<std::int64_t, kStages> stage_ns{};
-  std::int64_t segment_wall_ns = 0;  ///< Wall time of the work on the frame.
 
   StageTimes& operator+=(const StageTimes& more) noexcept {
     for (std::size_t i = 0; i < stage_ns.size(); ++i) stage_ns[i] += more.stage_ns[i];
-    segment_wall_ns += more.segment_wall_ns;
     return *this;
   }
   [[nodiscard]] std::int64_t sum_ns() const noexcept TERRACUT_NONBLOCKING {

@@ -71,6 +71,7 @@ void DeadlineMonitor::judge(FrameRecord& frame) noexcept TERRACUT_NONBLOCKING {
   } else {
     figures.consecutive_misses = 0;
   }
+  record_firing_to_label(frame);
   record_motion(frame);
   record_costs(frame);
   keep(frame);
@@ -94,6 +95,18 @@ void DeadlineMonitor::judge_latency(FrameRecord& frame) noexcept TERRACUT_NONBLO
   if (skipped) return;  // without labels there is no latency; 0 would look like a fast frame
   figures.latency.record(latency_ns);
   if (frame.handed_over_ns > 0) figures.wall.record(frame.labels_ns - frame.handed_over_ns);
+}
+
+void DeadlineMonitor::record_firing_to_label(const FrameRecord& frame) noexcept
+    TERRACUT_NONBLOCKING {
+  MonitorSnapshot& figures = *snapshot_;
+  for (const std::int64_t longest_ns : frame.firing_to_label.longest_ns) {
+    if (longest_ns <= 0) continue;
+    figures.firing_to_label.record(longest_ns);
+    if (longest_ns > figures.deadline_ns) ++figures.late_sectors;
+  }
+  figures.firing_to_label_sum_ns += frame.firing_to_label.sum_ns;
+  figures.firing_to_label_count += frame.firing_to_label.count;
 }
 
 void DeadlineMonitor::record_motion(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING {

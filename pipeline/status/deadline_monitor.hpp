@@ -16,9 +16,10 @@ namespace terracut::status {
 
 /// Judges every frame by its deadline, names the cause of a miss, and keeps the figures.
 ///
-/// A frame's latency runs from the kernel's stamp of its last packet to its labels. The frame
-/// missed its deadline if the latency is longer or if it was skipped. The latency is divided into
-/// shares in this order, each share at most what is left:
+/// A frame's latency runs from the kernel's stamp of its last packet to its last labels. The frame
+/// missed its deadline if the latency is longer or if it was skipped. Each return has that
+/// deadline, too: sectors in which one missed it are counted (FiringToLabel). The latency is
+/// divided into shares in this order, each share at most what is left:
 ///
 ///   late_input         last packet -> closing packet: the sensor or the network was late
 ///   stolen_time        steal_ns
@@ -64,6 +65,7 @@ class DeadlineMonitor {
 
  private:
   void judge_latency(FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
+  void record_firing_to_label(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
   void record_motion(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
   void record_costs(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
   void keep(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;

@@ -176,8 +176,18 @@ void add_frames(const MonitorSnapshot& f, Table& table) {
      {"levels", "{}", f.frames > 0 ? Shown::kAlways : Shown::kIfAny}}});
   table.add("", {
     {"deadline_ms", Duration{f.deadline_ns},
-     {"terracut_deadline_seconds", "Allowed from a frame's last packet to its labels."},
+     {"terracut_deadline_seconds", "Allowed from a return's packet to its label."},
      {"deadline", "{ms:.1f} ms"}}});
+  const auto waits = static_cast<std::int64_t>(f.firing_to_label_count);
+  table.add("firing_to_label", {
+    {"mean_ms", Duration{waits == 0 ? 0 : f.firing_to_label_sum_ns / waits},
+     {"terracut_firing_to_label_mean_seconds",
+      "Wall time from a return's packet to its label, the mean of the run."},
+     {"labels", "{ms:.1f} ms after the firing in the mean", Shown::kIfAny}},
+    {"late_sectors", f.late_sectors,
+     {"terracut_late_sectors_total",
+      "Ten degrees of a frame in which a label came after its deadline."},
+     {"labels", "{} times ten degrees too late", Shown::kAlarm}}});
   table.add("misses", {
     {"total", f.all_misses(), {},
      {"deadline", "{} missed", alarm_unless(f.consecutive_misses == 0)}},
@@ -283,11 +293,16 @@ void add_threads(const MonitorSnapshot& f, Table& table) {
 
 void add_times(const MonitorSnapshot& f, Table& table) {
   table.add("ms", {
+    {"firing_to_label", &f.firing_to_label,
+     {"terracut_firing_to_label_seconds",
+      "Wall time from a return's packet to its label: the longest in each ten degrees of a frame."},
+     {"times", "firing > label"}},
     {"latency", &f.latency,
-     {"terracut_latency_seconds", "Wall time from a frame's last packet to its labels."},
+     {"terracut_latency_seconds", "Wall time from a frame's last packet to its last labels."},
      {"times", "latency"}},
     {"wall", &f.wall,
-     {"terracut_hand_over_to_labels_seconds", "Wall time from the end of decoding to the labels."},
+     {"terracut_hand_over_to_labels_seconds",
+      "Wall time from the fetch of the packet that made a frame's last labels known to them."},
      {"times", "hand-over > labels"}},
     {"cpu_total", &f.total_cpu,
      {"terracut_frame_cpu_seconds", "Processor time of a frame, decoding and segmenting."},

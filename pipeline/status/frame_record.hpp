@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include "firmware_io/frame/frame_info.hpp"
 #include "pipeline/stage/segmentation_report.hpp"
 #include "pipeline/stage/stage_times.hpp"
+#include "rt/threads/nonblocking.hpp"
 
 namespace terracut::status {
 
@@ -45,6 +47,26 @@ inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCau
   return cause < FrameMissCause::kCount ? kNames[static_cast<std::size_t>(cause)] : "unknown";
 }
 
+/// How long the returns of a frame waited for their labels, each from the kernel's stamp of its
+/// packet. Trivially copyable.
+struct FiringToLabel {
+  /// A frame is looked at in sectors of ten degrees.
+  static constexpr std::size_t kSectors = 36;
+
+  std::array<std::int64_t, kSectors> longest_ns{};  ///< By sector; 0: no return, or not known.
+  std::int64_t sum_ns = 0;                          ///< Of all waits noted.
+  std::uint32_t count = 0;                          ///< Number of waits noted.
+
+  /// Notes the wait of some returns at `turns` of a revolution, [0, 1).
+  void note(double turns, std::int64_t wait_ns) noexcept TERRACUT_NONBLOCKING {
+    const auto sector = static_cast<std::size_t>(turns * static_cast<double>(kSectors));
+    std::int64_t& longest = longest_ns[std::min(sector, kSectors - 1)];
+    longest = std::max(longest, wait_ns);
+    sum_ns += wait_ns;
+    ++count;
+  }
+};
+
 /// All facts about one frame, filled in by the threads that the frame passes from its first packet
 /// to the last report, and judged at the end (pipeline/status/deadline_monitor.hpp). Times of day
 /// are CLOCK_REALTIME like the kernel's packet stamps; 0 means "unknown". Trivially copyable; only
@@ -52,10 +74,11 @@ inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCau
 struct FrameRecord {
   frame::FrameInfo info;  ///< From the decoder: number, packets' stamps, returns, losses.
 
-  std::int64_t closing_packet_ns = 0;  ///< Stamp of the packet that showed the frame's end.
-  std::int64_t handed_over_ns = 0;     ///< When the decoded frame went to the segmenting thread.
+  std::int64_t closing_packet_ns = 0;  ///< Stamp of the packet with which its last labels came.
+  std::int64_t handed_over_ns = 0;     ///< When work on that packet began.
   std::int64_t segment_begin_ns = 0;
-  std::int64_t labels_ns = 0;  ///< When labels were handed out or the frame was skipped.
+  std::int64_t labels_ns = 0;     ///< When labels were handed out or the frame was skipped.
+  FiringToLabel firing_to_label;  ///< Known in a live run.
 
   /// Processor time of the work on the frame:
   std::int64_t decode_cpu_ns = 0;   ///< Decoding all packets of the frame.
@@ -71,7 +94,8 @@ struct FrameRecord {
 
   stage::SegmentationReport segmentation;
   Level level = Level::kFull;
-  std::uint8_t stages_ahead = 0;  ///< How many of the first stages were done at hand-over.
+  std::uint8_t stages_ahead =
+      0;  ///< How many of the first stages were done before segment_begin_ns.
 
   bool missed = false;                              ///< Set by DeadlineMonitor::judge.
   FrameMissCause cause = FrameMissCause::kOwnWork;  ///< Set by judge; valid only if missed.

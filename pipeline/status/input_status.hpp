@@ -14,7 +14,7 @@
 
 namespace terracut::status {
 
-/// The state of the input when the receiving thread last looked.
+/// The state of the input when the labelling thread last looked.
 struct InputState {
   net::DatagramAccount account;  ///< Datagrams since labelling began.
   net::LinkState link = net::LinkState::kUnknown;

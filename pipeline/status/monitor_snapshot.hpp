@@ -52,7 +52,7 @@ struct ThreadStatus {
 /// to_string are safe even then.
 struct MonitorSnapshot {
   /// The version of the layout; increase it with every change.
-  static constexpr std::uint32_t kLayout = 10;
+  static constexpr std::uint32_t kLayout = 11;
   static constexpr std::size_t kMaxLosses = 64;
   static constexpr std::size_t kMaxOutcomes = 24;
   static constexpr std::size_t kMaxThreads = 4;
@@ -103,6 +103,11 @@ struct MonitorSnapshot {
   std::uint32_t thread_count = 0;
   std::array<ThreadStatus, kMaxThreads> threads{};
 
+  std::uint64_t late_sectors = 0;  ///< Sectors of frames of which a label came after its deadline.
+  std::int64_t firing_to_label_sum_ns = 0;  ///< Of the waits noted.
+  std::uint64_t firing_to_label_count = 0;
+  /// Wall time from a return's packet to its label: the longest in each sector of each frame.
+  measure::LogLinearHistogram firing_to_label;
   measure::LogLinearHistogram latency;      ///< Wall time from the last packet to the labels.
   measure::LogLinearHistogram wall;         ///< Wall time from the hand-over to the labels.
   measure::LogLinearHistogram total_cpu;    ///< Processor time, decoding and segmenting.

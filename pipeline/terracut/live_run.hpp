@@ -14,10 +14,11 @@
 
 namespace terracut {
 
-/// Labels a live sensor's frames before a deadline. It starts two threads, one that receives and
-/// one that segments. They allocate nothing and lock nothing; when late, they give up parts of the
-/// method, never the deadline. The thread that calls run() calls on_frame, without a deadline: if
-/// on_frame is too slow, frames are left out and counted.
+/// Labels a live sensor's returns before a deadline. It starts a thread that receives and labels;
+/// this allocates nothing and locks nothing, and when late it leaves out the cut until it has
+/// caught up. The thread that calls run() calls on_frame, without a deadline: if on_frame is too
+/// slow, frames are left out and counted. A frame's last returns wait some milliseconds for those
+/// that follow it.
 class LiveRun {
  public:
   struct Config {
@@ -31,12 +32,11 @@ class LiveRun {
     /// With find_mount: if the ground did not show the mount, continues with `mount` instead of
     /// failing; found_mount() is then empty.
     bool guess_mount = false;
-    double deadline_ms = 50;  ///< Time from a frame's last packet to its labels, [1, 10000].
-    /// How long packets may wait to be fetched together, [0, 20], but never past a frame's end.
-    /// With 0 each packet is fetched as it comes, with more wake-ups.
-    double gather_ms = 20;
-    int receive_priority = 80;  ///< SCHED_FIFO priority, [1, 99]; 0: shared scheduling.
-    int segment_priority = 70;
+    double deadline_ms = 50;  ///< Time from a return's packet to its label, [1, 10000].
+    /// How long packets may wait to be fetched together, and labels with them, [0, 20]. With 0 each
+    /// packet is fetched as it comes, with more wake-ups.
+    double gather_ms = 2;
+    int priority = 80;  ///< SCHED_FIFO priority, [1, 99]; 0: shared scheduling.
     bool lock_memory = true;
     std::optional<double> patience_s;  ///< Time to wait for the sensor; empty: no limit.
   };
@@ -45,7 +45,6 @@ class LiveRun {
     std::uint64_t datagrams = 0;        ///< Datagrams received.
     std::uint64_t decoded = 0;          ///< Data packets that are in frames.
     std::uint64_t frames = 0;           ///< Frames handed to on_frame.
-    std::uint64_t frames_skipped = 0;   ///< Frames skipped to keep the deadline.
     std::uint64_t frames_left_out = 0;  ///< Frames left out because on_frame was too slow.
     std::uint64_t deadlines_missed = 0;
   };

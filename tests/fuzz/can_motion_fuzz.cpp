@@ -76,8 +76,7 @@ class MotionRun {
                 memory_),
         deskewer_({&motion_, static_cast<frame::FrameInstant>((bits_ >> 5) % 3), kShape,
                    packet::kRevolution_ticks},
-                  kBeam_ticks, memory_),
-        image_(kShape, 16, memory_) {}
+                  kBeam_ticks, memory_) {}
 
   void run() {
     const std::size_t memory_bytes = memory_.total_bytes();
@@ -234,24 +233,20 @@ class MotionRun {
 
   void hand_over() {
     if (!noted_) return;
-    image_.clear();
-    for (int column = 0; column < kShape.columns; column += 3) {
-      require(image_.place(column % 2, column, {10, 1, 0.5F, 10.05F, 1}), "no place for a return");
-    }
-    const frame::DeskewInfo info = deskewer_.apply(frame_++, image_);
-    double moved_m = 0;
-    for (int column = 0; column < kShape.columns; column += 3) {
-      const auto cell = static_cast<std::size_t>(column % 2 * kShape.stride() + column);
-      const float x_m = image_.x_m()[cell], y_m = image_.y_m()[cell];
-      require(std::isfinite(x_m) && std::isfinite(y_m), "a return lies nowhere");
-      require(image_.z_m()[cell] == 0.5F, "a return's height changed");
-      moved_m = std::max(moved_m, std::hypot(x_m - 10.0, y_m - 1.0));
+    const auto [info, motions] = deskewer_.deskew(frame_++);
+    for (const frame::PlanarMotions& row : motions) {
+      for (std::size_t column = 0; column < row.cosine.size(); ++column) {
+        require(std::isfinite(row.cosine[column]) && std::isfinite(row.sine[column]) &&
+                    std::isfinite(row.x_m[column]) && std::isfinite(row.y_m[column]),
+                "a return is moved nowhere");
+      }
     }
     if (info.state != frame::DeskewState::kDone) {
-      require(info.state == frame::DeskewState::kNoEgoMotion && moved_m == 0,
+      require(info.state == frame::DeskewState::kNoEgoMotion && motions.empty(),
               "a frame moved by no motion");
       return;
     }
+    require(motions.size() == static_cast<std::size_t>(kShape.rows), "rows are not moved");
     require(newest_sample_ns_.has_value(), "a frame moved without any sample");
     require(info.newest_motion_ns >= -kMaxAge_ns, "a frame was moved by old motion");
     // On one clock that also holds in the time that is never set.
@@ -269,7 +264,6 @@ class MotionRun {
   vehicle::MotionSignals signals_;
   vehicle::EgoMotion motion_;
   decode::Deskewer deskewer_;
-  frame::RangeImage image_;
   decode::HostClock clock_{kHour_us};
 
   std::int64_t time_ns_ = 1'700'000'000'000'000'000;  ///< Never set.

@@ -65,7 +65,7 @@ class PacketSequence {
 
   static typename Run::Config config(Input& input) {
     const unsigned bits = input.next(1);
-    return {.columns = 64 + 64 * static_cast<int>(bits & 1),
+    return {.columns = (bits & 1) == 0 ? 64 : 720,  // 720: turns follow each other without a seam
             .reorder_packets = static_cast<int>(bits >> 1 & 3),
             .deskew = (bits >> 3 & 1) != 0};
   }
@@ -141,7 +141,7 @@ class PacketSequence {
         head.pattern = input_.next(2);
         break;
       case 18:
-        run_.keep_segmenter_away(input_.below(8));
+        run_.wait_no_longer();
         break;
       case 19:  // any payload, or some bytes of a good one changed
         foreign();

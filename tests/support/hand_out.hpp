@@ -13,17 +13,13 @@
 namespace terracut::test {
 
 /// Hands every frame that is ready to `on_frame`(const FrameInfo&, MeasuredReturns&) or, as points,
-/// to `on_frame`(const FrameInfo&, const RangeImage&), for which memory is taken. Where that
-/// returns a MeasuredReturns*, the decoder goes on with that one.
+/// to `on_frame`(const FrameInfo&, const RangeImage&), for which memory is taken.
 template <class Decoder, class OnFrame>
 void hand_out(Decoder& decoder, OnFrame&& on_frame) {
-  frame::MeasuredReturns* in_exchange = nullptr;
-  while (frame::Frame* frame = decoder.next(in_exchange)) {
+  while (frame::Frame* frame = decoder.next()) {
     if constexpr (!std::is_invocable_v<OnFrame, frame::FrameInfo&, frame::MeasuredReturns&>) {
       memory::FixedMemory memory;
       on_frame(frame->info, decoder.point_image(memory).make(*frame->returns, frame->motions));
-    } else if constexpr (std::is_pointer_v<decltype(on_frame(frame->info, *frame->returns))>) {
-      in_exchange = on_frame(frame->info, *frame->returns);
     } else {
       on_frame(frame->info, *frame->returns);
     }

@@ -164,7 +164,8 @@ class DeskewedDrive : public test::InScratchFolder {
     const decode::Decoder of_sensor(config.calibration, config.mount, {}, memory);
     ground::Segmenter segmenter(ground::terracut_profile(),
                                 ring_profile(config.calibration, config.mount), of_sensor.shape(),
-                                of_sensor.return_capacity(), memory, of_sensor.make_reader(memory));
+                                of_sensor.return_capacity(), memory);
+    frame::PointImage as_seen = of_sensor.point_image(memory);
     decode(config, at,
            [&](const frame::FrameInfo& info, const frame::MeasuredReturns& returns) noexcept {
              EXPECT_EQ(info.deskew.state,
@@ -173,7 +174,7 @@ class DeskewedDrive : public test::InScratchFolder {
              const fs::path file =
                  drive::truth_folder_of(pcap()) / fmt::format("{:06}.label", info.number);
              EXPECT_TRUE(scan::read_label_file(file, returns.returns(), truth));
-             (void)segmenter.segment(returns);
+             (void)segmenter.segment(as_seen.make(returns));
              const auto labels = segmenter.labels();
              labelled.quality += quality::measure(labels, truth);
              labelled.frames.emplace_back(labels.begin(), labels.end());

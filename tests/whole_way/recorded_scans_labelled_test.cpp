@@ -112,10 +112,13 @@ test::TestProblem cut_problem(const SegmenterConfig& config, const mount::RingPr
   const ImageShape shape = image.shape();
   memory::FixedMemory memory;
   stage::CellPlanes planes(shape, memory);
-  ground::CoarseStages(config, profile, shape, memory).finish(image, planes);
+  ground::CoarseStages coarse(config, profile, shape, memory);
+  coarse.begin();
+  coarse.take_to(coarse.grid().sectors(), image.points());
+  coarse.label_circle(image.points(), planes);
   random_field::ConfidenceSeeds seeds(config.seeds, config.adjacent_points.row_step_deg, profile,
                                       shape, memory);
-  seeds.select(planes);
+  seeds.select(planes, {0, shape.columns});
   random_field::RegionTerm region(config.region);
   region.look_at(image.points(), planes, seeds.seeds());
   const stage::NegativeExp negative_exp;

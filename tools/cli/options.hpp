@@ -142,14 +142,14 @@ struct ListenOptions {
   std::string multicast;  ///< Multicast group to join; empty: none.
   bool share_port = false;
   std::uint16_t device_port = 7788;  ///< Port of a Ruby128's DIFOP packets; 0: not received.
-  double gather_ms = 20;             ///< Time for which packets may be collected.
+  double gather_ms = 2;              ///< Time for which packets may be collected.
 };
 
 /// Scheduling of the threads with a deadline and of the vehicle's CAN thread.
 struct RealtimeOptions {
-  int receive_priority = 80, segment_priority = 70;  ///< SCHED_FIFO; 0: shared scheduling.
-  std::optional<int> receive_core, segment_core;     ///< Cores to run on; empty: any.
-  int can_priority = 60;                             ///< SCHED_FIFO; 0: shared scheduling.
+  int priority = 80;        ///< SCHED_FIFO; 0: shared scheduling.
+  std::optional<int> core;  ///< The core to run on; empty: any.
+  int can_priority = 60;    ///< SCHED_FIFO; 0: shared scheduling.
   bool lock_memory = true;
 };
 

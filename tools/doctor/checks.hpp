@@ -18,7 +18,7 @@ struct Requests {
   std::string interface{};  ///< The sensor's interface; empty: all that are up, except loopback.
   std::uint16_t port = 2368;
   std::int64_t buffer_bytes = 8 << 20;  ///< Requested receive buffer.
-  std::optional<int> receive_core{}, segment_core{};
+  std::optional<int> core{};            ///< The core of the labelling thread.
 };
 
 // Checks of the kernel and its settings (checks_kernel.cpp).

@@ -136,9 +136,7 @@ Finding check_receive_buffer(const SystemView& system, const Requests& requests)
 
 Finding check_interrupts(const SystemView& system, const Requests& requests) {
   std::set<int> kept = numbers_of_list(system.text("sys/devices/system/cpu/isolated").value_or(""));
-  for (const std::optional<int>& core : {requests.receive_core, requests.segment_core}) {
-    if (core) kept.insert(*core);
-  }
+  if (requests.core) kept.insert(*requests.core);
   std::string everywhere;
   std::size_t seen = 0;
   std::vector<int> on_kept;

@@ -20,9 +20,7 @@ std::set<int> list_in(const SystemView& system, std::string_view file) {
 /// Returns the requested cores that are not among `cores`.
 std::set<int> missing_of(const Requests& requests, const std::set<int>& cores) {
   std::set<int> missing;
-  for (const std::optional<int>& core : {requests.receive_core, requests.segment_core}) {
-    if (core && !cores.contains(*core)) missing.insert(*core);
-  }
+  if (requests.core && !cores.contains(*requests.core)) missing.insert(*requests.core);
   return missing;
 }
 
@@ -31,17 +29,11 @@ std::string cores_text(const std::set<int>& cores, const std::set<int>& missing)
   return fmt::format("{}, but not {}", fmt::join(cores, ","), fmt::join(missing, ","));
 }
 
-/// Returns the cores to isolate: the requested ones, otherwise the last two.
-std::string cores_to_free(const SystemView& system, const Requests& requests) {
-  std::set<int> cores = missing_of(requests, {});
-  if (cores.empty()) {
-    const std::set<int> online = list_in(system, "online");
-    const std::vector<int> all(online.begin(), online.end());
-    for (std::size_t i = all.size() > 2 ? all.size() - 2 : 1; i < all.size(); ++i) {
-      cores.insert(all[i]);
-    }
-  }
-  return fmt::format("{}", fmt::join(cores, ","));
+/// Returns the core to isolate: the requested one, otherwise the last.
+int core_to_free(const SystemView& system, const Requests& requests) {
+  if (requests.core) return *requests.core;
+  const std::set<int> online = list_in(system, "online");
+  return online.empty() ? 0 : *online.rbegin();
 }
 
 constexpr const char* kThenGrub =
@@ -84,9 +76,8 @@ Finding check_isolated_cores(const SystemView& system, const Requests& requests)
   }
   return {"isolated cores", Verdict::kWarning, cores_text(isolated, missing),
           "other programs, and the kernel's own work for them, run on the cores of the frames",
-          fmt::format("add isolcpus=managed_irq,domain,{}{}; and name these cores as "
-                      "realtime.receive_core and segment_core",
-                      cores_to_free(system, requests), kThenGrub)};
+          fmt::format("add isolcpus=managed_irq,domain,{}{}; and name this core as realtime.core",
+                      core_to_free(system, requests), kThenGrub)};
 }
 
 Finding check_tickless_cores(const SystemView& system, const Requests& requests) {
@@ -97,10 +88,10 @@ Finding check_tickless_cores(const SystemView& system, const Requests& requests)
   }
   // Tickless cores matter only if cores are isolated, which the previous check is about.
   if (list_in(system, "isolated").empty()) return ok("tickless cores", "none");
-  return {"tickless cores", Verdict::kWarning, cores_text(tickless, missing),
-          "the kernel's tick and RCU interrupt the isolated cores up to a thousand times a second",
-          fmt::format("add nohz_full={0} rcu_nocbs={0}{1}", cores_to_free(system, requests),
-                      kThenGrub)};
+  return {
+      "tickless cores", Verdict::kWarning, cores_text(tickless, missing),
+      "the kernel's tick and RCU interrupt the isolated cores up to a thousand times a second",
+      fmt::format("add nohz_full={0} rcu_nocbs={0}{1}", core_to_free(system, requests), kThenGrub)};
 }
 
 Finding check_swap(const SystemView& system) {

@@ -39,8 +39,7 @@ Expected<LiveRun::Config> config_of(const cli::Options& options) {
   config.mount.pitch_rad = beams::deg_to_rad(mount.pitch_deg.value_or(0));
   config.deadline_ms = options.deadline_ms;
   config.gather_ms = options.listen.gather_ms;
-  config.receive_priority = options.realtime.receive_priority;
-  config.segment_priority = options.realtime.segment_priority;
+  config.priority = options.realtime.priority;
   config.lock_memory = options.realtime.lock_memory;
   config.patience_s = options.patience_s;
   return config;
@@ -152,7 +151,6 @@ py::dict LiveFrames::figures() {
   figures["datagrams"] = figures_.datagrams;
   figures["decoded"] = figures_.decoded;
   figures["frames"] = figures_.frames;
-  figures["frames_skipped"] = figures_.frames_skipped;
   figures["frames_left_out"] = figures_.frames_left_out + left_out_;
   figures["deadlines_missed"] = figures_.deadlines_missed;
   return figures;

@@ -128,18 +128,6 @@ TYPED_TEST(BlindSensor, HandsAFrameOverWithItsLastPacketWhereTheSeamIsNotSeen) {
   EXPECT_EQ(stream.returns_unaccounted(), 0);
 }
 
-TYPED_TEST(BlindSensor, IsCloseToTheEndOfItsFrameWhereNothingMoreIsSeenOfIt) {
-  HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
-  int ending = 0;
-  for (const Payload& payload : without<TypeParam>(this->head.frames(20), {270, 90})) {
-    (void)stream.hear(payload);
-    const bool is_near = first_deg<TypeParam>(payload) > 265;
-    if (stream.frames.size() > 10 && is_near)
-      ending += stream.decoder.arriving().share_to_come <= 0.02F ? 1 : 0;
-  }
-  EXPECT_GE(ending, 8);
-}
-
 TYPED_TEST(BlindSensor, CountsRealLossesBesideItToThePacket) {
   for (const Sector blind : {Sector{90, 270}, Sector{300, 60}}) {
     const auto sent = without<TypeParam>(this->head.frames(40), blind);

@@ -21,8 +21,8 @@ constexpr std::int64_t kStep = 10;
 
 constexpr std::size_t kTiles = 16;
 
-FrameBuilder::Config small(int buffers = 3) {
-  return {{.rows = 8, .columns = 24}, test::kPlainLasers, kTiles, buffers, kRevolution};
+FrameBuilder::Config small() {
+  return {{.rows = 8, .columns = 24}, test::kPlainLasers, kTiles, kRevolution};
 }
 
 /// Adds a return of a laser at a column to a frame.
@@ -65,10 +65,6 @@ class FrameBuilderTest : public testing::Test {
   std::vector<Handed> handed;
 };
 
-TEST_F(FrameBuilderTest, RefusesFewerThanThreeBuffers) {
-  EXPECT_THROW(FrameBuilder(small(2), memory), std::invalid_argument);
-}
-
 TEST_F(FrameBuilderTest, SortsReturnsIntoTheTwoOpenFrames) {
   builder.start(7, 7 * kRevolution);
   place(builder, 7, 1, 2);
@@ -109,26 +105,29 @@ TEST_F(FrameBuilderTest, LeavesABufferAloneUntilTheNextHandOver) {
   }
 }
 
-TEST_F(FrameBuilderTest, LeavesABufferAloneAsLongAsItHasOthers) {
-  for (int buffers = 3; buffers <= 6; ++buffers) {
-    FrameBuilder many(small(buffers), memory);
-    handed.clear();
-    many.start(0, 0);
-    for (std::int64_t frame = 0; frame < 20; ++frame) {
-      place(many, frame, 0, 0);
-      place(many, frame + 1, 0, 0);
-      roll(many, keep());
-      // All that were handed over and may be looked at still, the newest last.
-      const std::size_t kept = std::min(handed.size(), static_cast<std::size_t>(buffers - 2));
-      for (std::size_t back = 1; back <= kept; ++back) {
-        const Handed& one = handed[handed.size() - back];
-        ASSERT_EQ(one.returns->returns(), one.info.returns) << buffers << ", " << back;
-        for (std::size_t other = 1; other < back; ++other) {
-          ASSERT_NE(one.returns, handed[handed.size() - other].returns) << buffers;
-        }
-      }
-    }
+TEST_F(FrameBuilderTest, TurnsHaveNumbersThatFollowExactlyWhereTheyDo) {
+  std::vector<std::int64_t> turns;
+  const auto note = [&](const frame::FrameInfo&, frame::MeasuredReturns& returns) noexcept {
+    turns.push_back(returns.turn());
+  };
+  builder.start(5, 5 * kRevolution);
+  for (const std::int64_t frame : {5, 6, 7}) {
+    place(builder, frame, 0, 0);
+    roll(builder, note);
   }
+  roll(builder, note);  // one without returns
+  place(builder, 9, 0, 0);
+  flush(builder, note);
+  builder.start(2, 2 * kRevolution);  // another stream
+  place(builder, 2, 0, 0);
+  place(builder, 3, 0, 0);
+  flush(builder, note);
+  ASSERT_EQ(turns.size(), 6U);
+  EXPECT_EQ(turns[1], turns[0] + 1);
+  EXPECT_EQ(turns[2], turns[1] + 1);
+  EXPECT_EQ(turns[3], turns[2] + 2);
+  EXPECT_GT(turns[4], turns[3] + 1);
+  EXPECT_EQ(turns[5], turns[4] + 1);
 }
 
 TEST_F(FrameBuilderTest, CountsReturnsThatFindNoRoom) {
@@ -164,28 +163,6 @@ TEST_F(FrameBuilderTest, AFrameWhoseStartOrEndWasNotSeenIsIncomplete) {
   ASSERT_EQ(handed.size(), 2U);
   EXPECT_FALSE(handed[0].info.complete);
   EXPECT_FALSE(handed[1].info.complete);
-}
-
-TEST_F(FrameBuilderTest, GoesOnWithTheBufferItIsGivenInExchange) {
-  // A reader that keeps whatever is handed over and gives back what it had before.
-  frame::MeasuredReturns* at_the_reader = &builder.buffers()[2];
-  const auto exchange = [&](const frame::FrameInfo& info,
-                            frame::MeasuredReturns& returns) noexcept {
-    handed.push_back({info, &returns});
-    return std::exchange(at_the_reader, &returns);
-  };
-  builder.start(0, 0);
-  for (std::int64_t frame = 0; frame < 6; ++frame) {
-    for (int i = 0; i <= frame; ++i) place(builder, frame, 0, static_cast<std::size_t>(i));
-    roll(builder, exchange);
-    EXPECT_EQ(handed.back().info.returns, frame + 1);
-    place(builder, frame + 1, 3, 19);
-    place(builder, frame + 2, 3, 19);
-    EXPECT_EQ(at_the_reader->returns(), handed.back().info.returns);  // nobody writes to it
-    ASSERT_EQ(handed.back().returns, at_the_reader);
-    flush(builder, exchange);
-    builder.start(frame + 1, 0);
-  }
 }
 
 TEST_F(FrameBuilderTest, AHoleMakesAFrameIncompleteUntilItIsFilled) {

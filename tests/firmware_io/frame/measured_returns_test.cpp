@@ -4,11 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "firmware_io/frame/frame_points.hpp"
+#include "firmware_io/frame/point_ring.hpp"
 #include "tests/firmware_io/frame/plain_tiles.hpp"
 
 namespace terracut::frame {
@@ -25,8 +26,8 @@ struct MeasuredReturnsTest : testing::Test {
   }
   /// x of the return that owns a cell of laser 2's row; 0: none.
   float owner_in(int column) {
-    FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
-    points.begin(returns);
+    PointRing points(kShape, std::make_unique<PlainReader>(), memory);
+    points.begin_turn();
     points.make_until(kShape.columns, returns, [](int, float, float) {});
     const std::size_t cell = kShape.cell(5, column);
     return std::isnan(points.planes().z_m[cell]) ? 0 : points.planes().x_m[cell];
@@ -34,8 +35,8 @@ struct MeasuredReturnsTest : testing::Test {
   /// Ranges of the returns in all columns that own no cell.
   std::vector<float> extras() {
     std::vector<float> found;
-    FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
-    points.begin(returns);
+    PointRing points(kShape, std::make_unique<PlainReader>(), memory);
+    points.begin_turn();
     points.make_until(kShape.columns, returns,
                       [&](int, float, float range_m) { found.push_back(range_m); });
     return found;
@@ -68,7 +69,7 @@ TEST_F(MeasuredReturnsTest, OfAnotherFrameAreLeftOut) {
   EXPECT_EQ(add(tile), 0U);
   EXPECT_EQ(returns.returns(), 10U);
   EXPECT_EQ(returns.row(0, 2).owned, (1U << 10) - 1);
-  returns.clear();
+  returns.clear(1);
   EXPECT_EQ(add(tile, CellOwner::kFirstArrived, kShape.columns), 0U);
   EXPECT_EQ(returns.returns(), 14U);
   EXPECT_EQ(returns.column(0, 2, 10), 0);
@@ -106,12 +107,9 @@ TEST_F(MeasuredReturnsTest, ShareACellThatOneOfThemOwns) {
   tile.beams[2].column[1] = tile.beams[2].column[2] = 20;
   tile.settle();
   const auto owner_by = [&](CellOwner owner) {
-    returns.clear();
+    returns.clear(1);
     EXPECT_EQ(add(tile, owner), 0U);
     EXPECT_EQ(extras().size(), 2U);
-    EXPECT_TRUE(returns.has_shared(5, {20, 21}));
-    EXPECT_FALSE(returns.has_shared(5, {21, kShape.columns}));
-    EXPECT_FALSE(returns.has_shared(4, {0, kShape.columns}));
     return owner_in(20);
   };
   EXPECT_EQ(owner_by(CellOwner::kFirstArrived), 30);
@@ -130,10 +128,9 @@ TEST_F(MeasuredReturnsTest, OfAPairAreCompared) {
   }
   tile.settle();
   const auto owners_by = [&](CellOwner owner) {
-    returns.clear();
+    returns.clear(1);
     EXPECT_EQ(add(tile, owner), 0U);
     EXPECT_EQ(extras().size(), kTileFirings / 2);
-    EXPECT_TRUE(returns.has_shared(5, {20, 21}));
     return std::pair{owner_in(20), owner_in(21)};
   };
   EXPECT_EQ(owners_by(CellOwner::kFirstArrived), (std::pair{30.0F, 50.0F}));
@@ -158,10 +155,10 @@ TEST_F(MeasuredReturnsTest, AreToldOfOnceWhereTheyLoseTheirCellAsPoints) {
   early.raw[2].fill(30);
   late.raw[2][0] = 10;
   EXPECT_EQ(add(early, CellOwner::kNearest), 0U);
-  FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
+  PointRing points(kShape, std::make_unique<PlainReader>(), memory);
   std::vector<std::pair<int, float>> told;
   const auto tell = [&](int column, float, float range_m) { told.emplace_back(column, range_m); };
-  points.begin(returns);
+  points.begin_turn();
   points.make_until(kShape.columns, returns, tell);
   EXPECT_TRUE(told.empty());
   EXPECT_EQ(add(late, CellOwner::kNearest), 0U);
@@ -214,12 +211,12 @@ TEST_F(MeasuredReturnsTest, AreMadePointsOfAsColumnsAreAskedFor) {
     for (auto& row : tile.raw) row.fill(static_cast<std::uint16_t>(first + 1));
     EXPECT_EQ(add(tile), 0U);
   }
-  FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
+  PointRing points(kShape, std::make_unique<PlainReader>(), memory);
   const auto has = [&](int column) {
     return !std::isnan(points.planes().z_m[kShape.cell(3, column)]);
   };
   const auto no_extra = [](int, float, float) { ADD_FAILURE() << "each owns its cell"; };
-  points.begin(returns);
+  points.begin_turn();
   points.make_until(30, returns, no_extra);
   EXPECT_TRUE(has(0) && has(29));
   EXPECT_FALSE(has(48));
@@ -227,17 +224,18 @@ TEST_F(MeasuredReturnsTest, AreMadePointsOfAsColumnsAreAskedFor) {
   EXPECT_TRUE(has(59));
   EXPECT_EQ(points.planes().z_m[kShape.cell(3, 59)], 4);
   EXPECT_EQ(points.planes().y_m[kShape.cell(3, 59)], 59);
-  bool was_asked = false;
-  points.make_where(returns, [&](int, ColumnRange) { return was_asked = true; });
-  EXPECT_FALSE(was_asked) << "all points are made";
 
-  FramePoints some(kShape, std::make_unique<PlainReader>(), memory);
-  some.make_where(returns, [](int row, ColumnRange columns) {
-    return row == 3 && columns.begin <= 50 && columns.end > 50;
-  });
-  EXPECT_EQ(some.planes().x_m[kShape.cell(3, 50)], 49);
-  EXPECT_EQ(some.planes().x_m[kShape.cell(3, 10)], 0);
-  EXPECT_EQ(some.planes().x_m[kShape.cell(2, 50)], 0);
+  Measured next(0);
+  next.raw[4].fill(7);
+  returns.clear(2);
+  EXPECT_EQ(add(next), 0U);
+  points.begin_turn();
+  points.make_until(10, returns, no_extra);
+  EXPECT_EQ(points.planes().x_m[kShape.cell(3, 5)], 7);
+  EXPECT_FALSE(std::isnan(points.planes().z_m[kShape.cell(2, 48)])) << "of the turn before";
+  EXPECT_TRUE(std::isnan(points.planes().z_m[kShape.cell(2, 5)])) << "of this one there is none";
+  points.make_until(60, returns, no_extra);
+  EXPECT_FALSE(has(48));
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ TEST_F(PointImageTest, HoldsOneFrameAfterTheOther) {
   tile.raw[0].fill(100);
   EXPECT_EQ(add(tile), 0U);
   EXPECT_EQ(points.make(returns).returns(), kTileFirings);
-  returns.clear();
+  returns.clear(1);
   test::PlainTile other(50);
   other.raw[0][0] = 5;
   EXPECT_EQ(add(other), 0U);

@@ -35,7 +35,10 @@ struct Refined {
     stages.adjacent_points = config;
     stages.elevation_map.obstacle_height_m = kNoLimit_m;  // whatever is steep is wanted
     test::cast_frame(profile, cast, image);
-    ground::CoarseStages(stages, profile, kShape, memory).finish(image, planes);
+    ground::CoarseStages coarse(stages, profile, kShape, memory);
+    coarse.begin();
+    coarse.take_to(coarse.grid().sectors(), image.points());
+    coarse.label_circle(image.points(), planes);
   }
   [[nodiscard]] int steep_cells() const {
     int count = 0;
@@ -170,19 +173,12 @@ TEST(AdjacentPoints, ComparesColumnsTogetherAsIfOneByOne) {
       }
       AdjacentPoints stage(config, kMaxHeight_m, test::even_profile(8), shape, memory);
       stage.reset({0, columns}, planes);
-      // Around the circle from some column on.
-      const int first = static_cast<int>(random() % 3U) * (columns / 3);
-      const auto compare_all = [&](frame::ColumnRange all) {
-        for (int begin = all.begin; begin < all.end;) {
-          const int end = std::min(all.end, begin + 1 + static_cast<int>(random() % 70U));
-          stage.compare(points, {begin, end}, all.begin, planes);
-          begin = end;
-        }
-      };
-      compare_all({first, columns});
-      compare_all({0, first});
-      stage.compare_across(0, points, planes);
-      if (first > 0) stage.compare_across(first, points, planes);
+      for (int begin = 0; begin < columns;) {
+        const int end = std::min(columns, begin + 1 + static_cast<int>(random() % 70U));
+        stage.compare(points, {begin, end}, planes);
+        begin = end;
+      }
+      stage.compare_across_seam(points, planes);
       const auto expected = steep_one_by_one(config, kMaxHeight_m, shape, points, planes.height_m);
       for (std::size_t cell = 0; cell < expected.size(); ++cell) {
         EXPECT_EQ(planes.steep[cell] & stage::kSteep, expected[cell]) << columns << " " << reach;

@@ -20,8 +20,8 @@
 namespace terracut::ground {
 namespace {
 
-const frame::ImageShape kShape{64, 960};  // no padding, and whole blocks of sectors
-constexpr int kPacket = 6;                // columns
+const frame::ImageShape kShape{64, 960};  // 96 sectors, no padding
+constexpr int kSectors = 96;
 constexpr std::size_t kOverflow = 2000;
 
 /// Walls of all kinds around the vehicle, roofs in a row among them, on hilly ground; some beams
@@ -82,14 +82,20 @@ struct Way {
   explicit Way(const SegmenterConfig& config)
       : planes(kShape, memory), stages(config, profile, kShape, memory) {}
 
-  /// Bits, so that NaN equals NaN.
-  [[nodiscard]] std::vector<std::uint32_t> result() const {
-    std::vector<std::uint32_t> bits;
-    for (const float height_m : planes.height_m)
-      bits.push_back(std::bit_cast<std::uint32_t>(height_m));
-    for (const frame::Label label : planes.label) bits.push_back(static_cast<std::uint32_t>(label));
-    for (const std::uint8_t steep : planes.steep) bits.push_back(steep);
-    return bits;
+  /// Labels an image by itself, all columns at once.
+  void label(const frame::RangeImage& image) {
+    stages.begin();
+    for (const frame::OverflowReturn& extra : image.overflow()) {
+      stages.take_extra(static_cast<int>(extra.cell) % kShape.stride(), extra.point.z_m,
+                        extra.point.ground_range_m);
+    }
+    stages.take_to(kSectors, image.points());
+    stages.label_circle(image.points(), planes);
+  }
+  /// What was found in a cell, as bits, so that NaN equals NaN.
+  [[nodiscard]] std::uint64_t found(std::size_t cell) const {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(planes.height_m[cell])} << 32U |
+           static_cast<std::uint64_t>(planes.label[cell]) << 8U | planes.steep[cell];
   }
 
   memory::FixedMemory memory;
@@ -98,38 +104,39 @@ struct Way {
   CoarseStages stages;
 };
 
-/// A frame whose columns arrive one after the other.
-struct ArrivingColumns {
-  explicit ArrivingColumns(const test::BeamCast& cast)
-      : whole(kShape, 0, memory), image(kShape, kOverflow, memory) {
-    test::cast_frame(test::even_profile(), cast, whole);
-    image.clear();
-  }
-  void place(int column) {
-    for (int row = 0; row < kShape.rows; ++row) place(row, column);
-  }
-  void place(int row, int column) {
-    const std::size_t cell = kShape.cell(row, column);
-    if (!whole.has_return(cell)) return;
-    ASSERT_TRUE(image.place(row, column,
-                            {whole.x_m()[cell], whole.y_m()[cell], whole.z_m()[cell],
-                             whole.ground_range_m()[cell], 0}));
+struct CastFrame {
+  explicit CastFrame(const test::BeamCast& cast) : image(kShape, kOverflow, memory) {
+    test::cast_frame(test::even_profile(), cast, image);
   }
   memory::FixedMemory memory;
-  frame::RangeImage whole;
   frame::RangeImage image;
 };
 
-struct Recorder : stage::StageObserver {
-  void stage_done(stage::Stage stage) noexcept override {
-    ++parts;
-    last = stage;
+/// The points of turn after turn, each in place of the one before.
+struct RingOfPoints {
+  std::vector<float> x_m = std::vector<float>(kShape.cells());
+  std::vector<float> y_m = x_m, z_m = x_m, range_m = x_m;
+
+  void take(const frame::RangeImage& image, int column) {
+    for (int row = 0; row < kShape.rows; ++row) {
+      const std::size_t cell = kShape.cell(row, column);
+      x_m[cell] = image.x_m()[cell];
+      y_m[cell] = image.y_m()[cell];
+      z_m[cell] = image.z_m()[cell];
+      range_m[cell] = image.ground_range_m()[cell];
+    }
   }
-  int parts = 0;
+  [[nodiscard]] frame::PointPlanes planes() const {
+    return {x_m.data(), y_m.data(), z_m.data(), range_m.data()};
+  }
+};
+
+struct Recorder : stage::StageObserver {
+  void stage_done(stage::Stage stage) noexcept override { last = stage; }
   stage::Stage last = stage::Stage::kCount;
 };
 
-struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
+struct CoarseStagesOf : testing::TestWithParam<const char*> {
   static SegmenterConfig config() {
     SegmenterConfig config =
         std::string_view(GetParam()) == "paper" ? paper_profile() : terracut_profile();
@@ -137,17 +144,9 @@ struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
       config.last_stage = stage::Stage::kElevationMap;
     return config;
   }
-  /// What the stages make of the image as it is now, nothing done ahead.
-  static std::vector<std::uint32_t> at_once(const frame::RangeImage& image) {
-    Way way(config());
-    way.stages.finish(image, way.planes);
-    return way.result();
-  }
-  /// Ends the frame: its planes are those of the whole image at once, and what the rules say.
+  /// Labels an image by itself; its planes are what the rules say.
   void expect_right_labels(const frame::RangeImage& image) {
-    way.stages.finish(image, way.planes);
-    EXPECT_EQ(way.result(), at_once(image));
-
+    way.label(image);
     memory::FixedMemory memory;
     const elevation::RingGrid grid(config().elevation_map.grid, way.profile, kShape, memory);
     const test::PlainCoarseLabels plain(config(), way.profile, grid, image);
@@ -179,85 +178,61 @@ struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
     EXPECT_EQ(wrong_steps, 0);
     EXPECT_EQ(wrong_labels, 0);
   }
-  /// Lets the frame arrive; `meanwhile(column)` is called after each packet.
-  template <class Meanwhile>
-  void arrive(ArrivingColumns& frame, Meanwhile meanwhile) {
-    for (int column = 0; column < kShape.columns; ++column) {
-      frame.place(column);
-      if ((column + 1) % kPacket != 0) continue;
-      way.stages.advance(frame.image, column + 1, way.planes, &recorder);
-      meanwhile(column);
-    }
-  }
-  void arrive(ArrivingColumns& frame) {
-    arrive(frame, [](int) {});
-  }
   Way way{config()};
   Recorder recorder;
 };
 
-TEST_P(CoarseStagesOfArrivingFrames, LabelAsIfTheFrameHadComeAtOnce) {
-  ArrivingColumns frame(hills_and_walls());
-  arrive(frame);
-  const bool has_surface = std::string_view(GetParam()) != "paper";
-  EXPECT_GE(way.stages.share_ahead(frame.image), has_surface ? 0.4F : 1.0F);
-  EXPECT_GE(recorder.parts, 4);
+TEST_P(CoarseStagesOf, OneTurnLabelItByTheRules) {
+  const CastFrame frame(hills_and_walls());
   expect_right_labels(frame.image);
   EXPECT_GT(std::ranges::count(way.planes.label, frame::Label::kObstacle), 1000);
   EXPECT_GT(std::ranges::count(way.planes.label, frame::Label::kGround), 1000);
 }
 
-TEST_P(CoarseStagesOfArrivingFrames, LabelAsIfAtOnceHoweverFarTheFrameHadCome) {
-  ArrivingColumns frame(hills_and_walls());
-  for (int column = 0; column < kShape.columns; ++column) frame.place(column);
-  const auto expected = at_once(frame.image);
-  for (const int complete : {0, 1, 159, 160, 161, 320, 500, 777, 950, 959, 960}) {
-    way.stages.advance(frame.image, complete, way.planes);
-    way.stages.finish(frame.image, way.planes);
-    EXPECT_EQ(way.result(), expected) << complete << " columns complete";
-  }
-}
-
-TEST_P(CoarseStagesOfArrivingFrames, LabelAnythingAsIfAtOnce) {
+TEST_P(CoarseStagesOf, OneTurnLabelAnythingByTheRules) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> range_m(0.5, 119);
   for (int trial = 0; trial < 5; ++trial) {
-    ArrivingColumns frame([&](double, double) { return range_m(random); });
-    arrive(frame);
-    expect_right_labels(frame.image);
+    expect_right_labels(CastFrame([&](double, double) { return range_m(random); }).image);
   }
 }
 
-TEST_P(CoarseStagesOfArrivingFrames, LabelStripsOfAllWidthsWhoseGroundIsLostOnTheWay) {
+TEST_P(CoarseStagesOf, OneTurnLabelStripsOfAllWidthsWhoseGroundIsLostOnTheWay) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 25; ++trial) {
     SCOPED_TRACE(trial);
-    ArrivingColumns frame(strips_behind_ditches(random));
-    arrive(frame);
-    expect_right_labels(frame.image);
+    expect_right_labels(CastFrame(strips_behind_ditches(random)).image);
   }
 }
 
-TEST_P(CoarseStagesOfArrivingFrames, CompareAcrossTheSeamBothWays) {
+TEST_P(CoarseStagesOf, OneTurnCompareAcrossTheSeamBothWays) {
   // Two returns in a column each, nothing else near: a step up of 0.5 m over 5 cm.
+  const CastFrame ground(test::flat_ground());
   const int reach = config().adjacent_points.column_reach;
   for (int before = 1; before <= reach; ++before) {
     for (int after = 0; before + after <= reach; ++after) {
       for (const bool lower_is_before : {false, true}) {
         SCOPED_TRACE(testing::Message() << before << " before, " << after << " after the seam");
-        ArrivingColumns frame(test::flat_ground());
+        memory::FixedMemory memory;
+        frame::RangeImage image(kShape, 0, memory);
         const int last = kShape.columns - before;
-        for (int column = 0; column < kShape.columns; ++column) {
-          if (column > 20 && column < kShape.columns - 20) frame.place(column);
+        for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
+          const int column = static_cast<int>(cell) % kShape.stride();
+          if (column <= 20 || column >= kShape.columns - 20 || !ground.image.has_return(cell))
+            continue;
+          ASSERT_TRUE(
+              image.place(static_cast<int>(cell) / kShape.stride(), column,
+                          {ground.image.x_m()[cell], ground.image.y_m()[cell],
+                           ground.image.z_m()[cell], ground.image.ground_range_m()[cell], 0}));
+        }
+        for (const int column : {after, last}) {
           constexpr int kRow = 20;
-          if (column != after && column != last) continue;
           const bool is_lower = (column == last) == lower_is_before;
-          ASSERT_TRUE(frame.image.place(
+          ASSERT_TRUE(image.place(
               kRow + (is_lower ? 0 : 2), column,
               {is_lower ? 6.0F : 6.05F, 0, is_lower ? 0.0F : 0.5F, is_lower ? 6.0F : 6.05F, 0}));
-          way.stages.advance(frame.image, column + 1, way.planes);
         }
-        expect_right_labels(frame.image);
+        expect_right_labels(image);
         const std::size_t upper = kShape.cell(22, lower_is_before ? after : last);
         EXPECT_EQ(way.planes.label[upper], frame::Label::kObstacle);
         const bool matters = way.planes.height_m[upper] <= config().elevation_map.obstacle_height_m;
@@ -269,107 +244,31 @@ TEST_P(CoarseStagesOfArrivingFrames, CompareAcrossTheSeamBothWays) {
   }
 }
 
-TEST_P(CoarseStagesOfArrivingFrames, MarkAWallBesideTheSeamAsEverywhere) {
+TEST_P(CoarseStagesOf, OneTurnMarkAWallBesideTheSeamAsEverywhere) {
   // Straight ahead and low: its returns are obstacles by the steps between them alone.
-  ArrivingColumns frame(test::ground_with_wall(8, 0.4, 0.14));
-  arrive(frame);
-  expect_right_labels(frame.image);
+  expect_right_labels(CastFrame(test::ground_with_wall(8, 0.4, 0.14)).image);
 }
 
-TEST_P(CoarseStagesOfArrivingFrames, SeeNothingInEmptyCellsWhateverTheFrameBeforeLeftThere) {
-  // Every eighth row comes back in the second frame, on ground with bumps. Left over below each of
-  // its returns are those of the first one, 2 m deeper.
-  constexpr int kApart = 8;
-  ArrivingColumns frame(test::flat_ground());
-  const auto place = [&](int row, int column, float z_m) {
-    const std::size_t above = kShape.cell((row + kApart - 1) / kApart * kApart, column);
-    if (above >= kShape.cells() || !frame.whole.has_return(above)) return;
-    ASSERT_TRUE(frame.image.place(row, column,
-                                  {frame.whole.x_m()[above], frame.whole.y_m()[above], z_m,
-                                   frame.whole.ground_range_m()[above], 0}));
-  };
-  for (int row = 0; row < kShape.rows; ++row) {
-    for (int column = 0; column < kShape.columns; ++column) place(row, column, -2.0F);
-  }
-  way.stages.finish(frame.image, way.planes);
-  frame.image.clear();
-  for (int column = 0; column < kShape.columns; ++column) {
-    for (int row = 0; row < kShape.rows; row += kApart) {
-      place(row, column, column % 2 == 0 ? 0.0F : 0.08F);
-    }
-    way.stages.advance(frame.image, column + 1, way.planes);
-  }
-  expect_right_labels(frame.image);
-  EXPECT_EQ(std::ranges::count(way.planes.label, frame::Label::kObstacle), 0);
-}
-
-TEST_P(CoarseStagesOfArrivingFrames, GiveGroundAcrossTheSeamFromEitherSide) {
+TEST_P(CoarseStagesOf, OneTurnGiveGroundAcrossTheSeamFromEitherSide) {
   // Rising ground, hidden by walls over more sectors than ground is interpolated over, on one side
   // of the seam; above the walls something on poles is seen.
   for (const bool is_hidden_before : {false, true}) {
-    ArrivingColumns frame([&](double azimuth_rad, double elevation_rad) {
-      const double share = azimuth_rad / (2 * std::numbers::pi);
-      const bool is_hidden = is_hidden_before ? share > 0.8 : share < 0.2;
-      const double down = 0.03 - std::tan(elevation_rad);
-      const double range_m = 1.73 / down;
-      if (!is_hidden || (range_m > 0 && range_m < 6)) return range_m / std::cos(elevation_rad);
-      return (elevation_rad < -0.02 ? 6.0 : 30.0) / std::cos(elevation_rad);
-    });
-    arrive(frame);
-    expect_right_labels(frame.image);
+    expect_right_labels(CastFrame([&](double azimuth_rad, double elevation_rad) {
+                          const double share = azimuth_rad / (2 * std::numbers::pi);
+                          const bool is_hidden = is_hidden_before ? share > 0.8 : share < 0.2;
+                          const double down = 0.03 - std::tan(elevation_rad);
+                          const double range_m = 1.73 / down;
+                          if (!is_hidden || (range_m > 0 && range_m < 6)) {
+                            return range_m / std::cos(elevation_rad);
+                          }
+                          return (elevation_rad < -0.02 ? 6.0 : 30.0) / std::cos(elevation_rad);
+                        }).image);
   }
 }
 
-TEST_P(CoarseStagesOfArrivingFrames, TakeAReturnThatComesAfterItsColumnWasDone) {
-  ArrivingColumns frame(hills_and_walls());
-  const std::size_t late = kShape.cell(20, 100);
-  ASSERT_TRUE(frame.whole.has_return(late));
+TEST_P(CoarseStagesOf, OneTurnTakeSecondReturnsIntoAccount) {
+  CastFrame frame(hills_and_walls());
   for (int column = 0; column < kShape.columns; ++column) {
-    for (int row = 0; row < kShape.rows; ++row) {
-      if (kShape.cell(row, column) != late) frame.place(row, column);
-    }
-    way.stages.advance(frame.image, column + 1, way.planes, &recorder);
-    if (column == 800) frame.place(20, 100);
-  }
-  expect_right_labels(frame.image);
-}
-
-TEST_P(CoarseStagesOfArrivingFrames, TakeASecondReturnThatComesAfterItsColumnWasDone) {
-  struct Late {
-    frame::CellOwner owner;
-    int column;
-  };
-  // Into a sector that was done long ago, and into that traced last.
-  for (const Late& late :
-       {Late{frame::CellOwner::kFirstArrived, 100}, Late{frame::CellOwner::kNearest, 100},
-        Late{frame::CellOwner::kFirstArrived, 795}}) {
-    ArrivingColumns frame(hills_and_walls());
-    arrive(frame, [&](int column) {
-      if (column != 803) return;
-      int returns = 0;
-      for (const int row : {5, 20, 30, 40}) {
-        const std::size_t cell = kShape.cell(row, late.column);
-        if (!frame.image.has_return(cell)) continue;
-        // Lower and nearer than what is there: it changes the ground of its sector.
-        const float share = 0.8F;
-        ASSERT_TRUE(frame.image.place(
-            row, late.column,
-            {share * frame.image.x_m()[cell], share * frame.image.y_m()[cell],
-             frame.image.z_m()[cell] - 0.3F, share * frame.image.ground_range_m()[cell], 0},
-            late.owner));
-        ++returns;
-      }
-      EXPECT_GT(returns, 2);
-    });
-    expect_right_labels(frame.image);
-  }
-}
-
-TEST_P(CoarseStagesOfArrivingFrames, TakeSecondReturnsInTheirOwnTime) {
-  ArrivingColumns frame(hills_and_walls());
-  int returns = 0;
-  for (int column = 0; column < kShape.columns; ++column) {
-    frame.place(column);
     for (int row = 3; row < 40; row += 20) {
       const std::size_t cell = kShape.cell(row, column);
       if (!frame.image.has_return(cell)) continue;
@@ -377,47 +276,95 @@ TEST_P(CoarseStagesOfArrivingFrames, TakeSecondReturnsInTheirOwnTime) {
           row, column,
           {frame.image.x_m()[cell], frame.image.y_m()[cell], frame.image.z_m()[cell] - 0.4F,
            frame.image.ground_range_m()[cell], 0}));
-      ++returns;
     }
-    way.stages.advance(frame.image, column + 1, way.planes, &recorder);
   }
-  EXPECT_GT(returns, 500);
-  const int ahead = recorder.parts;
-  way.stages.finish(frame.image, way.planes, &recorder);
-  EXPECT_LT(recorder.parts - ahead, ahead) << "most was done ahead, not again";
-  EXPECT_EQ(way.result(), at_once(frame.image));
-}
-
-TEST_P(CoarseStagesOfArrivingFrames, ResetAFrameThatNeverBecameWhole) {
-  ArrivingColumns first(hills_and_walls()), second(test::ground_with_wall(12, 4, 2.0));
-  arrive(first);
-  arrive(second);
-  expect_right_labels(second.image);
-
-  way.stages.advance(first.image, 900, way.planes);
-  first.image.clear();  // its next frame
-  for (int column = 0; column < 700; ++column) first.place(column);
-  way.stages.advance(first.image, 600, way.planes);
-  expect_right_labels(first.image);
-}
-
-TEST_P(CoarseStagesOfArrivingFrames, DoNothingForAFrameWithoutReturns) {
-  ArrivingColumns frame([](double, double) { return -1.0; });
-  arrive(frame);
-  EXPECT_EQ(recorder.parts, 0);
+  EXPECT_GT(frame.image.overflow().size(), 500U);
   expect_right_labels(frame.image);
 }
 
-TEST_P(CoarseStagesOfArrivingFrames, AllocateNothing) {
+TEST_P(CoarseStagesOf, TurnAfterTurnOfAStillWorldLabelEachAsOneTurn) {
+  if (!way.stages.can_go_on()) GTEST_SKIP() << "each turn is labelled by itself";
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 12; ++trial) {
+    SCOPED_TRACE(trial);
+    const CastFrame frame(trial % 2 == 0 ? strips_behind_ditches(random) : hills_and_walls());
+    Way once(config());
+    once.label(frame.image);
+    RingOfPoints ring;
+    for (int column = 0; column < kShape.columns; ++column) ring.take(frame.image, column);
+    way.stages.begin();
+    way.stages.take_to(kSectors, ring.planes());
+    way.stages.label_circle(ring.planes(), way.planes);
+    for (int turn = 1; turn < 4; ++turn) {
+      way.stages.begin_next_turn();
+      // What this turn labels is there no more.
+      int compared = way.stages.labelled_columns();
+      for (int sector = 0; sector < kSectors;) {
+        const int end = std::min(sector + 1 + static_cast<int>(random() % 12U), kSectors);
+        for (int column = 10 * sector; column < 10 * end; ++column) {
+          ring.take(frame.image, column);
+        }
+        way.stages.take_to(end, ring.planes());
+        way.stages.label(ring.planes(), way.planes, &recorder);
+        for (; compared < way.stages.labelled_columns(); ++compared) {
+          for (int row = 0; row < kShape.rows; ++row) {
+            const std::size_t cell =
+                kShape.cell(row, compared < 0 ? compared + kShape.columns : compared);
+            ASSERT_EQ(way.found(cell), once.found(cell)) << "column " << compared;
+            way.planes.label[cell] = frame::Label::kNone;
+            way.planes.height_m[cell] = 100;
+          }
+        }
+        sector = end;
+      }
+      EXPECT_GE(way.stages.labelled_columns(), kShape.columns - 151);
+    }
+  }
+}
+
+TEST_P(CoarseStagesOf, TurnAfterTurnLabelTheEndOfTheLastAsItsBeginningFollowed) {
+  if (!way.stages.can_go_on()) GTEST_SKIP() << "each turn is labelled by itself";
+  const CastFrame frame(hills_and_walls());
+  Way once(config());
+  once.label(frame.image);
+  way.label(frame.image);
+  way.stages.begin_next_turn();
+  way.stages.take_to(kSectors, frame.image.points());
+  way.stages.label(frame.image.points(), way.planes);
+  EXPECT_LT(way.stages.labelled_columns(), kShape.columns - 100);
+  way.stages.label_circle(frame.image.points(), way.planes);
+  EXPECT_GE(way.stages.labelled_columns(), kShape.columns - 1);
+  for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
+    const int column = static_cast<int>(cell) % kShape.stride();
+    if (column == kShape.columns - 1) continue;  // not compared with the first column
+    ASSERT_EQ(way.found(cell), once.found(cell)) << column;
+  }
+}
+
+TEST_P(CoarseStagesOf, TurnsSeeNothingOfATurnBeforeThatNoOtherFollowed) {
+  const CastFrame first(hills_and_walls()), second(test::ground_with_wall(12, 4, 2.0));
+  way.label(first.image);
+  way.stages.begin_next_turn();
+  way.stages.take_to(kSectors / 2, first.image.points());
+  expect_right_labels(second.image);
+}
+
+TEST_P(CoarseStagesOf, OneTurnWithoutReturnsGiveNoLabel) {
+  expect_right_labels(CastFrame([](double, double) { return -1.0; }).image);
+}
+
+TEST_P(CoarseStagesOf, TurnsAllocateNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer brings its own allocator";
-  ArrivingColumns frame(hills_and_walls());
+  const CastFrame frame(hills_and_walls());
   const std::uint64_t before = test::allocations_of_this_thread();
-  arrive(frame);
-  way.stages.finish(frame.image, way.planes);
+  way.label(frame.image);
+  way.stages.begin_next_turn();
+  way.stages.take_to(kSectors, frame.image.points());
+  way.stages.label(frame.image.points(), way.planes);
   EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, CoarseStagesOfArrivingFrames,
+INSTANTIATE_TEST_SUITE_P(Profiles, CoarseStagesOf,
                          testing::Values("terracut", "paper", "elevation"),
                          [](const auto& one) { return std::string(one.param); });
 

@@ -7,8 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipeline/ground/stream_segmenter.hpp"
 #include "pipeline/live/frame_outlet.hpp"
-#include "pipeline/live/live_threads.hpp"
+#include "pipeline/live/live_thread.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 
 namespace terracut::live {
@@ -19,19 +20,20 @@ class LiveUnwinding : public testing::Test {
   memory::FixedMemory memory_;
   calib::SensorCalibration calibration_ = hdl64e::nominal_hdl64e();
   mount::RingProfile profile_ = calib::ring_profile(calibration_, mount::Mount{});
-  LivePipeline pipeline_{calibration_, profile_, decode::Decoder::Config{}, {}, memory_};
+  run::LabelledTurns turns_{calibration_, profile_, decode::Decoder::Config{},
+                            ground::turn_maker_of(ground::terracut_profile()), memory_};
 };
 
-TEST_F(LiveUnwinding, EndsTheThreadsWithADeadline) {
+TEST_F(LiveUnwinding, EndsTheThreadWithADeadline) {
   net::ListenConfig listen;
   listen.at = {0x7F000001, 0};
   auto source = net::LiveSource::open(listen, memory_);
   ASSERT_TRUE(source) << source.error().message;
-  auto events = LiveThreads::Events::make();
-  ASSERT_TRUE(events);
+  auto ready = threads::WakeEvent::make();
+  ASSERT_TRUE(ready);
   const auto run_that_throws = [&] {
-    LiveThreads threads({}, pipeline_, *source, *std::move(events), nullptr, memory_);
-    (void)threads.start();
+    LiveThread thread({}, turns_, *source, *std::move(ready), nullptr, memory_);
+    (void)thread.start();
     throw std::runtime_error("anything");
   };
   EXPECT_THROW(run_that_throws(), std::runtime_error);

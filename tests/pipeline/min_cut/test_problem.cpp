@@ -42,7 +42,7 @@ std::uint32_t TestProblem::unknown() const {
 
 min_cut::GridProblem TestProblem::view(std::vector<min_cut::Seed>& work) const {
   work = seeds;
-  return {shape, work, ground_range_m};
+  return {shape, {0, shape.columns}, work, ground_range_m};
 }
 
 std::int64_t TestProblem::energy(std::span<const frame::Label> labels) const {

@@ -28,7 +28,7 @@ struct LabelledPlanes : testing::Test {
   }
   std::span<const min_cut::Seed> select(const ConfidenceSeeds::Config& config = {}) {
     stage = std::make_unique<ConfidenceSeeds>(config, 0.25F, profile, kShape, memory);
-    stage->select(planes);
+    stage->select(planes, {0, kShape.columns});
     return stage->seeds();
   }
   memory::FixedMemory memory;
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(OfAnySize, SlidingWindow,
                                                                  .window_rows = 8,
                                                                  .window_columns = 16}));
 
-TEST_P(SlidingWindow, AgreesWithCountingEveryWindowFrameAfterFrame) {
+TEST_P(SlidingWindow, AgreesWithCountingEveryWindowPieceByPieceAndFrameAfterFrame) {
   const ConfidenceSeeds::Config config = GetParam();
   std::mt19937 random(3);
   int ground_seeds = 0, unknown = 0;
@@ -105,7 +105,11 @@ TEST_P(SlidingWindow, AgreesWithCountingEveryWindowFrameAfterFrame) {
       }
     }
     if (frame == 0) select(config);
-    stage->select(planes);
+    for (int begin = 0; begin < kShape.columns;) {
+      const int end = std::min(kShape.columns, begin + 1 + static_cast<int>(random() % 40));
+      stage->select(planes, {begin, end});
+      begin = end;
+    }
     const auto seeds = stage->seeds();
     for (int row = 0; row < kShape.rows; ++row) {
       for (int column = 0; column < kShape.columns; ++column) {

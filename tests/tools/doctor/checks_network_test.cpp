@@ -51,7 +51,7 @@ TEST_F(DoctorNetwork, FindsInterruptsByTheDevice) {
   file("proc/irq/46/smp_affinity_list", "0-3\n");
   file("proc/irq/46/effective_affinity_list", "3\n");
   expect(check_interrupts(system(), eth0_), Verdict::kOk, "45 on 0-1; 46 on 3");
-  const Requests requests{.interface = "eth0", .segment_core = 3};
+  const Requests requests{.interface = "eth0", .core = 3};
   expect(check_interrupts(system(), requests), Verdict::kWarning, "46 on the frames' cores 3",
          "for i in 46; do");
   file("sys/devices/system/cpu/isolated", "1\n");
@@ -67,7 +67,7 @@ TEST_F(DoctorNetwork, FindsInterruptsByTheirNames) {
        " NMI:          0          0   Non-maskable interrupts\n");
   file("proc/irq/24/smp_affinity_list", "1\n");
   file("proc/irq/25/smp_affinity_list", "1\n");
-  expect(check_interrupts(system(), {.interface = "eth0", .receive_core = 1}), Verdict::kWarning,
+  expect(check_interrupts(system(), {.interface = "eth0", .core = 1}), Verdict::kWarning,
          "24 on the frames' cores 1 (24 on 1)");
 }
 

@@ -30,9 +30,9 @@ TEST_F(DoctorProcessor, WantsCoresSetApart) {
   cores("online", "0-3");
   cores("isolated", "");
   expect(check_isolated_cores(system(), {}), Verdict::kWarning, "none",
-         "isolcpus=managed_irq,domain,2,3 ");
-  const Requests requests{.receive_core = 1, .segment_core = 3};
-  expect(check_isolated_cores(system(), requests), Verdict::kWarning, "none", "domain,1,3 ");
+         "isolcpus=managed_irq,domain,3 ");
+  const Requests requests{.core = 1};
+  expect(check_isolated_cores(system(), requests), Verdict::kWarning, "none", "domain,1 ");
   cores("isolated", "3");
   expect(check_isolated_cores(system(), requests), Verdict::kWarning, "3, but not 1", "isolcpus=");
   cores("isolated", "1-3");
@@ -43,11 +43,11 @@ TEST_F(DoctorProcessor, WantsCoresSetApart) {
 }
 
 TEST_F(DoctorProcessor, WantsIsolatedCoresWithoutATick) {
-  const Requests requests{.receive_core = 2, .segment_core = 3};
+  const Requests requests{.core = 3};
   cores("online", "0-3");
   expect(check_tickless_cores(system(), requests), Verdict::kOk, "none");
   cores("isolated", "2-3");
-  expect(check_tickless_cores(system(), requests), Verdict::kWarning, "none", "nohz_full=2,3 ");
+  expect(check_tickless_cores(system(), requests), Verdict::kWarning, "none", "nohz_full=3 ");
   cores("nohz_full", "2");
   expect(check_tickless_cores(system(), requests), Verdict::kWarning, "2, but not 3");
   cores("nohz_full", "2-3");

@@ -84,7 +84,6 @@ struct BenchResult {
 void run_frames(run::PacketPipeline& pipeline, const Packets& packets, BenchResult* result) {
   const auto take_frames = [&] {
     while (run::Frame* frame = pipeline.next()) {
-      pipeline.label(*frame);
       const status::FrameRecord& record = frame->record;
       if (result == nullptr || !record.info.complete) continue;
       result->times.add(record);
@@ -193,10 +192,9 @@ ExitCode run_bench(const Options& options) {
   warn_of_other_senders(*capture, capture->source.counters(), options.capture);
   memory::FixedMemory memory;
   const auto decoder_config = decoder_config_of(options, capture->sensor.columns);
-  run::PacketPipeline pipeline(capture->calibration, *profile, decoder_config,
-                               method_of(options.method), memory,
-                               frames_with(run::PacketPipeline::Makes::kLabels, options),
-                               run::PacketPipeline::Timing::kFrames);
+  run::PacketPipeline pipeline(
+      capture->calibration, *profile, decoder_config, turn_method_of(options.method), memory,
+      run::PacketPipeline::Makes::kLabels, run::PacketPipeline::Timing::kFrames);
   decode::Decoder decoder(capture->calibration, profile->mount, decoder_config, memory);
   const int core = stay_on_core(options.bench_core);
   if (core < 0) warn("could not stay on one core; times include moves between cores");

@@ -12,8 +12,7 @@ ExitCode run_doctor(const Options& options) {
   const doctor::Requests requests{
       .interface = options.listen.interface,
       .port = net::parse_ipv4_endpoint(options.listen.address).value().port,
-      .receive_core = options.realtime.receive_core,
-      .segment_core = options.realtime.segment_core};
+      .core = options.realtime.core};
   const doctor::Findings findings = examine(doctor::SystemView::of_this_machine(), requests);
   print_text(options.print_json ? json_of(findings) : text_of(findings));
   return count_of(findings, doctor::Verdict::kProblem) == 0 ? kOk : kNotReady;

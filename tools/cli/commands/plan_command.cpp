@@ -49,9 +49,9 @@ std::size_t take_memory(const Options& options, const calib::SensorCalibration& 
   const auto makes = options.fleet.format == FleetFormat::kLabels
                          ? run::PacketPipeline::Makes::kLabels
                          : run::PacketPipeline::Makes::kPoints;
-  const run::PacketPipeline pipeline(
-      calibration, profile, decoder_config_of(options, 0, motion ? &*motion : nullptr),
-      method_of(options.method), memory, frames_with(makes, options));
+  const run::PacketPipeline pipeline(calibration, profile,
+                                     decoder_config_of(options, 0, motion ? &*motion : nullptr),
+                                     turn_method_of(options.method), memory, makes);
   return pipeline.decoder().return_capacity();
 }
 

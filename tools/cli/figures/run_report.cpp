@@ -55,8 +55,7 @@ std::vector<Figure> frame_figures(const FrameRecord& frame) {
   add_ms("total", frame.decode_cpu_ns + frame.stages.sum_ns());
   if (arrived_in_packets(frame)) add_ms("after_frame", frame.after_frame_cpu_ns());
   figures.insert(figures.end(),
-                 {{"segment_wall_ms", status::Duration{frame.stages.segment_wall_ns}},
-                  {"unknown", count(cut.unknown), {}, {}, "min_cut"},
+                 {{"unknown", count(cut.unknown), {}, {}, "min_cut"},
                   {"coarse", count(cut.coarse_by_cap + cut.coarse_by_budget), {}, {}, "min_cut"},
                   {"ops", count(static_cast<std::uint64_t>(cut.operations())), {}, {}, "min_cut"}});
   return figures;
@@ -107,7 +106,6 @@ void TimeSummary::add(const FrameRecord& frame) noexcept {
   decode.record(frame.decode_cpu_ns);
   total.record(frame.decode_cpu_ns + frame.stages.sum_ns());
   if (arrived_in_packets(frame)) after_frame.record(frame.after_frame_cpu_ns());
-  wall.record(frame.stages.segment_wall_ns);
 }
 
 std::vector<Figure> TimeSummary::figures() const {
@@ -194,8 +192,7 @@ std::vector<Figure> Report::summary_figures() const {
       {"complete_frames", totals.complete, {}, {"frames", " ({} complete)"}},
       {"returns_in", totals.returns_in, {}, {"returns", "{} in"}},
       {"returns_labelled", totals.returns_labelled, {}, {"returns", "{} labelled"}},
-      {"returns_below", totals.returns_below, {}, {"returns", "{} below the ground", Shown::kIfAny}},
-      {"segment_wall_ms", &times.wall}};
+      {"returns_below", totals.returns_below, {}, {"returns", "{} below the ground", Shown::kIfAny}}};
   const auto add = [&](std::initializer_list<Figure> more) { figures.insert(figures.end(), more); };
   std::ranges::copy(times.figures(), std::back_inserter(figures));
   if (scan_points) {

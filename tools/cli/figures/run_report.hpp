@@ -26,11 +26,11 @@
 
 namespace terracut::cli {
 
-/// Times over all frames: of each stage, of decoding, of their sum, of the part after the end of
-/// the frame, and wall time.
+/// Times over all frames: of each stage, of decoding, of their sum, and of the part after the end
+/// of the frame.
 struct TimeSummary {
   std::array<measure::LogLinearHistogram, stage::kStages> stages;
-  measure::LogLinearHistogram decode, total, after_frame, wall;
+  measure::LogLinearHistogram decode, total, after_frame;
 
   void add(const status::FrameRecord& frame) noexcept;
   /// Returns the figures, which refer to this object.
@@ -105,11 +105,10 @@ struct Report {
   ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
   ///   returns_below,
   ///                   losses{cause: count}, ms{stage: processor time; decode, total, and
-  ///                   after_frame: of it, after the frame's last packet}, segment_wall_ms,
+  ///                   after_frame: of it, after the frame's last packet},
   ///                   min_cut{unknown, coarse, ops}; with a CAN recording deskewed
   ///   summary         frames, complete_frames, returns_in, returns_labelled, losses{cause: count},
-  ///                   ms{stage: {count, mean, p50, p90, p99, p99.9, max}}, segment_wall_ms{the
-  ///                   same};
+  ///                   ms{stage: {count, mean, p50, p90, p99, p99.9, max}};
   ///                   of a capture datagrams{what became of them: count; read: their sum};
   ///                   with truth iou_g, recall_o, unscored_frames; of scans points_no_place,
   ///                   points_no_ring; mount and blind as of a live run; with a CAN recording

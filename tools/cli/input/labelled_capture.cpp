@@ -22,6 +22,10 @@ Expected<std::unique_ptr<LabelledCapture>> LabelledCapture::open(const Options& 
   return opened;
 }
 
+bool LabelledCapture::is_watched(std::uint32_t frame) noexcept {
+  return frame % live::LatestNearGround::kFramesApart == 0;
+}
+
 Status LabelledCapture::prepare(Makes makes) {
   auto capture = open_capture(options_.capture);
   if (!capture) return tl::unexpected(capture.error());
@@ -41,7 +45,8 @@ Status LabelledCapture::prepare(Makes makes) {
   pipeline_.emplace(
       capture_->calibration, *profile,
       decoder_config_of(options_, capture_->sensor.columns, motion_ ? &motion_->motion() : nullptr),
-      method_of(options_.method), memory_, frames_with(makes, options_));
+      turn_method_of(options_.method), memory_, makes);
+  pipeline_->watch_near_ground(near_ground_.get());
   clock_of_device_.emplace(options_.capture.clock_offset_s);
   sensor_mount_ = profile->mount;
   mount_.emplace(sensor_mount_, *mount);
@@ -78,12 +83,10 @@ const run::Frame* LabelledCapture::next() {
   for (;;) {
     run::Frame* frame = gives_frames_ ? pipeline_->next() : nullptr;
     if (frame != nullptr) {
-      pipeline_->label(*frame);
       report_.add(frame->record);
-      if (frame->record.info.number % live::LatestNearGround::kFramesApart == 0) {
-        pipeline_->take_near_ground(*frame, *near_ground_);
-        mount_->add_frame(*near_ground_);
-      }
+      const std::uint32_t number = frame->record.info.number;
+      if (is_watched(number)) mount_->add_frame(*near_ground_);
+      pipeline_->watch_near_ground(is_watched(number + 1) ? near_ground_.get() : nullptr);
       return frame;
     }
     gives_frames_ = false;

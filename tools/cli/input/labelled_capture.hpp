@@ -80,6 +80,8 @@ class LabelledCapture {
  private:
   explicit LabelledCapture(const Options& options) : options_(options) {}
   Status prepare(Makes makes);
+  /// True if the mount is watched by the near ground of this frame.
+  [[nodiscard]] static bool is_watched(std::uint32_t frame) noexcept;
   [[nodiscard]] bool decode_one();
   void note_packet(const packet::Datagram& datagram);
 

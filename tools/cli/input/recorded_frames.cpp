@@ -93,12 +93,11 @@ Status CaptureFrames::look_for_standing_mount(std::size_t most, mount::MountFind
   memory::FixedMemory memory;
   run::PacketPipeline pipeline(capture_.calibration, ring_profile(mount::kAtTheSensor),
                                decoder_config_of(options_, capture_.sensor.columns),
-                               method_of(options_.method), memory,
-                               frames_with(run::PacketPipeline::Makes::kLabels, options_));
+                               turn_method_of(options_.method), memory,
+                               run::PacketPipeline::Makes::kLabels);
   const auto ground = std::make_unique<ground::NearGround>();
-  return pass(pipeline, most, [&](run::Frame& frame) {
-    pipeline.label(frame);
-    pipeline.take_near_ground(frame, *ground);
+  pipeline.watch_near_ground(ground.get());
+  return pass(pipeline, most, [&](const run::Frame&) {
     finder.add_frame(ground->in_use());
     return Status{};
   });

@@ -162,16 +162,13 @@ live::LiveConfig live_config_of(const Options& options, const streams::SensorOnA
   config.decoder = decoder_config_of(options, sensor.columns);
   config.reorder_packets = options.capture.reorder_packets.value_or(config.reorder_packets);
   config.method = method_config_of(options.method).segmenter;
-  config.threads = {
+  config.thread = {
       .deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
       .longest_gathering_ns = static_cast<std::int64_t>(options.listen.gather_ms * 1e6),
       .keeps_labels = !options.output.labels.empty(),
       .keeps_points = wants_points,
       .compares_tables = !options.capture.calibration.empty(),
-      .receive =
-          live::thread_request("tc-receive", realtime.receive_priority, realtime.receive_core),
-      .segment =
-          live::thread_request("tc-segment", realtime.segment_priority, realtime.segment_core)};
+      .thread = live::thread_request("tc-label", realtime.priority, realtime.core)};
   config.recorder_seconds = keeps_packets(options) ? options.recorder.seconds : 0;
   if (bus != nullptr) {
     config.vehicle = {&bus->signals, &bus->source, ego_motion_config_of(options.motion),
@@ -193,21 +190,21 @@ class Writers {
     publisher_.emplace(
         retried_sinks(options.output,
                       {.sensor = describe(sensor),
-                       .rows = parts.pipeline.decoder.shape().rows,
+                       .rows = parts.turns.decoder().shape().rows,
                        .mount = mount,
                        .deadline_ns = deadline_ns,
                        .has_road = method_config_of(options.method).segmenter.road.enabled}),
         publish::WhenFull::kDropOldest, warn_of_failure);
-    if (parts.threads.points()) {
+    if (parts.thread.points()) {
       std::optional<live::FrameOutlet::Stream> stream;
       if (!options.stream.empty()) {
         stream = {publish::Reopened<stream::FrameStreamServer>(stream_at(options, parts)),
                   sensor.model, deadline_ns};
       }
-      outlet_.emplace(std::move(stream), *publisher_, *parts.threads.points(),
-                      parts.threads.points_ready());
+      outlet_.emplace(std::move(stream), *publisher_, *parts.thread.points(),
+                      parts.thread.points_ready());
     }
-    if (parts.threads.labels()) labels_.emplace(options.output, *parts.threads.labels());
+    if (parts.thread.labels()) labels_.emplace(options.output, *parts.thread.labels());
     if (parts.recorder) {
       dumps_.emplace(options, sensor.calibration, *parts.recorder, stage::kStageNames, answers_);
     }
@@ -245,7 +242,7 @@ class Writers {
     const stream::FrameStreamConfig config{
         .address = stream::parse_stream_address(options.stream).value(),
         .unix_mode = options.stream_mode,
-        .max_points = parts.pipeline.decoder.return_capacity()};
+        .max_points = parts.turns.decoder().return_capacity()};
     const auto open = [this, config]() -> Expected<stream::FrameStreamServer> {
       auto server = stream::FrameStreamServer::open(config, stream_memory_);
       if (!server) return server;
@@ -280,7 +277,7 @@ void run_until_stopped(const Options& options, const streams::SensorOnAir& senso
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const LiveWatch::Round round = watch.work_round();
     service.work_round(watch.figures(), measure::monotonic_ns());
-    const std::string other = parts.threads.told_table().take_warning(sensor.calibration);
+    const std::string other = parts.thread.told_table().take_warning(sensor.calibration);
     if (!other.empty()) warn(other);
     if (round.missed > 0) writers.want_dump(recorder::DumpReason::kMissedDeadline, options, watch);
     if (dump_wanted.take()) writers.want_dump(recorder::DumpReason::kAsked, options, watch);

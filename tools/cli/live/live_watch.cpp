@@ -72,7 +72,7 @@ void LiveWatch::open_health() {
 
 LiveWatch::Round LiveWatch::work_round() {
   Round round;
-  for (status::FrameRecord frame; parts_.threads.take_record(frame);) {
+  for (status::FrameRecord frame; parts_.thread.take_record(frame);) {
     const std::int64_t latency_ns = frame.labels_ns - frame.info.last_packet_ns;
     if (stolen_ && latency_ns > parts_.monitor.snapshot().deadline_ns) {
       frame.steal_ns = stolen_->since(frame.info.last_packet_ns, measure::realtime_ns());
@@ -98,7 +98,7 @@ void LiveWatch::refresh() {
   parts_.monitor.look_at_rate(figures.taken_ns);
   refresh_losses(figures);
   refresh_threads(figures);
-  if (const ground::NearGround* ground = parts_.threads.near_ground()) mount_->add_frame(*ground);
+  if (const ground::NearGround* ground = parts_.thread.near_ground()) mount_->add_frame(*ground);
   figures.mount = mount_->figures();
   if (parts_.motion) parts_.motion->show(figures.motion);
   if (health_) {
@@ -119,34 +119,33 @@ void LiveWatch::publish_figures() {
 
 void LiveWatch::refresh_threads(status::MonitorSnapshot& figures) {
   figures.thread_count = 0;
-  show_thread(figures, "receive", parts_.threads.receive_state());
-  show_thread(figures, "segment", parts_.threads.segment_state());
+  show_thread(figures, "label", parts_.thread.state());
   if (parts_.motion) show_thread(figures, "can", parts_.motion->thread_state());
 }
 
 void LiveWatch::refresh_input(status::MonitorSnapshot& figures) {
-  const std::string news = input_.show(parts_.threads.intake(), figures);
+  const std::string news = input_.show(parts_.thread.intake(), figures);
   if (!news.empty()) say(news);
 }
 
 void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
-  const net::DatagramAccount& account = parts_.threads.intake().account;
+  const net::DatagramAccount& account = parts_.thread.intake().account;
   frame::LossCounters losses = account.losses;
   losses.skipped_frames = figures.levels[static_cast<std::size_t>(status::Level::kSkipped)];
   figures.loss_count = 0;
   status::show_losses(status::causes_of(losses), figures);
   status::show_losses(status::causes_of(account.source), figures);
   std::vector<status::NamedCount> more{{"let_go_packets", account.let_go},
-                                       {"untimed_frames", parts_.threads.records_dropped()},
+                                       {"untimed_frames", parts_.thread.records_dropped()},
                                        {"lost_messages", lost_messages()}};
   // Frames that still wait when the run is over are lost as well.
   const auto lost = [&](const auto* slots) {
     return slots->unused() + (over_ ? slots->waiting() : 0);
   };
-  if (parts_.threads.labels())
-    more.push_back({"unwritten_label_frames", lost(parts_.threads.labels())});
-  if (parts_.threads.points())
-    more.push_back({unpublished_name(options_), lost(parts_.threads.points())});
+  if (parts_.thread.labels())
+    more.push_back({"unwritten_label_frames", lost(parts_.thread.labels())});
+  if (parts_.thread.points())
+    more.push_back({unpublished_name(options_), lost(parts_.thread.points())});
   if (outlet_ != nullptr && outlet_->has_stream()) {
     const stream::FrameStreamFigures& stream = outlet_->figures();
     more.insert(more.end(), {{"stream_frames_missed", stream.missed},

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "degradation_policy.hpp"
 #include "firmware_io/cloud/cloud.hpp"
-#include "pipeline/ground/mount_search.hpp"
-#include "pipeline/live/degradation_policy.hpp"
-#include "pipeline/run/cloud_pipeline.hpp"
 #include "pipeline/api/point_buffer.hpp"
+#include "pipeline/ground/mount_search.hpp"
+#include "pipeline/run/cloud_pipeline.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/mount_watch.hpp"
@@ -72,7 +72,7 @@ class NodeLabeller {
   std::optional<MountWatch> watch_;
   mount::Mount mount_;
   std::string sensor_;
-  live::DegradationPolicyOf<measure::SystemClock> degradation_;
+  DegradationPolicyOf<measure::SystemClock> degradation_;
 };
 
 }  // namespace terracut::cli

@@ -2,9 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "decoder_choice.hpp"
 
-#include "tools/cli/settings/setup_choice.hpp"
-#include "tools/research/baselines/method_config.hpp"
-
 namespace terracut::cli {
 
 decode::Decoder::Config decoder_config_of(const Options& options, int columns,
@@ -20,11 +17,6 @@ decode::Decoder::Config decoder_config_of(const Options& options, int columns,
   config.motion = motion;
   config.deskew_at = options.motion.deskew_to;
   return config;
-}
-
-run::PacketPipeline::Makes frames_with(run::PacketPipeline::Makes wanted, const Options& options) {
-  const bool needs_points = baselines::needs_all_points(method_config_of(options.method));
-  return needs_points ? run::PacketPipeline::Makes::kPoints : wanted;
 }
 
 }  // namespace terracut::cli

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "firmware_io/decode/decoder.hpp"
-#include "pipeline/run/packet_pipeline.hpp"
 #include "tools/cli/options.hpp"
 
 namespace terracut::cli {
@@ -12,9 +11,5 @@ namespace terracut::cli {
 /// default. `motion` is the vehicle's, for deskewing; null: frames are not deskewed.
 [[nodiscard]] decode::Decoder::Config decoder_config_of(const Options& options, int columns,
                                                         vehicle::EgoMotion* motion = nullptr);
-
-/// Returns what frames must come with to be labelled by the chosen method: `wanted` or more.
-[[nodiscard]] run::PacketPipeline::Makes frames_with(run::PacketPipeline::Makes wanted,
-                                                     const Options& options);
 
 }  // namespace terracut::cli

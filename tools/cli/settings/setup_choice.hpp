@@ -38,5 +38,9 @@ namespace terracut::cli {
 [[nodiscard]] inline ground::MethodMaker method_of(const MethodOptions& options) {
   return baselines::maker_of(method_config_of(options));
 }
+/// Returns what makes the method for the turns of a sensor.
+[[nodiscard]] inline ground::TurnMethodMaker turn_method_of(const MethodOptions& options) {
+  return baselines::turn_maker_of(method_config_of(options));
+}
 
 }  // namespace terracut::cli

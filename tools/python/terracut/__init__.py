@@ -109,8 +109,7 @@ def live(
     mount_height: Optional[float] = None,
     mount_roll: Optional[float] = None,
     mount_pitch: Optional[float] = None,
-    receive_priority: Optional[int] = None,
-    segment_priority: Optional[int] = None,
+    priority: Optional[int] = None,
     lock_memory: bool = True,
 ) -> Live:
     """Returns the labelled frames of a sensor that sends to `listen` (ADDRESS:PORT, or a port of any address).
@@ -122,7 +121,7 @@ def live(
     return Live(_words("live", [], {
         "listen": listen, "calibration": calibration, "deadline": deadline, "duration": duration, "patience": patience,
         "gather": gather, "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch,
-        "receive_priority": receive_priority, "segment_priority": segment_priority,
+        "priority": priority,
         "no_lock_memory": not lock_memory,
     }))  # fmt: skip
 

@@ -66,7 +66,7 @@ class Live:
     def stop(self) -> None:
         """Ends the run; frames that wait can still be taken."""
     def figures(self) -> dict[str, int]:
-        """datagrams, decoded, frames, frames_skipped, frames_left_out, deadlines_missed."""
+        """datagrams, decoded, frames, frames_left_out, deadlines_missed."""
     @property
     def refusals(self) -> str:
         """What the system did not grant (priorities, locked memory), a line each."""

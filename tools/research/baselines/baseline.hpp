@@ -21,11 +21,11 @@ class Baseline : public ground::FrameMethod {
   /// Ignores the budget. Reports the stage of our method that this method resembles most as the
   /// last one.
   [[nodiscard]] stage::SegmentationReport segment(
-      const frame::FrameReturns& frame, const min_cut::CutBudget& /*budget*/ = {},
+      const frame::RangeImage& image, const min_cut::CutBudget& /*budget*/ = {},
       stage::StageObserver* observer = nullptr) noexcept override {
     if (observer != nullptr) observer->resumed();
-    label_cells(*frame.image(), observer);
-    return_labels_.assign(*frame.image(), planes_);
+    label_cells(image, observer);
+    return_labels_.assign(image, planes_);
     if (observer != nullptr) observer->stage_done(stage::Stage::kLabels);
     stage::SegmentationReport report;
     report.last_stage = last_stage_;

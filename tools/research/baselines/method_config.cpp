@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipeline/ground/closed_turns.hpp"
 #include "pipeline/ground/segmenter.hpp"
+#include "pipeline/ground/stream_segmenter.hpp"
 
 namespace terracut::baselines {
 namespace {
@@ -79,10 +81,6 @@ Expected<MethodConfig> method_named(std::string_view name) {
       fmt::format("there is no method '{}'; expected one of {}", name, fmt::join(names, ", ")));
 }
 
-bool needs_all_points(const MethodConfig& config) noexcept {
-  return config.kind != MethodKind::kSegmenter;
-}
-
 ground::MethodMaker maker_of(const MethodConfig& config) {
   switch (config.kind) {
     case MethodKind::kPfaff:
@@ -95,6 +93,11 @@ ground::MethodMaker maker_of(const MethodConfig& config) {
       break;
   }
   return ground::maker_of(config.segmenter);
+}
+
+ground::TurnMethodMaker turn_maker_of(const MethodConfig& config) {
+  if (config.kind == MethodKind::kSegmenter) return ground::turn_maker_of(config.segmenter);
+  return ground::closed_turns_of(maker_of(config));
 }
 
 }  // namespace terracut::baselines

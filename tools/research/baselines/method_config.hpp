@@ -11,6 +11,7 @@
 #include "height_field_mrf.hpp"
 #include "pipeline/ground/frame_method.hpp"
 #include "pipeline/ground/profile.hpp"
+#include "pipeline/ground/turn_method.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::baselines {
@@ -41,10 +42,9 @@ struct MethodName {
 /// kInvalidArgument; the message lists all.
 [[nodiscard]] Expected<MethodConfig> method_named(std::string_view name);
 
-/// True if the method labels images of points only.
-[[nodiscard]] bool needs_all_points(const MethodConfig& config) noexcept;
-
 /// Returns the function that makes the chosen method.
 [[nodiscard]] ground::MethodMaker maker_of(const MethodConfig& config);
+/// Returns the function that makes it for the turns of a sensor.
+[[nodiscard]] ground::TurnMethodMaker turn_maker_of(const MethodConfig& config);
 
 }  // namespace terracut::baselines

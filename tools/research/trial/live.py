@@ -154,9 +154,9 @@ class Live:
                 states[name] = rest[0]
         except OSError:
             return False
-        if states.get("tc-receive") != "S" or states.get("tc-segment") != "S":
+        if states.get("tc-label") != "S":
             return False
-        time.sleep(0.3)  # twice the threads' longest wait: the wake-up's packets are flushed
+        time.sleep(0.3)  # the thread's longest wait and more: the wake-up's packets are flushed
         self.waiting = self.figures()
         return self.waiting is not None
 

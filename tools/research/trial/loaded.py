@@ -17,7 +17,7 @@ from .program import Program
 from .report import Report
 from .stalled import DeafReaders, FrozenDisk, judge_frames
 
-SHARED = ["--receive-priority", "0", "--segment-priority", "0"]
+SHARED = ["--priority", "0"]
 CALM_S = 10  # time to recover after the load
 MOST_MINUTES_WITHOUT_RIGHTS = 3  # enough to show the cost
 

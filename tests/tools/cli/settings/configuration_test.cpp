@@ -78,7 +78,7 @@ TEST(ConfigurationFile, WhatAFileSaysIsPrintedAndReadAgain) {
       "input:\n  from: 192.168.1.200\n  listen: '0.0.0.0:6699'\n  device_port: 7789\n"
       "mount:\n  height_m: 1.9\n  pitch_deg: -1.5\n"
       "method:\n  stages: adjacent\n  elevation_map:\n    obstacle_height_m: 0.25\n"
-      "realtime: {segment_core: 3}\n");
+      "realtime: {core: 3}\n");
   EXPECT_THAT(
       first,
       AllOf(HasSubstr("\n  model: ruby128\n"), HasSubstr("\n  nominal_calibration: yes\n"),
@@ -86,7 +86,7 @@ TEST(ConfigurationFile, WhatAFileSaysIsPrintedAndReadAgain) {
             HasSubstr("\n  device_port: 7789\n"), HasSubstr("\n  height_m: 1.9\n"),
             HasSubstr("\n  pitch_deg: -1.5\n"), HasSubstr("\n  #roll_deg:\n"),
             HasSubstr("\n  stages: adjacent\n"), HasSubstr("\n    obstacle_height_m: 0.25\n"),
-            HasSubstr("\n  segment_core: 3\n"), HasSubstr("\n  #receive_priority: 80\n")));
+            HasSubstr("\n  core: 3\n"), HasSubstr("\n  #priority: 80\n")));
   EXPECT_EQ(printed_again(first), first);
 }
 

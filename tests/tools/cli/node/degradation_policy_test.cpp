@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // Frames on a made machine, whose clock is the test's: what takes how long is said for every frame.
-#include "pipeline/live/degradation_policy.hpp"
+#include "tools/cli/node/degradation_policy.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace terracut::live {
+namespace terracut::cli {
 namespace {
 
 using stage::Stage;
@@ -334,4 +334,4 @@ TEST(DegradationPolicy, MarksAFrameByWhatItsLabelsAreOf) {
 }
 
 }  // namespace
-}  // namespace terracut::live
+}  // namespace terracut::cli

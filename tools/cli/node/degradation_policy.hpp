@@ -14,7 +14,7 @@
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/threads/nonblocking.hpp"
 
-namespace terracut::live {
+namespace terracut::cli {
 
 /// Decides how far a frame is refined before its deadline: by the whole method, by a min-cut that
 /// is stopped when time runs out, by the coarse stages alone, or not at all. It predicts a stage's
@@ -194,4 +194,4 @@ class DegradationPolicyOf {
 
 using DegradationPolicy = DegradationPolicyOf<measure::SystemClock>;
 
-}  // namespace terracut::live
+}  // namespace terracut::cli

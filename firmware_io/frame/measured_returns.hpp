@@ -18,8 +18,8 @@ namespace terracut::frame {
 
 /// Keeps the returns of a frame as its sensor measured them, in tiles of firings: distances,
 /// intensities, head azimuths, and for each return whether it owns its cell of the range image.
-/// Takes a third of the memory of points, and is written in one stream; FramePoints computes points
-/// from it where they are needed.
+/// Takes a third of the memory of points, and is written in one stream; PointRing and
+/// PointImage compute points from it where they are needed.
 ///
 /// Returns are numbered in order of arrival: by firing, then by laser. Fixed memory; only the
 /// constructor allocates. One writer until the frame is handed over, then readers only.

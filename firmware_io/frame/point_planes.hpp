@@ -13,7 +13,7 @@ namespace terracut::frame {
 inline constexpr float kNoHeight_m = std::numeric_limits<float>::quiet_NaN();
 
 /// Points in the cells of a range image, one value per cell and plane; the planes are those of a
-/// RangeImage, or computed by FramePoints. Vehicle frame, metres.
+/// RangeImage, or computed by PointRing. Vehicle frame, metres.
 struct PointPlanes {
   const float *x_m, *y_m, *z_m, *ground_range_m;
   /// Prefetches cells of a row: for ranges so short that the processor does not prefetch them

@@ -56,8 +56,8 @@ class RingElevationMap {
   /// returns that own their cells.
   void take_to(int end, const frame::PointPlanes& points) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] int taken() const noexcept { return taken_; }
-  /// Settles the sectors whose ground is known by now: all but the newest ahead() that are taken.
-  /// For turns that follow a whole turn.
+  /// Settles the sectors whose ground is known by now: all but the newest of those taken, on which
+  /// it depends. For turns that follow a whole turn.
   void settle() noexcept TERRACUT_NONBLOCKING;
   /// Settles the sectors before this one, which must be taken. What is not taken yet is seen as it
   /// was a turn before; behind the first turn's first sector lies its last one.

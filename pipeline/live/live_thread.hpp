@@ -18,7 +18,6 @@
 #include "pipeline/live/live_thread_state.hpp"
 #include "pipeline/recorder/flight_recorder.hpp"
 #include "pipeline/run/labelled_turns.hpp"
-#include "pipeline/stream/labelled_frame_wire.hpp"
 #include "rt/measure/run_queue_wait.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/queues/latest_value.hpp"

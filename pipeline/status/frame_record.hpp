@@ -83,7 +83,7 @@ struct FrameRecord {
   /// Processor time of the work on the frame:
   std::int64_t decode_cpu_ns = 0;   ///< Decoding all packets of the frame.
   stage::StageTimes stages;         ///< Indexed by stage.
-  std::int64_t ahead_cpu_ns = 0;    ///< Stages done while the frame was arriving.
+  std::int64_t ahead_cpu_ns = 0;    ///< Stages done before the closing packet.
   std::int64_t segment_cpu_ns = 0;  ///< All stages and the work between them.
 
   /// How long the frame's threads waited for a core, from its last packet to the labels.
@@ -100,7 +100,7 @@ struct FrameRecord {
   bool missed = false;                              ///< Set by DeadlineMonitor::judge.
   FrameMissCause cause = FrameMissCause::kOwnWork;  ///< Set by judge; valid only if missed.
 
-  /// Returns the processor time of the stages that ran after the frame's last packet.
+  /// Returns the processor time of the stages that ran after the closing packet.
   [[nodiscard]] std::int64_t after_frame_cpu_ns() const noexcept {
     return stages.sum_ns() - ahead_cpu_ns;
   }

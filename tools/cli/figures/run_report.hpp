@@ -105,7 +105,7 @@ struct Report {
   ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
   ///   returns_below,
   ///                   losses{cause: count}, ms{stage: processor time; decode, total, and
-  ///                   after_frame: of it, after the frame's last packet},
+  ///                   after_frame: of it, after the closing packet},
   ///                   min_cut{unknown, coarse, ops}; with a CAN recording deskewed
   ///   summary         frames, complete_frames, returns_in, returns_labelled, losses{cause: count},
   ///                   ms{stage: {count, mean, p50, p90, p99, p99.9, max}};

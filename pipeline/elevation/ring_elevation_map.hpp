@@ -65,7 +65,7 @@ class RingElevationMap {
   /// Sectors before this one are settled.
   [[nodiscard]] int settled() const noexcept { return settled_; }
   /// True if the circle has more sectors than one sector's ground depends on.
-  [[nodiscard]] bool can_go_on() const noexcept;
+  [[nodiscard]] bool can_go_on() const noexcept TERRACUT_NONBLOCKING;
 
   /// Fills `height_m` and `label` in these columns, which must be of settled sectors.
   void label(const frame::PointPlanes& points, frame::ColumnRange columns,

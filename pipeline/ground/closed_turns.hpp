@@ -10,6 +10,7 @@
 #include "pipeline/ground/frame_method.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "pipeline/ground/turn_method.hpp"
+#include "rt/threads/nonblocking.hpp"
 
 namespace terracut::ground {
 
@@ -30,31 +31,37 @@ class ClosedTurns final : public TurnMethod {
 
   void advance(const frame::MeasuredReturns& /*turn*/, int /*complete_columns*/,
                const min_cut::CutBudget& /*budget*/,
-               stage::StageObserver* /*observer*/) noexcept override {}
+               stage::StageObserver* /*observer*/) noexcept TERRACUT_NONBLOCKING override {}
   void end_turn(const frame::MeasuredReturns& turn, const min_cut::CutBudget& budget,
-                stage::StageObserver* observer) noexcept override {
+                stage::StageObserver* observer) noexcept TERRACUT_NONBLOCKING override {
     const frame::RangeImage& image = image_.make(turn);
     report_ = method_->segment(image, budget, observer);
     if (near_ground_ != nullptr) take_near_ground(image, *near_ground_);
     labelled_ = &turn;
   }
   void close(const min_cut::CutBudget& /*budget*/,
-             stage::StageObserver* /*observer*/) noexcept override {}
+             stage::StageObserver* /*observer*/) noexcept TERRACUT_NONBLOCKING override {}
 
-  [[nodiscard]] const frame::MeasuredReturns* labelled() const noexcept override {
+  [[nodiscard]] const frame::MeasuredReturns* labelled() const noexcept
+      TERRACUT_NONBLOCKING override {
     return labelled_;
   }
-  void release() noexcept override { labelled_ = nullptr; }
-  [[nodiscard]] const frame::MeasuredReturns* at_work() const noexcept override {
+  void release() noexcept TERRACUT_NONBLOCKING override { labelled_ = nullptr; }
+  [[nodiscard]] const frame::MeasuredReturns* at_work() const noexcept
+      TERRACUT_NONBLOCKING override {
     return labelled_;
   }
-  [[nodiscard]] std::span<const frame::Label> labels() const noexcept override {
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept
+      TERRACUT_NONBLOCKING override {
     return method_->labels();
   }
-  [[nodiscard]] const stage::SegmentationReport& report() const noexcept override {
+  [[nodiscard]] const stage::SegmentationReport& report() const noexcept
+      TERRACUT_NONBLOCKING override {
     return report_;
   }
-  void watch_near_ground(NearGround* ground) noexcept override { near_ground_ = ground; }
+  void watch_near_ground(NearGround* ground) noexcept TERRACUT_NONBLOCKING override {
+    near_ground_ = ground;
+  }
 
  private:
   frame::PointImage image_;

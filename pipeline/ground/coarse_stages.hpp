@@ -57,7 +57,7 @@ class CoarseStages {
   [[nodiscard]] int taken_sectors() const noexcept { return map_.taken(); }
   /// The turn's columns before this one have their final labels; below 0 if some of the turn before
   /// it have not.
-  [[nodiscard]] int labelled_columns() const noexcept;
+  [[nodiscard]] int labelled_columns() const noexcept TERRACUT_NONBLOCKING;
   /// Returns how high a return of a labelled column lies above the ground.
   [[nodiscard]] float height_of(int column, float z_m, float ground_range_m) const noexcept {
     return map_.height_of(column, z_m, ground_range_m);

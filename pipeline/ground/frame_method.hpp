@@ -16,6 +16,7 @@
 #include "pipeline/stage/segmentation_report.hpp"
 #include "pipeline/stage/stage.hpp"
 #include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
 namespace terracut::ground {
 
@@ -29,10 +30,11 @@ class FrameMethod {
   /// result. `budget` limits the time for a cut.
   [[nodiscard]] virtual stage::SegmentationReport segment(
       const frame::RangeImage& image, const min_cut::CutBudget& budget = {},
-      stage::StageObserver* observer = nullptr) noexcept = 0;
+      stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING = 0;
 
   /// Returns one label per return, in order of arrival (RangeImage::return_index()).
-  [[nodiscard]] virtual std::span<const frame::Label> labels() const noexcept = 0;
+  [[nodiscard]] virtual std::span<const frame::Label> labels() const noexcept
+      TERRACUT_NONBLOCKING = 0;
   /// Returns for each cell its label and the height that led to the label; for pictures.
   [[nodiscard]] virtual const stage::CellPlanes& planes() const noexcept = 0;
 };

@@ -50,19 +50,25 @@ class StreamSegmenter final : public TurnMethod {
   void close(const min_cut::CutBudget& budget,
              stage::StageObserver* observer) noexcept TERRACUT_NONBLOCKING override;
 
-  [[nodiscard]] const frame::MeasuredReturns* labelled() const noexcept override {
+  [[nodiscard]] const frame::MeasuredReturns* labelled() const noexcept
+      TERRACUT_NONBLOCKING override {
     return labelled_;
   }
   void release() noexcept TERRACUT_NONBLOCKING override;
-  [[nodiscard]] const frame::MeasuredReturns* at_work() const noexcept override {
+  [[nodiscard]] const frame::MeasuredReturns* at_work() const noexcept
+      TERRACUT_NONBLOCKING override {
     if (labelled_ != nullptr) return labelled_;
     return next_tile_ > 0 ? unlabelled_[0] : nullptr;
   }
-  [[nodiscard]] std::span<const frame::Label> labels() const noexcept override {
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept
+      TERRACUT_NONBLOCKING override {
     return return_labels_.labels();
   }
-  void watch_near_ground(NearGround* ground) noexcept override { near_ground_ = ground; }
-  [[nodiscard]] const stage::SegmentationReport& report() const noexcept override {
+  void watch_near_ground(NearGround* ground) noexcept TERRACUT_NONBLOCKING override {
+    near_ground_ = ground;
+  }
+  [[nodiscard]] const stage::SegmentationReport& report() const noexcept
+      TERRACUT_NONBLOCKING override {
     return report_;
   }
 

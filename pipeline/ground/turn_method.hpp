@@ -31,28 +31,33 @@ class TurnMethod {
   /// complete. Labels do not depend on how often this is called.
   virtual void advance(const frame::MeasuredReturns& turn, int complete_columns,
                        const min_cut::CutBudget& budget,
-                       stage::StageObserver* observer) noexcept = 0;
+                       stage::StageObserver* observer) noexcept TERRACUT_NONBLOCKING = 0;
   /// Takes the rest of a turn: all of it has come. It must stay unchanged until it is labelled.
   virtual void end_turn(const frame::MeasuredReturns& turn, const min_cut::CutBudget& budget,
-                        stage::StageObserver* observer) noexcept = 0;
+                        stage::StageObserver* observer) noexcept TERRACUT_NONBLOCKING = 0;
   /// Labels the rest of the turns that have come whole: what follows them will not come, or not
   /// soon.
-  virtual void close(const min_cut::CutBudget& budget, stage::StageObserver* observer) noexcept = 0;
+  virtual void close(const min_cut::CutBudget& budget,
+                     stage::StageObserver* observer) noexcept TERRACUT_NONBLOCKING = 0;
 
   /// Returns the oldest turn that is labelled and not released, or null.
-  [[nodiscard]] virtual const frame::MeasuredReturns* labelled() const noexcept = 0;
+  [[nodiscard]] virtual const frame::MeasuredReturns* labelled() const noexcept
+      TERRACUT_NONBLOCKING = 0;
   virtual void release() noexcept TERRACUT_NONBLOCKING = 0;
 
   /// Returns the oldest turn that has labels and is not released, or null.
-  [[nodiscard]] virtual const frame::MeasuredReturns* at_work() const noexcept = 0;
+  [[nodiscard]] virtual const frame::MeasuredReturns* at_work() const noexcept
+      TERRACUT_NONBLOCKING = 0;
   /// Returns the labels of at_work() given so far, in order of arrival: one per return if it is
   /// labelled().
-  [[nodiscard]] virtual std::span<const frame::Label> labels() const noexcept = 0;
+  [[nodiscard]] virtual std::span<const frame::Label> labels() const noexcept
+      TERRACUT_NONBLOCKING = 0;
   /// From the next turn on, fills `ground` with the near ground of each turn that is labelled;
   /// null: no longer.
-  virtual void watch_near_ground(NearGround* ground) noexcept = 0;
+  virtual void watch_near_ground(NearGround* ground) noexcept TERRACUT_NONBLOCKING = 0;
   /// Returns the report of labelled().
-  [[nodiscard]] virtual const stage::SegmentationReport& report() const noexcept = 0;
+  [[nodiscard]] virtual const stage::SegmentationReport& report() const noexcept
+      TERRACUT_NONBLOCKING = 0;
 };
 
 /// Makes a method in `memory`, which must outlive it; FramesToCome::reader is set.

@@ -46,9 +46,9 @@ struct TrustedWindows {
   int share_65536;  ///< The same in 65536ths.
 };
 
-// Adds a row of labels to the counts of its columns; uncount() removes it.
-TERRACUT_VECTOR_CLONES void count(const frame::Label* labels, std::size_t columns,
-                                  std::uint8_t* ground, std::uint8_t* returns) noexcept {
+// Adds a row of labels to the counts of its columns; take_away() does the opposite.
+TERRACUT_VECTOR_CLONES void add(const frame::Label* labels, std::size_t columns,
+                                std::uint8_t* ground, std::uint8_t* returns) noexcept {
   for (std::size_t i = 0; i < columns; ++i) {
     ground[i] = static_cast<std::uint8_t>(ground[i] + (labels[i] == frame::Label::kGround));
   }
@@ -56,8 +56,8 @@ TERRACUT_VECTOR_CLONES void count(const frame::Label* labels, std::size_t column
     returns[i] = static_cast<std::uint8_t>(returns[i] + (labels[i] != frame::Label::kNone));
   }
 }
-TERRACUT_VECTOR_CLONES void uncount(const frame::Label* labels, std::size_t columns,
-                                    std::uint8_t* ground, std::uint8_t* returns) noexcept {
+TERRACUT_VECTOR_CLONES void take_away(const frame::Label* labels, std::size_t columns,
+                                      std::uint8_t* ground, std::uint8_t* returns) noexcept {
   for (std::size_t i = 0; i < columns; ++i) {
     ground[i] = static_cast<std::uint8_t>(ground[i] - (labels[i] == frame::Label::kGround));
   }
@@ -214,24 +214,28 @@ void ConfidenceSeeds::start_counting(frame::ColumnRange columns) noexcept {
 
 void ConfidenceSeeds::count_in_columns(const stage::CellPlanes& planes, int row,
                                        frame::ColumnRange columns) noexcept {
-  // Calls `add` for the columns around, which go on beyond the seam.
-  const auto for_row = [&](int r, auto add) {
+  // Adds a row to the counts or takes it away again; its columns go on beyond the seam.
+  const auto count_row = [&](int r, bool enters) noexcept {
     const int begin = columns.begin - reach(), end = columns.end + reach();
     for (int at = begin; at < end;) {
       const int column = (at + 8 * shape_.columns) % shape_.columns;
-      const int count = std::min(end - at, shape_.columns - column);
+      const auto count = static_cast<std::size_t>(std::min(end - at, shape_.columns - column));
       const auto i = static_cast<std::size_t>(at - begin);
-      add(&planes.label[shape_.cell(r, column)], static_cast<std::size_t>(count),
-          &ground_in_column_[i], &returns_in_column_[i]);
-      at += count;
+      const frame::Label* const labels = &planes.label[shape_.cell(r, column)];
+      if (enters) {
+        add(labels, count, &ground_in_column_[i], &returns_in_column_[i]);
+      } else {
+        take_away(labels, count, &ground_in_column_[i], &returns_in_column_[i]);
+      }
+      at += static_cast<int>(count);
     }
   };
   // Windows only move upwards, so every row enters once and leaves once.
   for (; counted_end_ < window_end_[static_cast<std::size_t>(row)]; ++counted_end_) {
-    for_row(counted_end_, count);
+    count_row(counted_end_, true);
   }
   for (; counted_begin_ < window_begin_[static_cast<std::size_t>(row)]; ++counted_begin_) {
-    for_row(counted_begin_, uncount);
+    count_row(counted_begin_, false);
   }
 }
 

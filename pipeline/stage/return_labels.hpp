@@ -74,10 +74,10 @@ class ReturnLabels {
   }
   using TileLabels = frame::TileRow<std::uint8_t>;
   /// Returns the labels of one laser's returns in the open tile; kNone for a missing return.
-  [[nodiscard]] TileLabels labels_of_row(const frame::MeasuredReturns& turn, std::size_t tile,
-                                         std::size_t laser, const frame::PointPlanes& points,
-                                         frame::TileReader& reader,
-                                         const CellPlanes& planes) const noexcept;
+  [[nodiscard]] TileLabels labels_of_row(
+      const frame::MeasuredReturns& turn, std::size_t tile, std::size_t laser,
+      const frame::PointPlanes& points, frame::TileReader& reader,
+      const CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
   /// Returns false if a return of the tile has no label because its cell has none.
   [[nodiscard]] bool write_tile(const frame::MeasuredReturns& turn, std::size_t tile,
                                 const frame::PointPlanes& points, frame::TileReader& reader,

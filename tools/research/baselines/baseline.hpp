@@ -11,6 +11,7 @@
 #include "pipeline/stage/segmentation_report.hpp"
 #include "pipeline/stage/stage.hpp"
 #include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
 namespace terracut::baselines {
 
@@ -49,7 +50,7 @@ class Baseline : public ground::FrameMethod {
 
   /// Fills `height_m` and `label` of planes_, and reports the stages before kLabels.
   virtual void label_cells(const frame::RangeImage& image,
-                           stage::StageObserver* observer) noexcept = 0;
+                           stage::StageObserver* observer) noexcept TERRACUT_NONBLOCKING = 0;
 
   stage::CellPlanes planes_;
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
 namespace terracut::baselines {
 
@@ -61,7 +62,7 @@ class BeliefPropagation {
 
   /// Drops earlier messages and runs `iterations` iterations. Real-time safe: O(iterations * nodes
   /// * labels).
-  void run(int iterations) noexcept;
+  void run(int iterations) noexcept TERRACUT_NONBLOCKING;
 
   /// Returns the label of least belief; of several adjacent ones the middle one.
   [[nodiscard]] int label(int row, int column) const noexcept { return label_[node(row, column)]; }

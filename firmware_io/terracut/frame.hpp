@@ -51,4 +51,16 @@ struct Frame {
   std::span<const float> time_s = {};
 };
 
+/// Some four degrees of a revolution, labelled while the sensor turns on: the returns of successive
+/// firings. points and labels have one entry per return, in order of arrival.
+struct Sector {
+  std::uint32_t frame = 0;           ///< Number of the frame that it is part of.
+  std::size_t first_return = 0;      ///< Index of its first return in that frame.
+  std::int64_t first_packet_ns = 0;  ///< Stamps of the packets with its first and last firing,
+  std::int64_t last_packet_ns = 0;   ///< nanoseconds since 1970 (UTC).
+  std::int64_t labelled_ns = 0;      ///< When its labels were known.
+  std::span<const Point> points;
+  std::span<const Label> labels;
+};
+
 }  // namespace terracut

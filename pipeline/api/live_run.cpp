@@ -36,6 +36,7 @@ live::LiveConfig live_config_of(const LiveRun::Config& config, int columns) {
   of_run.thread.deadline_ns = static_cast<std::int64_t>(config.deadline_ms * 1e6);
   of_run.thread.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
   of_run.thread.keeps_points = true;
+  of_run.thread.keeps_sectors = config.on_sector != nullptr;
   of_run.thread.thread = live::thread_request("tc-label", config.priority, std::nullopt);
   return of_run;
 }
@@ -44,11 +45,12 @@ live::LiveConfig live_config_of(const LiveRun::Config& config, int columns) {
 
 struct LiveRun::Engine {
   Engine(std::unique_ptr<memory::FixedMemory> memory_of_source, net::LiveSource&& opened,
-         streams::SensorOnAir&& heard, std::optional<FoundMount> mount)
+         streams::SensorOnAir&& heard, std::optional<FoundMount> mount, OnSector for_sectors)
       : source_memory(std::move(memory_of_source)),
         source(std::move(opened)),
         sensor(std::move(heard)),
-        found_mount(mount) {}
+        found_mount(mount),
+        on_sector(std::move(for_sectors)) {}
 
   Status build(const live::LiveConfig& config, const Mount& mount, bool locks_memory,
                std::vector<threads::Grant>& grants) {
@@ -70,13 +72,10 @@ struct LiveRun::Engine {
   }
   void hand_out(const OnFrame& on_frame) {
     auto& slots = *parts->thread.points();
+    hand_out_sectors();
     for (live::FramePool<points::LabelledPoint>::Frame taken; slots.take(taken);) {
-      for (std::size_t i = 0; i < taken.items.size(); ++i) {
-        const points::LabelledPoint& point = taken.items[i];
-        points[i] = {point.x_m, point.y_m, point.z_m, point.row, point.intensity};
-        labels[i] = point.label;
-        times_s[i] = point.time_s;
-      }
+      hand_out_sectors();  // those of a frame come before it
+      take_apart(taken.items);
       Frame frame{.number = taken.record.info.number,
                   .first_packet_ns = taken.record.info.first_packet_ns,
                   .last_packet_ns = taken.record.info.last_packet_ns,
@@ -91,6 +90,30 @@ struct LiveRun::Engine {
       ++figures.frames;
     }
   }
+  void hand_out_sectors() {
+    if (!on_sector) return;
+    auto& slots = *parts->thread.sectors();
+    for (live::SectorPool::Frame taken; slots.take(taken);) {
+      take_apart(taken.items);
+      on_sector({.frame = taken.record.frame,
+                 .first_return = taken.record.first_return,
+                 .first_packet_ns = taken.record.first_packet_ns,
+                 .last_packet_ns = taken.record.last_packet_ns,
+                 .labelled_ns = taken.record.labels_ns,
+                 .points = std::span<const Point>(points).first(taken.items.size()),
+                 .labels = std::span<const Label>(labels).first(taken.items.size())});
+      slots.give_back(true);
+      ++figures.sectors;
+    }
+  }
+  void take_apart(std::span<const points::LabelledPoint> items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const points::LabelledPoint& point = items[i];
+      points[i] = {point.x_m, point.y_m, point.z_m, point.row, point.intensity};
+      labels[i] = point.label;
+      times_s[i] = point.time_s;
+    }
+  }
   void judge() {
     for (status::FrameRecord frame; parts->thread.take_record(frame);) {
       parts->monitor.judge(frame);
@@ -103,6 +126,7 @@ struct LiveRun::Engine {
   net::LiveSource source;
   streams::SensorOnAir sensor;
   std::optional<FoundMount> found_mount;
+  OnSector on_sector;  ///< May be empty.
   std::unique_ptr<live::LiveParts> parts;
   std::vector<Point> points;
   std::vector<Label> labels;
@@ -142,7 +166,7 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
   std::vector<threads::Grant> grants;
   if (config.lock_memory) grants = memory::hold_memory({});
   auto engine = std::make_unique<Engine>(std::move(source_memory), *std::move(source),
-                                         *std::move(sensor), mount);
+                                         *std::move(sensor), mount, config.on_sector);
   const auto built = made([&] {
     return engine->build(of_run, mount ? mount->mount : config.mount, config.lock_memory, grants);
   });
@@ -184,6 +208,7 @@ LiveRun::Figures LiveRun::figures() const noexcept {
   figures.datagrams = intake.account.source.received;
   figures.decoded = intake.account.decoded;
   figures.frames_left_out = engine_->parts->thread.points()->unused();
+  if (engine_->on_sector) figures.sectors_left_out = engine_->parts->thread.sectors()->unused();
   return figures;
 }
 

@@ -16,17 +16,18 @@
 
 namespace terracut::live {
 
-/// Carries results, one T per return, from the labelling thread to one thread without a deadline.
-/// If that thread is too slow, frames are left out and counted.
+/// Carries results, one T per return, from the labelling thread to one thread without a deadline,
+/// frame by frame (or sector by sector: sector_pool.hpp). If that thread is too slow, frames are
+/// left out and counted.
 ///
 ///   labelling thread   pass_on() --full--> take()       the other thread
 ///                          ^                  |
 ///                          '------ free ---- give_back()
-template <class T>
+template <class T, class Record = status::FrameRecord>
 class FramePool {
  public:
   struct Frame {
-    status::FrameRecord record;  ///< Complete except for what happens after labelling.
+    Record record;  ///< Complete except for what happens after labelling.
     std::span<const T> items;
   };
 
@@ -42,9 +43,9 @@ class FramePool {
   }
 
   /// To be called on the labelling thread: passes a frame on. `fill(std::span<T>)` writes the
-  /// record.info.returns items of the frame to the span's start. Real-time safe if `fill` is.
+  /// `returns` items of the frame. Real-time safe if `fill` is.
   template <class Fill>
-  void pass_on(const status::FrameRecord& record, Fill&& fill) noexcept {
+  void pass_on(const Record& record, std::size_t returns, Fill&& fill) noexcept {
     std::uint32_t i = 0;
     if (!free_.try_pop(i)) {
       unused_.fetch_add(1, std::memory_order_relaxed);
@@ -53,7 +54,8 @@ class FramePool {
     waiting_.fetch_add(1, std::memory_order_relaxed);
     Slot& slot = slots_[i];
     slot.record = record;
-    fill(slot.room);
+    slot.returns = returns;
+    fill(slot.room.first(returns));
     (void)full_.try_push(i);  // never fails: the queue has room for all slots
   }
 
@@ -61,7 +63,7 @@ class FramePool {
   [[nodiscard]] bool take(Frame& frame) noexcept {
     if (!full_.try_pop(taken_)) return false;
     const Slot& slot = slots_[taken_];
-    frame = {slot.record, slot.room.first(slot.record.info.returns)};
+    frame = {slot.record, slot.room.first(slot.returns)};
     return true;
   }
   /// Gives the taken frame's slot back. `used` is true if the frame reached its destination.
@@ -80,7 +82,8 @@ class FramePool {
 
  private:
   struct Slot {
-    status::FrameRecord record;
+    Record record;
+    std::size_t returns = 0;
     std::span<T> room;
   };
 

@@ -15,6 +15,7 @@
 #include "pipeline/live/gathering_policy.hpp"
 #include "pipeline/live/latest_near_ground.hpp"
 #include "pipeline/live/packet_gate.hpp"
+#include "pipeline/live/sector_pool.hpp"
 #include "pipeline/points/labelled_points.hpp"
 #include "pipeline/recorder/flight_recorder.hpp"
 #include "pipeline/run/labelled_turns.hpp"
@@ -50,8 +51,10 @@ class LiveLabeller {
     queues::LatestValue<status::InputState>* intake;
     FramePool<frame::Label>* labels = nullptr;
     FramePool<points::LabelledPoint>* points = nullptr;
-    const threads::WakeEvent* points_ready = nullptr;  ///< Needed with `points`, as is `reader`:
-    frame::TileReader* reader = nullptr;               ///< the sensor's.
+    SectorPool* sectors = nullptr;
+    /// Needed with `points` or `sectors`, as is `reader`, the sensor's.
+    const threads::WakeEvent* points_ready = nullptr;
+    frame::TileReader* reader = nullptr;
     LatestNearGround* near_ground = nullptr;
     recorder::FlightRecorder* recorder = nullptr;
     sensor::ToldTable* told_table = nullptr;
@@ -161,7 +164,7 @@ class LiveLabeller {
     note_labels();
   }
 
-  /// Notes how long the returns waited that got their labels now.
+  /// Notes how long the returns waited that got their labels now, and hands these on by sectors.
   void note_labels() noexcept {
     const frame::MeasuredReturns* const turn = turns_.method().at_work();
     if (turn == nullptr) return;
@@ -171,6 +174,7 @@ class LiveLabeller {
     }
     const std::size_t labels = turns_.labels().size();
     const std::int64_t now_ns = clock_.realtime_ns();
+    const std::size_t first_tile = noted_tiles_;
     for (; noted_tiles_ < turn->tiles() && turn->end_of(noted_tiles_) <= labels; ++noted_tiles_) {
       const frame::MeasuredReturns::Tile& tile = turn->tile(noted_tiles_);
       const double turns =
@@ -178,6 +182,26 @@ class LiveLabeller {
       waits_.note(turns, now_ns - tile.first_ns);
       waits_.note(turns, now_ns - tile.last_ns);
     }
+    if (to_.sectors != nullptr && noted_tiles_ > first_tile) {
+      hand_on_sectors(*turn, first_tile, now_ns);
+    }
+  }
+
+  /// Hands on the returns of the noted tiles from `first_tile` on, each tile as a sector.
+  void hand_on_sectors(const frame::MeasuredReturns& turn, std::size_t first_tile,
+                       std::int64_t now_ns) noexcept {
+    const std::span<const frame::Label> labels = turns_.labels();
+    for (std::size_t t = first_tile; t < noted_tiles_; ++t) {
+      const frame::MeasuredReturns::Tile& tile = turn.tile(t);
+      const std::uint32_t first = tile.first_return[0], returns = turn.end_of(t) - first;
+      if (returns == 0) continue;
+      to_.sectors->pass_on({next_frame_, first, tile.first_ns, tile.last_ns, now_ns}, returns,
+                           [&](std::span<points::LabelledPoint> room) noexcept {
+                             points::pack_labelled_tile(turn, t, *to_.reader,
+                                                        labels.subspan(first, returns), room);
+                           });
+    }
+    to_.points_ready->wake();
   }
 
   void end_frame(const frame::Frame& turn, std::int64_t stages_before_ns) noexcept {
@@ -202,20 +226,21 @@ class LiveLabeller {
     gathering_.note_frame(turn.info.last_packet_ns, received_);
     if (!lets_go_) gate_.note_frame(turn.info.last_packet_ns, record.labels_ns);
     to_.records->pass_on(record);
+    next_frame_ = turn.info.number + 1;
     ++frames_;
   }
 
   void hand_on(const frame::Frame& turn, const status::FrameRecord& record) noexcept {
     const std::span<const frame::Label> labels = turns_.labels();
     if (to_.labels != nullptr) {
-      to_.labels->pass_on(record, [&](std::span<frame::Label> room) noexcept {
+      to_.labels->pass_on(record, labels.size(), [&](std::span<frame::Label> room) noexcept {
         std::copy(labels.begin(), labels.end(), room.begin());
       });
     }
     if (to_.points != nullptr) {
-      to_.points->pass_on(record, [&](std::span<points::LabelledPoint> room) noexcept {
-        pack(turn, labels, room);
-      });
+      to_.points->pass_on(
+          record, labels.size(),
+          [&](std::span<points::LabelledPoint> room) noexcept { pack(turn, labels, room); });
       to_.points_ready->wake();
     }
     watch_near_ground(turn.info.number + 1);
@@ -277,6 +302,7 @@ class LiveLabeller {
   std::int64_t fetched_ns_ = 0;  ///< When the packets at work were fetched.
   std::int64_t due_ns_ = 0;      ///< When labels that become known now are due.
   // Of the turn that gets its labels:
+  std::uint32_t next_frame_ = 0;  ///< The number that its frame will have.
   std::int64_t noted_turn_ = 0;
   std::size_t noted_tiles_ = 0;  ///< Number of tiles of which all labels were noted.
   status::FiringToLabel waits_;

@@ -35,9 +35,13 @@ LiveThread::LiveThread(const Config& config, run::LabelledTurns& turns, net::Liv
       near_ground_(memory) {
   const std::size_t capacity = turns.decoder().return_capacity();
   if (config.keeps_labels) labels_.emplace("label slots", kLabelSlots, capacity, memory);
-  if (!config.keeps_points) return;
-  points_.emplace("point slots", kPointSlots, capacity, memory);
+  if (config.keeps_points) points_.emplace("point slots", kPointSlots, capacity, memory);
+  if (!config.keeps_points && !config.keeps_sectors) return;
   reader_ = turns.decoder().make_reader(memory);
+  if (!config.keeps_sectors) return;
+  // A turn that follows no other one is labelled at once, so there is room for a whole one.
+  const std::size_t returns_of_tile = reader_->rows().size() * frame::kTileFirings;
+  sectors_.emplace("sector slots", capacity / returns_of_tile, returns_of_tile, memory);
 }
 
 std::vector<threads::Grant> LiveThread::start() {
@@ -68,6 +72,7 @@ void LiveThread::work() noexcept {
                      .intake = &intake_,
                      .labels = labels(),
                      .points = points(),
+                     .sectors = sectors(),
                      .points_ready = &points_ready_,
                      .reader = reader_.get(),
                      .near_ground = &near_ground_,

@@ -16,6 +16,7 @@
 #include "pipeline/live/latest_near_ground.hpp"
 #include "pipeline/live/live_labeller.hpp"
 #include "pipeline/live/live_thread_state.hpp"
+#include "pipeline/live/sector_pool.hpp"
 #include "pipeline/recorder/flight_recorder.hpp"
 #include "pipeline/run/labelled_turns.hpp"
 #include "rt/measure/run_queue_wait.hpp"
@@ -33,7 +34,7 @@ namespace terracut::live {
 ///
 ///   LiveLabeller: datagrams -> recorder, decoder, method -> labels
 ///        |                  |
-///     records            FramePool
+///     records       FramePool, SectorPool
 ///        v                  v
 ///   take_record()      label files, labelled points
 class LiveThread {
@@ -44,12 +45,13 @@ class LiveThread {
     std::int64_t longest_gathering_ns = 2'000'000;  ///< See GatheringPolicy::Config.
     bool keeps_labels = false;                      ///< Provides labels().
     bool keeps_points = false;                      ///< Provides points().
+    bool keeps_sectors = false;                     ///< Provides sectors().
     bool compares_tables = false;                   ///< Provides told_table().
     threads::ThreadRequest thread;
   };
 
-  /// Takes all memory from `memory`. `points_ready` is set when a frame's labelled points were
-  /// passed on; `recorder` may be null. All must outlive this object.
+  /// Takes all memory from `memory`. `points_ready` is set when labelled points were passed on;
+  /// `recorder` may be null. All must outlive this object.
   LiveThread(const Config& config, run::LabelledTurns& turns, net::LiveSource& source,
              threads::WakeEvent points_ready, recorder::FlightRecorder* recorder,
              memory::FixedMemory& memory);
@@ -74,7 +76,10 @@ class LiveThread {
   [[nodiscard]] FramePool<points::LabelledPoint>* points() noexcept {
     return points_ ? &*points_ : nullptr;
   }
-  /// Returns the event that is woken after every frame given to points().
+  /// Returns the labelled points of every sector, those of a frame before the frame itself; null
+  /// without Config::keeps_sectors.
+  [[nodiscard]] SectorPool* sectors() noexcept { return sectors_ ? &*sectors_ : nullptr; }
+  /// Returns the event that is woken after what is given to points() and sectors().
   [[nodiscard]] const threads::WakeEvent& points_ready() const noexcept { return points_ready_; }
 
   /// Returns the near ground of the newest examined frame (one in LatestNearGround::kFramesApart)
@@ -109,7 +114,8 @@ class LiveThread {
   LatestNearGround near_ground_;
   std::optional<FramePool<frame::Label>> labels_;
   std::optional<FramePool<points::LabelledPoint>> points_;
-  std::unique_ptr<frame::TileReader> reader_;  ///< For points; else null.
+  std::optional<SectorPool> sectors_;
+  std::unique_ptr<frame::TileReader> reader_;  ///< For points and sectors; else null.
 
   std::atomic<bool> stop_{false};
   queues::LatestValue<status::InputState> intake_;

@@ -54,6 +54,36 @@ void move_where(std::uint32_t firings, const frame::TileRow<std::uint16_t>& colu
   });
 }
 
+/// Writes the returns of a tile. The first elements of `labels` and `points` are those of its first
+/// return.
+void pack_tile(const frame::MeasuredReturns& returns, std::size_t tile,
+               std::span<const frame::PlanarMotions> motions, frame::TileReader& reader,
+               const FrameTiming& timing, std::span<const frame::Label> labels,
+               std::span<LabelledPoint> points) noexcept TERRACUT_NONBLOCKING {
+  frame::TilePoints made;
+  frame::TileRow<std::uint32_t> next = returns.tile(tile).first_return;
+  const std::uint32_t first = next[0];
+  reader.open(returns.tile(tile).heads, returns.raw(tile));
+  for (std::size_t i = 0; i < returns.lasers(); ++i) {
+    const std::uint32_t hits = returns.row(tile, i).returns;
+    if (hits == 0) continue;
+    reader.compute_points(i, all_of(made));
+    const int row = reader.rows()[i];
+    const RowTimes times = times_of(row, returns.shape().columns, timing);
+    const frame::TileRow<std::uint16_t> columns = returns.columns(tile, i);
+    const std::uint8_t* const intensity = returns.intensity(tile, i);
+    if (!motions.empty()) {
+      move_where(hits, columns, motions[static_cast<std::size_t>(row)], made);
+    }
+    frame::for_each_firing(hits, [&](std::size_t f) noexcept {
+      const std::uint32_t n = next[f]++ - first;
+      points[n] = labelled_point(
+          {made.x_m[f], made.y_m[f], made.z_m[f], made.ground_range_m[f], intensity[f]}, row,
+          labels[n], times.at(columns[f]));
+    });
+  }
+}
+
 }  // namespace
 
 bool pack_labelled_points(const frame::RangeImage& image, std::span<const frame::Label> labels,
@@ -90,30 +120,17 @@ bool pack_labelled_points(const frame::MeasuredReturns& returns,
                           std::span<const frame::Label> labels, std::span<LabelledPoint> points,
                           const FrameTiming& timing) noexcept TERRACUT_NONBLOCKING {
   if (labels.size() != returns.returns() || points.size() < labels.size()) return false;
-  frame::TilePoints made;
   for (std::size_t t = 0; t < returns.tiles(); ++t) {
-    reader.open(returns.tile(t).heads, returns.raw(t));
-    frame::TileRow<std::uint32_t> next = returns.tile(t).first_return;
-    for (std::size_t i = 0; i < returns.lasers(); ++i) {
-      const std::uint32_t hits = returns.row(t, i).returns;
-      if (hits == 0) continue;
-      reader.compute_points(i, all_of(made));
-      const int row = reader.rows()[i];
-      const RowTimes times = times_of(row, returns.shape().columns, timing);
-      const frame::TileRow<std::uint16_t> columns = returns.columns(t, i);
-      const std::uint8_t* const intensity = returns.intensity(t, i);
-      if (!motions.empty()) {
-        move_where(hits, columns, motions[static_cast<std::size_t>(row)], made);
-      }
-      frame::for_each_firing(hits, [&](std::size_t f) noexcept {
-        const std::uint32_t n = next[f]++;
-        points[n] = labelled_point(
-            {made.x_m[f], made.y_m[f], made.z_m[f], made.ground_range_m[f], intensity[f]}, row,
-            labels[n], times.at(columns[f]));
-      });
-    }
+    const std::size_t first = returns.tile(t).first_return[0];
+    pack_tile(returns, t, motions, reader, timing, labels.subspan(first), points.subspan(first));
   }
   return true;
+}
+
+void pack_labelled_tile(const frame::MeasuredReturns& returns, std::size_t tile,
+                        frame::TileReader& reader, std::span<const frame::Label> labels,
+                        std::span<LabelledPoint> points) noexcept TERRACUT_NONBLOCKING {
+  pack_tile(returns, tile, {}, reader, {}, labels, points);
 }
 
 }  // namespace terracut::points

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "firmware_io/frame/deskew_info.hpp"
@@ -47,5 +48,12 @@ struct FrameTiming {
     const frame::MeasuredReturns& returns, std::span<const frame::PlanarMotions> motions,
     frame::TileReader& reader, std::span<const frame::Label> labels,
     std::span<LabelledPoint> points, const FrameTiming& timing = {}) noexcept TERRACUT_NONBLOCKING;
+
+/// Writes the returns of one tile of a frame that may still be arriving, in order of arrival;
+/// their times are 0. `labels` and `points` have one element per return of the tile. Real-time
+/// safe.
+void pack_labelled_tile(const frame::MeasuredReturns& returns, std::size_t tile,
+                        frame::TileReader& reader, std::span<const frame::Label> labels,
+                        std::span<LabelledPoint> points) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::points

@@ -18,9 +18,13 @@ namespace terracut {
 /// this allocates nothing and locks nothing, and when late it leaves out the cut until it has
 /// caught up. The thread that calls run() calls on_frame, without a deadline: if on_frame is too
 /// slow, frames are left out and counted. A frame's last returns wait some milliseconds for those
-/// that follow it.
+/// that follow it; on_sector gets returns as soon as they are labelled.
 class LiveRun {
  public:
+  using OnFrame = std::function<void(const Frame& frame)>;
+  using OnSector = std::function<void(const Sector& sector)>;
+  using StopWanted = std::function<bool()>;
+
   struct Config {
     std::uint16_t port = 2368;  ///< UDP port of the sensor's data packets.
     std::string address = "0.0.0.0";
@@ -39,17 +43,20 @@ class LiveRun {
     int priority = 80;  ///< SCHED_FIFO priority, [1, 99]; 0: shared scheduling.
     bool lock_memory = true;
     std::optional<double> patience_s;  ///< Time to wait for the sensor; empty: no limit.
+    /// If set, run() also calls this for each sector, before on_frame for its frame. A sector is
+    /// valid during the call.
+    OnSector on_sector;
   };
   /// Counts datagrams and frames by what became of them.
   struct Figures {
-    std::uint64_t datagrams = 0;        ///< Datagrams received.
-    std::uint64_t decoded = 0;          ///< Data packets that are in frames.
-    std::uint64_t frames = 0;           ///< Frames handed to on_frame.
-    std::uint64_t frames_left_out = 0;  ///< Frames left out because on_frame was too slow.
+    std::uint64_t datagrams = 0;         ///< Datagrams received.
+    std::uint64_t decoded = 0;           ///< Data packets that are in frames.
+    std::uint64_t frames = 0;            ///< Frames handed to on_frame.
+    std::uint64_t frames_left_out = 0;   ///< Frames left out because on_frame was too slow.
+    std::uint64_t sectors = 0;           ///< Sectors handed to on_sector.
+    std::uint64_t sectors_left_out = 0;  ///< Sectors left out because a callback was too slow.
     std::uint64_t deadlines_missed = 0;
   };
-  using OnFrame = std::function<void(const Frame& frame)>;
-  using StopWanted = std::function<bool()>;
 
   /// Opens the socket and listens until a sensor is known. Fails with kInvalidArgument,
   /// kUnsupported, kNoCalibration, kMountNotFound, or the system's refusal of the socket. A refused

@@ -14,6 +14,10 @@ int main(int argc, char** argv) {
   config.find_mount = true;  // or state it: config.mount = {.height_m = 1.73};
   config.deadline_ms = 50;
   config.patience_s = 60;
+  std::size_t labels_by_sector = 0;
+  config.on_sector = [&](const terracut::Sector& sector) {
+    labels_by_sector += sector.labels.size();
+  };
   const int wanted = std::atoi(argv[2]);
   int frames = 0;
   const auto stop_wanted = [&] { return frames >= wanted; };
@@ -28,5 +32,6 @@ int main(int argc, char** argv) {
     std::cout << "frame " << frame.number << ": " << frame.labels.size() << " labels\n";
   });
   const auto figures = run->figures();
-  std::cerr << run->refusals() << figures.deadlines_missed << " deadlines missed\n";
+  std::cerr << run->refusals() << figures.deadlines_missed << " deadlines missed, "
+            << labels_by_sector << " labels while the sensor turned\n";
 }

@@ -63,7 +63,8 @@ execute_process(
   COMMAND ${terracut} send ${work}/drive.pcap --to 127.0.0.1:23688 --loop 20
   COMMAND ${work}/build_OFF/live 23688 5
   OUTPUT_VARIABLE lines RESULT_VARIABLE result ERROR_VARIABLE errors)
-if(NOT result EQUAL 0 OR NOT lines MATCHES "stands 1.7.*frame [0-9]+: [0-9]+ labels")
+if(NOT result EQUAL 0 OR NOT lines MATCHES "stands 1.7.*frame [0-9]+: [0-9]+ labels"
+   OR NOT errors MATCHES "missed, [1-9][0-9]+ labels while")
   message(FATAL_ERROR "live failed (${result}): ${lines} ${errors}")
 endif()
 

@@ -19,7 +19,7 @@ void pass_on(Slots& slots, std::uint32_t number) {
   record.info.number = number;
   record.info.returns = number;
   record.labels_ns = number;
-  slots.pass_on(record, [&](std::span<int> room) noexcept {
+  slots.pass_on(record, record.info.returns, [&](std::span<int> room) noexcept {
     std::fill_n(room.begin(), number, static_cast<int>(number));
   });
 }
@@ -98,7 +98,7 @@ TEST(FramePoolTest, LoseNoFrameUncountedBetweenTwoThreads) {
     status::FrameRecord record;
     record.info.number = number;
     record.info.returns = 4;
-    slots.pass_on(record, [&](std::span<int> room) noexcept {
+    slots.pass_on(record, record.info.returns, [&](std::span<int> room) noexcept {
       std::fill_n(room.begin(), 4, static_cast<int>(number));
     });
   }

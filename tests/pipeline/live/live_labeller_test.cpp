@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -107,7 +108,8 @@ class LiveFrames : public testing::Test {
 
   LiveFrames() { begin(); }
 
-  void begin(std::int64_t longest_gathering_ns = 0, std::size_t room_packets = 10'000) {
+  void begin(std::int64_t longest_gathering_ns = 0, std::size_t room_packets = 10'000,
+             SectorPool* sectors = nullptr, FramePool<points::LabelledPoint>* points = nullptr) {
     labeller_.emplace(Labeller::Config{.deadline_ns = kDeadline_ns,
                                        .frame_period_ns = kFramePeriod_ns,
                                        .gathering = {.frame_period_ns = kFramePeriod_ns,
@@ -117,6 +119,10 @@ class LiveFrames : public testing::Test {
                       Labeller::Outlets{.records = &queue_,
                                         .intake = &intake_,
                                         .labels = &labels_,
+                                        .points = points,
+                                        .sectors = sectors,
+                                        .points_ready = &points_ready_,
+                                        .reader = reader_.get(),
                                         .near_ground = &near_ground_,
                                         .recorder = &recorder_},
                       HeldClock{&time_}, HeldWait{&time_});
@@ -191,6 +197,8 @@ class LiveFrames : public testing::Test {
   queues::LatestValue<status::InputState> intake_;
   recorder::FlightRecorder recorder_{{.datagrams = 8192, .payload_bytes = 8192 * 1208}, memory_};
   FramePool<frame::Label> labels_{"labels", 4, turns_.decoder().return_capacity(), memory_};
+  std::unique_ptr<frame::TileReader> reader_ = turns_.decoder().make_reader(memory_);
+  threads::WakeEvent points_ready_ = *threads::WakeEvent::make();
   LatestNearGround near_ground_{memory_};
   std::optional<Labeller> labeller_;
   std::vector<status::FrameRecord> records_;
@@ -394,6 +402,58 @@ TEST_F(LiveFrames, TheLastTurnIsLabelledWithoutTheNextWhereThatDoesNotCome) {
   take_records();
   ASSERT_EQ(records_.size(), 3U);
   EXPECT_LT(lag_ns(records_[2]), kDeadline_ns);
+}
+
+TEST_F(LiveFrames, SectorsPutTogetherAreTheFrameThatFollowsThem) {
+  using Points = FramePool<points::LabelledPoint>;
+  Points whole_ones("points", 2, turns_.decoder().return_capacity(), memory_);
+  SectorPool sectors("sectors", 400, 64 * frame::kTileFirings, memory_);
+  begin(0, 10'000, &sectors, &whole_ones);
+  send(drive(4));
+  std::vector<std::vector<points::LabelledPoint>> of_frame(5);
+  int before_its_last_packet = 0;
+  const auto take_sectors = [&] {
+    for (SectorPool::Frame sector; sectors.take(sector); sectors.give_back(true)) {
+      const status::SectorRecord& record = sector.record;
+      std::vector<points::LabelledPoint>& points = of_frame.at(record.frame);
+      EXPECT_EQ(record.first_return, points.size());
+      EXPECT_LE(record.first_packet_ns, record.last_packet_ns);
+      EXPECT_LT(record.last_packet_ns, record.labels_ns);
+      const std::int64_t end_ns = kStart_ns + (record.frame + 1) * kFramePeriod_ns;
+      before_its_last_packet += record.labels_ns < end_ns ? 1 : 0;
+      points.insert(points.end(), sector.items.begin(), sector.items.end());
+    }
+  };
+  std::uint32_t frames = 0;
+  while (source_.has_more()) {
+    (void)labeller_->work_round(100 * kMs);
+    take_sectors();
+    for (Points::Frame whole; whole_ones.take(whole); whole_ones.give_back(true), ++frames) {
+      EXPECT_EQ(whole.record.info.number, frames);
+      std::vector<points::LabelledPoint>& points = of_frame.at(frames);
+      ASSERT_EQ(points.size(), whole.items.size());
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].time_s = whole.items[i].time_s;  // told with the frame alone
+        ASSERT_EQ(points[i], whole.items[i]) << i;
+      }
+    }
+  }
+  EXPECT_EQ(frames, 4U);
+  EXPECT_GT(before_its_last_packet, 100) << "while the rest was still arriving";
+  EXPECT_EQ(sectors.unused(), 0U);
+}
+
+TEST_F(LiveFrames, SectorsThatNobodyTakesAreCountedAndCostNoFrame) {
+  SectorPool sectors("sectors", 2, 64 * frame::kTileFirings, memory_);
+  begin(0, 10'000, &sectors);
+  send(drive(3));
+  run();
+  EXPECT_EQ(sectors.waiting(), 2U);
+  EXPECT_GT(sectors.unused(), 200U);
+  for (const status::FrameRecord& record : records_) {
+    EXPECT_EQ(record.segmentation.labelled(), record.info.returns);
+  }
+  EXPECT_GE(records_.size(), 2U);
 }
 
 TEST_F(LiveFrames, WaitingForACoreIsCountedSinceTheFetchBefore) {

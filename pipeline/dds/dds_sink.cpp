@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "dds_sink.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "calib/mount/mount_pose.hpp"
@@ -56,9 +57,13 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
     const MessageType& type;
     Quality quality;
   };
+  // A turn of them may wait as long as a turn of whole clouds does.
+  Quality of_sectors = config.quality;
+  of_sectors.depth = std::max(of_sectors.depth, 128);
   const Quality latched{.reliable = true, .depth = 1, .latched = true};
   for (const Wanted& wanted :
        {Wanted{sink->points_, config.points, kPointCloud2, config.quality},
+        Wanted{sink->sectors_, config.sectors, kPointCloud2, of_sectors},
         Wanted{sink->ground_, config.ground, kPointCloud2, config.quality},
         Wanted{sink->obstacles_, config.obstacles, kPointCloud2, config.quality},
         Wanted{sink->road_, config.road, kPointCloud2, config.quality},
@@ -119,7 +124,18 @@ void DdsSink::put_points(Writer& writer, const publish::LabelledFrame& frame, Cl
     to = put_point(ros_messages::cloud_point(point, time_of_first_s), to);
   }
   bytes_.resize(static_cast<std::size_t>(to - bytes_.data()));
-  write(*writer, frame, frame_id_, fields_);
+  write(*writer, ros_messages::stamp_ns_of(frame.record), frame_id_, fields_);
+}
+
+Status DdsSink::put_sector(const publish::LabelledSector& sector) {
+  if (!sectors_ || sectors_->readers() == 0) return {};
+  bytes_.resize(sector.points.size() * sizeof(CloudPoint));
+  std::uint8_t* to = bytes_.data();
+  for (const points::LabelledPoint& point : sector.points) {
+    to = put_point(ros_messages::cloud_point(point, 0), to);
+  }
+  write(*sectors_, sector.record.first_packet_ns, frame_id_, fields_);
+  return {};
 }
 
 void DdsSink::put_raw(const publish::LabelledFrame& frame) {
@@ -136,14 +152,14 @@ void DdsSink::put_raw(const publish::LabelledFrame& frame) {
     raw.label = 0;
     to = put_point(raw, to);
   }
-  write(*raw_, frame, sensor_frame_id_, raw_fields_);
+  write(*raw_, ros_messages::stamp_ns_of(frame.record), sensor_frame_id_, raw_fields_);
 }
 
-void DdsSink::write(TopicWriter& writer, const publish::LabelledFrame& frame, std::string& frame_id,
+void DdsSink::write(TopicWriter& writer, std::int64_t stamp_ns, std::string& frame_id,
                     std::vector<sensor_msgs_msg_dds__PointField_>& fields) {
   const auto bytes = static_cast<std::uint32_t>(bytes_.size());
   sensor_msgs_msg_dds__PointCloud2_ cloud{};
-  cloud.header = {ros_time(ros_messages::stamp_ns_of(frame.record)), frame_id.data()};
+  cloud.header = {ros_time(stamp_ns), frame_id.data()};
   cloud.height = 1;
   cloud.width = bytes / sizeof(CloudPoint);
   cloud.fields._buffer = fields.data();
@@ -166,7 +182,7 @@ Status DdsSink::put_figures(const status::MonitorSnapshot& figures) {
 Status DdsSink::finish() {
   // The last messages may still be on their way to reliable readers.
   constexpr std::int64_t kPatience_ns = 1'000'000'000;
-  for (Writer* writer : {&points_, &obstacles_, &ground_, &road_, &raw_}) {
+  for (Writer* writer : {&points_, &sectors_, &obstacles_, &ground_, &road_, &raw_}) {
     if (*writer) (void)(*writer)->is_acknowledged(kPatience_ns);
   }
   return {};

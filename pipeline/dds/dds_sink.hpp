@@ -20,16 +20,17 @@
 
 namespace terracut::dds {
 
-/// Publishes labelled frames as ROS 2 messages: labelled points; ground, obstacles and road
-/// separately; points without labels in the sensor frame, as its driver would send them;
-/// diagnostics; and the sensor's transform.
+/// Publishes labelled frames as ROS 2 messages: labelled points, whole and by sectors; ground,
+/// obstacles and road separately; points without labels in the sensor frame, as its driver would
+/// send them; diagnostics; and the sensor's transform.
 class DdsSink final : public publish::FrameSink {
  public:
   struct Config {
     Participant::Config participant{};
     Quality quality{};
     /// Topics from dds_topic(); an empty topic is not published.
-    std::string points{}, ground{}, obstacles{}, road{}, raw{}, diagnostics{}, tf_static{};
+    std::string points{}, sectors{}, ground{}, obstacles{}, road{}, raw{}, diagnostics{},
+        tf_static{};
     /// How long a frame waits for reliable readers to acknowledge earlier frames; 0: no wait.
     std::int64_t patience_ns = 0;
   };
@@ -39,7 +40,9 @@ class DdsSink final : public publish::FrameSink {
                                                                const publish::RunFacts& facts);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "dds"; }
+  [[nodiscard]] bool wants_sectors() const noexcept override { return sectors_.has_value(); }
   [[nodiscard]] Status put(const publish::LabelledFrame& frame) override;
+  [[nodiscard]] Status put_sector(const publish::LabelledSector& sector) override;
   [[nodiscard]] Status put_figures(const status::MonitorSnapshot& figures) override;
   [[nodiscard]] Status finish() override;
   [[nodiscard]] std::vector<status::NamedCount> losses() const override;
@@ -56,15 +59,15 @@ class DdsSink final : public publish::FrameSink {
   void await_readers();
   void put_points(Writer& writer, const publish::LabelledFrame& frame, ros_messages::CloudOf which);
   void put_raw(const publish::LabelledFrame& frame);
-  /// Publishes the frame's points, which must have been put into bytes_.
-  void write(TopicWriter& writer, const publish::LabelledFrame& frame, std::string& frame_id,
+  /// Publishes the points that have been put into bytes_.
+  void write(TopicWriter& writer, std::int64_t stamp_ns, std::string& frame_id,
              std::vector<sensor_msgs_msg_dds__PointField_>& fields);
 
   Participant participant_;
   Config config_;
   std::string frame_id_, sensor_frame_id_;
   mount::RigidTransform T_lidar_vehicle_{};
-  Writer points_, ground_, obstacles_, road_, raw_, tf_static_;
+  Writer points_, sectors_, ground_, obstacles_, road_, raw_, tf_static_;
   std::optional<DiagnosticsWriter> diagnostics_;
   std::vector<sensor_msgs_msg_dds__PointField_> fields_, raw_fields_;
   std::vector<std::uint8_t> bytes_;  ///< Bytes of the points of one message.

@@ -10,10 +10,11 @@
 namespace terracut::live {
 
 FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
-                         const threads::WakeEvent& ready)
+                         SectorPool* sectors, const threads::WakeEvent& ready)
     : stream_(std::move(stream)),
       publisher_(publisher),
       slots_(slots),
+      sectors_(sectors),
       ready_(ready),
       // A failure of this thread needs no handler: the slots count the frames that nobody takes.
       thread_([this] { work(); }, [](std::string_view) {}) {}
@@ -32,7 +33,11 @@ void FrameOutlet::work() {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   while (true) {
     const bool last_round = finish_;
-    for (Slots::Frame frame; slots_.take(frame);) slots_.give_back(hand_out(frame));
+    hand_out_sectors();
+    for (Slots::Frame frame; slots_.take(frame);) {
+      hand_out_sectors();  // those of a frame come before it
+      slots_.give_back(hand_out(frame));
+    }
     stream::FrameStreamServer* const open = server();
     if (open != nullptr) {
       open->work_round();
@@ -40,6 +45,20 @@ void FrameOutlet::work() {
     }
     if (last_round) return;
     (void)ready_.wait(open != nullptr ? open->descriptor() : -1, kSecond_ns);
+  }
+}
+
+void FrameOutlet::hand_out_sectors() {
+  if (sectors_ == nullptr) return;
+  for (SectorPool::Frame sector; sectors_->take(sector);) {
+    const Status published = rt::caught([&]() -> Status {
+      const auto shared = std::make_shared<publish::LabelledSector>();
+      shared->record = sector.record;
+      shared->points.assign(sector.items.begin(), sector.items.end());
+      publisher_.put_sector(shared);
+      return {};
+    });
+    sectors_->give_back(published.has_value());
   }
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "frame_pool.hpp"
+#include "pipeline/live/sector_pool.hpp"
 #include "pipeline/publish/publisher.hpp"
 #include "pipeline/publish/reopened.hpp"
 #include "pipeline/stream/frame_stream_server.hpp"
@@ -18,7 +19,8 @@
 namespace terracut::live {
 
 /// Takes labelled points from the labelling thread and, on a thread of its own, hands them to the
-/// readers of the stream and to the queue of every other output. The stream needs no queue: its
+/// readers of the stream and to the queue of every other output; to those that want them, sectors,
+/// too. The stream needs no queue: its
 /// server never waits, and a busy reader misses the frame. If the stream's address is in use,
 /// opening it is tried again.
 class FrameOutlet {
@@ -30,9 +32,10 @@ class FrameOutlet {
     std::int64_t deadline_ns;
   };
 
-  /// `ready` is woken when `slots` has a frame, and by finish(). All must outlive this object.
+  /// `ready` is woken when `slots` has a frame or `sectors` a sector, and by finish(). `sectors`
+  /// may be null. All must outlive this object.
   FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
-              const threads::WakeEvent& ready);
+              SectorPool* sectors, const threads::WakeEvent& ready);
   ~FrameOutlet() { begin_to_finish(); }
 
   /// Ends the thread; call it after LiveThreads::stop(). Returns false if the thread does not end
@@ -53,6 +56,8 @@ class FrameOutlet {
   void work();
   /// True if the frame reached all outputs, or every output that missed it has counted it.
   [[nodiscard]] bool hand_out(const Slots::Frame& frame);
+  /// Hands out the sectors that came.
+  void hand_out_sectors();
   [[nodiscard]] bool stream(const Slots::Frame& frame);
   /// Returns the stream's server; null if there is no stream or its address is in use.
   [[nodiscard]] stream::FrameStreamServer* server() {
@@ -62,6 +67,7 @@ class FrameOutlet {
   std::optional<Stream> stream_;
   publish::Publisher& publisher_;
   Slots& slots_;
+  SectorPool* sectors_;
   const threads::WakeEvent& ready_;
   std::atomic<bool> finish_{false};
   std::atomic<std::uint64_t> while_closed_{0};

@@ -13,8 +13,9 @@
 
 namespace terracut::publish {
 
-/// An output of labelled frames. Publisher calls all functions except name(), queue_frames() and
-/// losses() on one thread of the output's own without a deadline; they may block for any time.
+/// An output of labelled frames. Publisher calls all functions except name(), queue_frames(),
+/// wants_sectors() and losses() on one thread of the output's own without a deadline; they may
+/// block for any time.
 class FrameSink {
  public:
   FrameSink() = default;
@@ -27,9 +28,15 @@ class FrameSink {
   /// Returns how many frames may wait for the output, >= 1; more if it stalls at times.
   [[nodiscard]] virtual std::size_t queue_frames() const noexcept { return 2; }
 
+  /// True if the output also takes the sectors of each frame.
+  [[nodiscard]] virtual bool wants_sectors() const noexcept { return false; }
+
   /// Takes a frame, valid during the call. After an error no function of the output is called any
   /// more, not even finish().
   [[nodiscard]] virtual Status put(const LabelledFrame& frame) = 0;
+  /// Takes a sector, valid during the call; those of a frame come before the frame. An error ends
+  /// the output, as in put().
+  [[nodiscard]] virtual Status put_sector(const LabelledSector& /*sector*/) { return {}; }
   /// Takes the run's figures, about once a second. An error ends the output, as in put().
   [[nodiscard]] virtual Status put_figures(const status::MonitorSnapshot& /*figures*/) {
     return {};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/points/labelled_point.hpp"
+#include "pipeline/points/sector_record.hpp"
 #include "pipeline/status/frame_record.hpp"
 
 namespace terracut::publish {
@@ -16,7 +17,15 @@ struct LabelledFrame {
   std::vector<points::LabelledPoint> points;  ///< Returns of the frame in order of arrival.
 };
 
-/// A frame that all outputs share and nobody changes.
+/// A labelled sector on its way to the same outputs, before its frame. The time_s of its points is
+/// 0.
+struct LabelledSector {
+  points::SectorRecord record;
+  std::vector<points::LabelledPoint> points;  ///< Returns of the sector in order of arrival.
+};
+
+/// A frame or a sector that all outputs share and nobody changes.
 using SharedFrame = std::shared_ptr<const LabelledFrame>;
+using SharedSector = std::shared_ptr<const LabelledSector>;
 
 }  // namespace terracut::publish

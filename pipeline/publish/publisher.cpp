@@ -28,6 +28,17 @@ void Publisher::put(const SharedFrame& frame) {
   for (const auto& worker : workers_) worker->put(frame);
 }
 
+bool Publisher::wants_sectors() const noexcept {
+  return std::ranges::any_of(workers_,
+                             [](const auto& worker) { return worker->sink().wants_sectors(); });
+}
+
+void Publisher::put_sector(const SharedSector& sector) {
+  for (const auto& worker : workers_) {
+    if (worker->sink().wants_sectors()) worker->put_sector(sector);
+  }
+}
+
 void Publisher::put_figures(const status::MonitorSnapshot& figures) {
   if (workers_.empty()) return;
   const auto shared = std::make_shared<const status::MonitorSnapshot>(figures);
@@ -59,6 +70,10 @@ std::vector<status::NamedCount> Publisher::losses(bool over) const {
   for (const auto& worker : workers_) {
     const std::string name = fmt::format("{}_frames_left_out", worker->sink().name());
     losses.push_back({{name}, worker->left_out() + (over ? worker->waiting() : 0)});
+    if (worker->sink().wants_sectors()) {
+      losses.push_back({{fmt::format("{}_sectors_left_out", worker->sink().name())},
+                        worker->sectors_left_out()});
+    }
     std::ranges::move(worker->sink().losses(), std::back_inserter(losses));
   }
   return losses;

@@ -26,12 +26,17 @@ class Publisher {
   Publisher(Sinks sinks, WhenFull when_full, SinkWorker::OnFailure on_failure);
 
   [[nodiscard]] bool has_sinks() const noexcept { return !workers_.empty(); }
+  /// True if some output wants the sectors of each frame.
+  [[nodiscard]] bool wants_sectors() const noexcept;
 
   /// Returns room for the next frame. With kWait, waits until an output has finished with a frame;
   /// otherwise never waits.
   [[nodiscard]] std::shared_ptr<LabelledFrame> buffer() { return buffers_.take(); }
   /// Hands out a frame, which may not be changed any more.
   void put(const SharedFrame& frame);
+  /// Hands a sector, which may not be changed any more, to the outputs that want sectors; those of
+  /// a frame before the frame. Never waits.
+  void put_sector(const SharedSector& sector);
   /// Hands out figures. May be called from one other thread.
   void put_figures(const status::MonitorSnapshot& figures);
 
@@ -42,8 +47,8 @@ class Publisher {
 
   /// Returns the first error of any output. This and the next function may be called on any thread.
   [[nodiscard]] Status outcome() const;
-  /// Returns each output's left-out frames (NAME_frames_left_out) and the output's own losses. If
-  /// `over` is true, frames that still wait count as lost.
+  /// Returns each output's left-out frames (NAME_frames_left_out), sectors likewise, and the
+  /// output's own losses. If `over` is true, frames that still wait count as lost.
   [[nodiscard]] std::vector<status::NamedCount> losses(bool over = false) const;
 
  private:

@@ -32,6 +32,7 @@ RetriedSink::RetriedSink(Config config)
     : name_(std::move(config.name)),
       queue_frames_(config.queue_frames),
       inner_(std::move(config.inner)),
+      wants_sectors_(config.wants_sectors),
       is_to_be_whole_(config.is_to_be_whole) {}
 
 FrameSink* RetriedSink::inner() {
@@ -50,22 +51,31 @@ void RetriedSink::give_up(const Error& error) {
   inner_.give_up(error);
 }
 
+template <class Put>
+bool RetriedSink::passed_on(Put&& put) {
+  FrameSink* const sink = inner();
+  if (sink == nullptr) return false;
+  const Status taken = rt::caught([&] { return put(*sink); });
+  if (!taken) give_up(taken.error());
+  return taken.has_value();
+}
+
 Status RetriedSink::put(const LabelledFrame& frame) {
-  if (FrameSink* const sink = inner()) {
-    const Status taken = rt::caught([&] { return sink->put(frame); });
-    if (taken) return {};
-    give_up(taken.error());
-  }
+  if (passed_on([&](FrameSink& sink) { return sink.put(frame); })) return {};
   const std::scoped_lock lock(mutex_);
   ++while_closed_;
   return {};
 }
 
+Status RetriedSink::put_sector(const LabelledSector& sector) {
+  if (passed_on([&](FrameSink& sink) { return sink.put_sector(sector); })) return {};
+  const std::scoped_lock lock(mutex_);
+  ++sectors_while_closed_;
+  return {};
+}
+
 Status RetriedSink::put_figures(const status::MonitorSnapshot& figures) {
-  if (FrameSink* const sink = inner()) {
-    const Status taken = rt::caught([&] { return sink->put_figures(figures); });
-    if (!taken) give_up(taken.error());
-  }
+  (void)passed_on([&](FrameSink& sink) { return sink.put_figures(figures); });
   return {};
 }
 
@@ -82,6 +92,9 @@ std::vector<status::NamedCount> RetriedSink::losses() const {
   const std::scoped_lock lock(mutex_);
   std::vector<status::NamedCount> losses{
       {{fmt::format("{}_frames_while_closed", name_)}, while_closed_}};
+  if (wants_sectors_) {
+    losses.push_back({{fmt::format("{}_sectors_while_closed", name_)}, sectors_while_closed_});
+  }
   add(losses, before_);
   if (shown_ != nullptr) add(losses, shown_->losses());
   return losses;

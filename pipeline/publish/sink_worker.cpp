@@ -33,6 +33,22 @@ void SinkWorker::put(SharedFrame frame) {
   came_.notify_one();
 }
 
+void SinkWorker::put_sector(SharedSector sector) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (failure_) {
+      ++sectors_left_out_;
+      return;
+    }
+    if (sectors_.size() == kMostSectors) {
+      sectors_.pop_front();
+      ++sectors_left_out_;
+    }
+    sectors_.push_back(std::move(sector));
+  }
+  came_.notify_one();
+}
+
 void SinkWorker::put_figures(std::shared_ptr<const status::MonitorSnapshot> figures) {
   {
     const std::scoped_lock lock(mutex_);
@@ -55,6 +71,11 @@ std::uint64_t SinkWorker::left_out() const {
   return left_out_;
 }
 
+std::uint64_t SinkWorker::sectors_left_out() const {
+  const std::scoped_lock lock(mutex_);
+  return sectors_left_out_;
+}
+
 std::uint64_t SinkWorker::waiting() const {
   const std::scoped_lock lock(mutex_);
   return frames_.size() + (is_working_ ? 1 : 0);
@@ -65,11 +86,21 @@ std::optional<Error> SinkWorker::failure() const {
   return failure_;
 }
 
+bool SinkWorker::is_sector_next() const {
+  return !sectors_.empty() &&
+         (frames_.empty() || sectors_.front()->record.frame <= frames_.front()->record.info.number);
+}
+
 std::optional<SinkWorker::Work> SinkWorker::next() {
   std::unique_lock lock(mutex_);
   is_working_ = false;
-  came_.wait(lock, [this] { return finish_ || figures_ || !frames_.empty(); });
-  Work work{.frame = {}, .figures = std::exchange(figures_, nullptr)};
+  came_.wait(lock, [this] { return finish_ || figures_ || !frames_.empty() || !sectors_.empty(); });
+  Work work{.sector = {}, .frame = {}, .figures = std::exchange(figures_, nullptr)};
+  if (is_sector_next()) {
+    work.sector = std::move(sectors_.front());
+    sectors_.pop_front();
+    return work;
+  }
   if (frames_.empty()) return work.figures ? std::optional(std::move(work)) : std::nullopt;
   work.frame = std::move(frames_.front());
   frames_.pop_front();
@@ -83,8 +114,10 @@ void SinkWorker::fail(const Error& error) {
   {
     const std::scoped_lock lock(mutex_);
     left_out_ += frames_.size() + (is_working_ ? 1 : 0);
+    sectors_left_out_ += sectors_.size();
     is_working_ = false;
     frames_.clear();
+    sectors_.clear();
     figures_ = nullptr;
     failure_ = error;
   }
@@ -96,6 +129,7 @@ void SinkWorker::work() {
   while (const auto work = next()) {
     Status status;
     if (work->figures) status = sink_->put_figures(*work->figures);
+    if (status && work->sector) status = sink_->put_sector(*work->sector);
     if (status && work->frame) status = sink_->put(*work->frame);
     if (!status) return fail(status.error());
   }

@@ -38,6 +38,9 @@ class SinkWorker {
   // For one thread:
 
   void put(SharedFrame frame);
+  /// Hands over a sector of a frame that comes later. Never waits: the oldest waiting sector is
+  /// left out and counted. Only for a sink that wants sectors.
+  void put_sector(SharedSector sector);
   /// Hands over figures; figures that the sink has not taken yet are replaced.
   void put_figures(std::shared_ptr<const status::MonitorSnapshot> figures);
   /// Lets the thread write all that waits and then end.
@@ -52,19 +55,25 @@ class SinkWorker {
   [[nodiscard]] const FrameSink& sink() const noexcept { return *sink_; }
   /// Returns how many frames were left out for lack of room or after a failure.
   [[nodiscard]] std::uint64_t left_out() const;
+  [[nodiscard]] std::uint64_t sectors_left_out() const;
   /// Returns how many frames wait or are being written; they are lost if the sink hangs for good.
   [[nodiscard]] std::uint64_t waiting() const;
   /// Returns the first error, if any; after it the sink got nothing more.
   [[nodiscard]] std::optional<Error> failure() const;
 
  private:
+  static constexpr std::size_t kMostSectors = 256;  // more than a turn has
+
   void work();
   /// The next piece of work for the thread; empty at the end.
   struct Work {
+    SharedSector sector;
     SharedFrame frame;
     std::shared_ptr<const status::MonitorSnapshot> figures;
   };
   [[nodiscard]] std::optional<Work> next();
+  /// True if a sector waits that comes before the oldest waiting frame.
+  [[nodiscard]] bool is_sector_next() const;
   void fail(const Error& error);
 
   std::unique_ptr<FrameSink> sink_;
@@ -74,8 +83,9 @@ class SinkWorker {
   mutable std::mutex mutex_;  ///< Shared by threads without a deadline.
   std::condition_variable came_, went_;
   std::deque<SharedFrame> frames_;
+  std::deque<SharedSector> sectors_;
   std::shared_ptr<const status::MonitorSnapshot> figures_;
-  std::uint64_t left_out_ = 0;
+  std::uint64_t left_out_ = 0, sectors_left_out_ = 0;
   bool is_working_ = false, finish_ = false;
   std::optional<Error> failure_;
 

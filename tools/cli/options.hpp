@@ -84,6 +84,7 @@ struct DdsOptions {
   DdsPreset preset = DdsPreset::kRos;
   std::string points, ground, obstacles, road;  ///< Topics; empty: the preset's; "off": none.
   std::string diagnostics = "/diagnostics";     ///< Topic; "off": none.
+  std::string sectors;                          ///< Topic of labelled sectors; empty: none.
   std::string raw;  ///< Topic of unlabelled clouds, as a driver sends them; empty: labelled.
   bool reliable = true;
   int depth = 5;

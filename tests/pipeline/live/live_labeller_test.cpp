@@ -414,7 +414,7 @@ TEST_F(LiveFrames, SectorsPutTogetherAreTheFrameThatFollowsThem) {
   int before_its_last_packet = 0;
   const auto take_sectors = [&] {
     for (SectorPool::Frame sector; sectors.take(sector); sectors.give_back(true)) {
-      const status::SectorRecord& record = sector.record;
+      const points::SectorRecord& record = sector.record;
       std::vector<points::LabelledPoint>& points = of_frame.at(record.frame);
       EXPECT_EQ(record.first_return, points.size());
       EXPECT_LE(record.first_packet_ns, record.last_packet_ns);

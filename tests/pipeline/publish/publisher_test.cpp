@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -80,6 +81,35 @@ class WatchedSink final : public FrameSink {
   Watched& watched_;
 };
 
+/// Notes the order of what comes: a frame as its number, a sector as 100 + that of its frame.
+class SectorSink final : public FrameSink {
+ public:
+  explicit SectorSink(Watched& watched) : watched_(watched) {}
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "sectors"; }
+  [[nodiscard]] bool wants_sectors() const noexcept override { return true; }
+  [[nodiscard]] Status put(const LabelledFrame& frame) override {
+    note(frame.record.info.number);
+    return {};
+  }
+  [[nodiscard]] Status put_sector(const LabelledSector& sector) override {
+    note(100 + sector.record.frame);
+    return {};
+  }
+
+ private:
+  void note(std::uint32_t number) {
+    std::unique_lock lock(watched_.mutex);
+    watched_.begun.push_back(number);
+    watched_.changed.notify_all();
+    watched_.changed.wait(lock, [&] { return watched_.is_open; });
+    watched_.done.push_back(number);
+    watched_.changed.notify_all();
+  }
+
+  Watched& watched_;
+};
+
 class PublisherTest : public testing::Test {
  protected:
   Publisher& make(WhenFull when_full) {
@@ -132,6 +162,54 @@ TEST_F(PublisherTest, AnOutputThatStopsLosesTheOldestCountedAndHoldsUpNoOther) {
   EXPECT_EQ(slow_.finished, 1);
   EXPECT_EQ(loss(publisher, "slow_frames_left_out", true), 7U);
   EXPECT_TRUE(publisher.outcome());
+}
+
+TEST_F(PublisherTest, SectorsComeBeforeTheirFrameToWhoeverWantsThem) {
+  Publisher::Sinks sinks;
+  sinks.push_back(std::make_unique<SectorSink>(slow_));
+  sinks.push_back(std::make_unique<WatchedSink>("quick", quick_));
+  Publisher publisher(std::move(sinks), WhenFull::kDropOldest, [](auto, const Error&) {});
+  EXPECT_TRUE(publisher.wants_sectors());
+  const auto put_sector = [&](std::uint32_t frame) {
+    const auto sector = std::make_shared<LabelledSector>();
+    sector->record.frame = frame;
+    publisher.put_sector(sector);
+  };
+  slow_.set_open(false);
+  put_sector(0);
+  slow_.wait_until([&] { return slow_.begun.size() == 1; });
+  put_sector(0);
+  put(publisher, 0);
+  put_sector(1);
+  put_sector(1);
+  put(publisher, 1);
+  put_sector(2);
+  slow_.set_open(true);
+  EXPECT_TRUE(publisher.finish(std::nullopt));
+  EXPECT_EQ(slow_.done, (Numbers{100, 100, 0, 101, 101, 1, 102}));
+  EXPECT_EQ(quick_.done, (Numbers{0, 1}));
+  EXPECT_EQ(loss(publisher, "sectors_sectors_left_out"), 0U);
+}
+
+TEST_F(PublisherTest, SectorsThatAnOutputHasNoTimeForAreCountedAndCostItNoFrame) {
+  Publisher::Sinks sinks;
+  sinks.push_back(std::make_unique<SectorSink>(slow_));
+  Publisher publisher(std::move(sinks), WhenFull::kDropOldest, [](auto, const Error&) {});
+  slow_.set_open(false);
+  put(publisher, 0);
+  slow_.wait_until([&] { return slow_.begun.size() == 1; });
+  constexpr std::uint32_t kSent = 1000;
+  const auto sector = std::make_shared<LabelledSector>();
+  sector->record.frame = 1;
+  for (std::uint32_t i = 0; i < kSent; ++i) publisher.put_sector(sector);
+  put(publisher, 1);
+  slow_.set_open(true);
+  EXPECT_TRUE(publisher.finish(std::nullopt));
+  const auto came = static_cast<std::uint64_t>(std::ranges::count(slow_.done, 101U));
+  EXPECT_GT(came, 100U) << "a turn of them";
+  EXPECT_EQ(came + loss(publisher, "sectors_sectors_left_out"), kSent);
+  EXPECT_EQ(slow_.done.front(), 0U);
+  EXPECT_EQ(slow_.done.back(), 1U);
 }
 
 TEST_F(PublisherTest, OfARecordingNothingIsLostHoweverSlowAnOutputIs) {

@@ -167,6 +167,7 @@ live::LiveConfig live_config_of(const Options& options, const streams::SensorOnA
       .longest_gathering_ns = static_cast<std::int64_t>(options.listen.gather_ms * 1e6),
       .keeps_labels = !options.output.labels.empty(),
       .keeps_points = wants_points,
+      .keeps_sectors = wants_sectors(options.output),
       .compares_tables = !options.capture.calibration.empty(),
       .thread = live::thread_request("tc-label", realtime.priority, realtime.core)};
   config.recorder_seconds = keeps_packets(options) ? options.recorder.seconds : 0;
@@ -202,7 +203,7 @@ class Writers {
                   sensor.model, deadline_ns};
       }
       outlet_.emplace(std::move(stream), *publisher_, *parts.thread.points(),
-                      parts.thread.points_ready());
+                      parts.thread.sectors(), parts.thread.points_ready());
     }
     if (parts.thread.labels()) labels_.emplace(options.output, *parts.thread.labels());
     if (parts.recorder) {

@@ -146,6 +146,8 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
     more.push_back({"unwritten_label_frames", lost(parts_.thread.labels())});
   if (parts_.thread.points())
     more.push_back({unpublished_name(options_), lost(parts_.thread.points())});
+  if (parts_.thread.sectors())
+    more.push_back({"unpublished_sectors", lost(parts_.thread.sectors())});
   if (outlet_ != nullptr && outlet_->has_stream()) {
     const stream::FrameStreamFigures& stream = outlet_->figures();
     more.insert(more.end(), {{"stream_frames_missed", stream.missed},

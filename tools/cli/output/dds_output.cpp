@@ -26,6 +26,7 @@ DdsTopics dds_topics_of(const DdsOptions& options) {
       topics = {.ground = "/ground_points", .obstacles = "/nonground_points"};
       break;
   }
+  if (options.sectors != "off") topics.sectors = options.sectors;
   if (!options.raw.empty() && options.raw != "off") topics = {.raw = options.raw};
   const auto state = [](const std::string& stated, std::string& topic) {
     if (!stated.empty()) topic = stated == "off" ? "" : stated;
@@ -52,7 +53,8 @@ std::string dds_topic_of(const std::string& name, const DdsOptions& options) {
 std::string topic_list(const DdsOptions& options) {
   const DdsTopics topics = dds_topics_of(options);
   std::string list;
-  for (const std::string& topic : {topics.points, topics.ground, topics.obstacles, topics.raw}) {
+  for (const std::string& topic :
+       {topics.points, topics.sectors, topics.ground, topics.obstacles, topics.raw}) {
     const std::string name = dds_topic_of(topic, options);
     if (!name.empty()) list += (list.empty() ? "" : ", ") + name.substr(2);  // without "rt"
   }
@@ -71,6 +73,7 @@ Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& op
   auto sink = dds::DdsSink::open({.participant = participant_config_of(options),
                                   .quality = {.reliable = options.reliable, .depth = options.depth},
                                   .points = topic(topics.points),
+                                  .sectors = topic(topics.sectors),
                                   .ground = topic(topics.ground),
                                   .obstacles = topic(topics.obstacles),
                                   .road = facts.has_road ? topic(topics.road) : "",

@@ -70,6 +70,7 @@ struct Output {
   std::string name;
   std::function<Expected<Sink>()> open;
   std::size_t queue_frames = 2;
+  bool wants_sectors = false;
   bool is_to_be_whole = false;
 };
 
@@ -90,6 +91,7 @@ std::vector<Output> outputs_of(const OutputOptions& options, publish::RunFacts f
   if (options.dds.publishes) {
     outputs.push_back({.name = "dds",
                        .open = [=] { return open_dds_sink(options.dds, facts); },
+                       .wants_sectors = wants_sectors(options),
                        .is_to_be_whole = true});
   }
   if (wants_view(options)) {
@@ -129,6 +131,10 @@ bool wants_sinks(const OutputOptions& options) {
          wants_view(options);
 }
 
+bool wants_sectors(const OutputOptions& options) {
+  return options.dds.publishes && !dds_topics_of(options.dds).sectors.empty();
+}
+
 Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
                                                publish::RunFacts facts) {
   publish::Publisher::Sinks sinks;
@@ -149,6 +155,7 @@ publish::Publisher::Sinks retried_sinks(const OutputOptions& options, publish::R
     sinks.push_back(std::make_unique<publish::RetriedSink>(
         publish::RetriedSink::Config{.name = output.name,
                                      .queue_frames = output.queue_frames,
+                                     .wants_sectors = output.wants_sectors,
                                      .inner = {.open = std::move(output.open), .on_news = tell},
                                      .is_to_be_whole = output.is_to_be_whole}));
   }

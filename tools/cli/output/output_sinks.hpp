@@ -15,6 +15,8 @@ namespace terracut::cli {
 
 /// True if an output is requested that needs every frame with its points, not only labels.
 [[nodiscard]] bool wants_sinks(const OutputOptions& options);
+/// True if an output takes the sectors of each frame.
+[[nodiscard]] bool wants_sectors(const OutputOptions& options);
 
 /// Opens the requested outputs: creates files, binds ports, and prints both. Returns the first
 /// error. `facts` gets its names of coordinate frames from `options`.

@@ -270,6 +270,8 @@ constexpr std::array kSettings{
             .bare = "yes", .field = [](O& o) -> F { return &o.output.dds.publishes; }},
     Setting{.key = "dds.raw", .option = "--raw", .commands = kFrames | C::kLive, .help = "Publish the sensor's points without labels instead, in its own frame, as a driver would and `terracut node` takes them; a topic, or /points_raw",
             .form = TextForm::kTopic, .bare = "/points_raw", .needs = "--dds", .field = [](O& o) -> F { return &o.output.dds.raw; }},
+    Setting{.key = "dds.sectors", .option = "--sectors", .commands = C::kLive, .help = "Also publish each sector's labelled points as soon as they are known, some milliseconds after they were measured; a topic, or ~/sectors",
+            .form = TextForm::kTopic, .bare = "~/sectors", .needs = "--dds", .field = [](O& o) -> F { return &o.output.dds.sectors; }},
     Setting{.key = "dds.in", .option = "--in", .commands = C::kNode, .help = "Topic of the clouds to label",
             .form = TextForm::kTopic, .field = [](O& o) -> F { return &o.output.dds.in; }},
     Setting{.key = "dds.in_reliable", .option = "--in-reliable", .commands = C::kNode, .help = "Ask for lost parts of them again; only writers that are reliable are heard then",

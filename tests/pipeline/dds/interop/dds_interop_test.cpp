@@ -12,8 +12,10 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "cloud_pattern.hpp"
+#include "pipeline/dds/cloud_reader.hpp"
 #include "pipeline/dds/dds_sink.hpp"
 #include "tests/support/places.hpp"
 #include "tests/tools/cli/background_program.hpp"
@@ -89,6 +91,68 @@ TEST_F(DdsInterop, APlainCycloneReaderWithSensorDataQosReadsEveryFrame) {
   BackgroundProgram reader(folder_, "plain", reader_arguments(), TERRACUT_PLAIN_READER);
   EXPECT_EQ(send(kFrames, *sink, reader), kFrames);
   EXPECT_EQ(reader.end().exit_code, 0);
+}
+
+TEST_F(DdsInterop, SectorsOfALiveRunPutTogetherAreItsTurns) {
+  const auto participant = dds::Participant::open({.domain = domain_, .interface = {}});
+  ASSERT_TRUE(participant) << participant.error().message;
+  auto turns = dds::CloudReader::open(*participant, "rt/terracut/points", false);
+  auto sectors = dds::CloudReader::open(*participant, "rt/terracut/sectors", false);
+  ASSERT_TRUE(turns && sectors);
+  const int port = 24'000 + static_cast<int>(::getpid() % 2000);
+  BackgroundProgram simulated(folder_, "simulate",
+                              "simulate --scene flat --duration 1 -o drive.pcap");
+  ASSERT_EQ(simulated.end().exit_code, 0);
+  BackgroundProgram live(
+      folder_, "live",
+      "live --calibration drive.calibration.xml --mount-height 1.73 "
+      "--mount-roll 0 --mount-pitch 0 --priority 0 --duration 120 --dds --sectors "
+      "--dds-interface lo --listen 127.0.0.1:" +
+          std::to_string(port) + " --dds-domain " + std::to_string(domain_));
+  BackgroundProgram sender(folder_, "send",
+                           "send drive.pcap --loop 100 --to 127.0.0.1:" + std::to_string(port));
+
+  struct Came {
+    std::int64_t stamp_ns;
+    std::uint32_t points;
+  };
+  std::vector<Came> of_turns, of_sectors;
+  const auto take_all = [](dds::CloudReader& reader, std::vector<Came>& came) {
+    while (const dds::TakenCloud cloud = reader.take()) {
+      const auto& stamp = cloud->header.stamp;
+      came.push_back({std::int64_t{stamp.sec} * 1'000'000'000 + stamp.nanosec, cloud->width});
+    }
+  };
+  // A turn's first sector begins beside its first packet, as does the last one of the turn before.
+  const auto is_whole = [&](const Came& turn) {
+    for (auto first = of_sectors.begin(); first != of_sectors.end(); ++first) {
+      if (std::abs(first->stamp_ns - turn.stamp_ns) > 5'000'000) continue;
+      std::uint32_t points = 0;
+      for (auto at = first; at != of_sectors.end() && points < turn.points; ++at) {
+        points += at->points;
+      }
+      if (points == turn.points) return true;
+    }
+    return false;
+  };
+  // A reader that is late misses some; one turn of which it has all says what is to be said.
+  bool one_is_whole = false;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!one_is_whole && std::chrono::steady_clock::now() < end) {
+    sectors->wait(5'000'000);
+    take_all(*sectors, of_sectors);
+    const std::size_t before = of_turns.size();
+    take_all(*turns, of_turns);
+    for (std::size_t i = before; i < of_turns.size() && !one_is_whole; ++i) {
+      one_is_whole = is_whole(of_turns[i]);
+    }
+  }
+  live.interrupt();
+  sender.interrupt();
+  const cli::Outcome ended = live.end();
+  (void)sender.end();
+  EXPECT_TRUE(one_is_whole) << of_turns.size() << " turns, " << of_sectors.size() << " sectors\n"
+                            << ended.out << ended.err;
 }
 
 TEST_F(DdsInterop, WiresharksDissectorShowsTopicAndType) {

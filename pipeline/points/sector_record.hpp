@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace terracut::status {
+namespace terracut::points {
 
 /// Says which part of a frame a sector is: the returns of a tile of firings, labelled while the
 /// rest of the frame may still be arriving.
@@ -16,4 +16,4 @@ struct SectorRecord {
   std::int64_t labels_ns = 0;  ///< Time of day when its labels were known.
 };
 
-}  // namespace terracut::status
+}  // namespace terracut::points

@@ -132,7 +132,8 @@ bool wants_sinks(const OutputOptions& options) {
 }
 
 bool wants_sectors(const OutputOptions& options) {
-  return options.dds.publishes && !dds_topics_of(options.dds).sectors.empty();
+  const std::string& sectors = options.dds.sectors;
+  return options.dds.publishes && !sectors.empty() && sectors != "off";
 }
 
 Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,

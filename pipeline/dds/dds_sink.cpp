@@ -94,11 +94,15 @@ Status DdsSink::write_mount(const publish::RunFacts& facts) {
 
 Status DdsSink::put(const publish::LabelledFrame& frame) {
   await_readers();
+  const auto put_cloud = [&](Writer& writer, CloudOf which) {
+    put_points(writer, frame.points, ros_messages::stamp_ns_of(frame.record),
+               time_of_first_s_of(frame), which);
+  };
   // Obstacles are published first, because planners stop for them.
-  put_points(obstacles_, frame, CloudOf::kObstacles);
-  put_points(ground_, frame, CloudOf::kGround);
-  put_points(road_, frame, CloudOf::kRoad);
-  put_points(points_, frame, CloudOf::kAll);
+  put_cloud(obstacles_, CloudOf::kObstacles);
+  put_cloud(ground_, CloudOf::kGround);
+  put_cloud(road_, CloudOf::kRoad);
+  put_cloud(points_, CloudOf::kAll);
   put_raw(frame);
   return {};
 }
@@ -114,28 +118,22 @@ void DdsSink::await_readers() {
   if (behind_ > config_.quality.depth) unacknowledged_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void DdsSink::put_points(Writer& writer, const publish::LabelledFrame& frame, CloudOf which) {
+Status DdsSink::put_sector(const publish::LabelledSector& sector) {
+  put_points(sectors_, sector.points, sector.record.first_packet_ns, 0, CloudOf::kAll);
+  return {};
+}
+
+void DdsSink::put_points(Writer& writer, std::span<const points::LabelledPoint> points,
+                         std::int64_t stamp_ns, float time_of_first_s, CloudOf which) {
   if (!writer || writer->readers() == 0) return;
-  bytes_.resize(frame.points.size() * sizeof(CloudPoint));
+  bytes_.resize(points.size() * sizeof(CloudPoint));
   std::uint8_t* to = bytes_.data();
-  const float time_of_first_s = time_of_first_s_of(frame);
-  for (const points::LabelledPoint& point : frame.points) {
+  for (const points::LabelledPoint& point : points) {
     if (!ros_messages::belongs_to(which, point.label)) continue;
     to = put_point(ros_messages::cloud_point(point, time_of_first_s), to);
   }
   bytes_.resize(static_cast<std::size_t>(to - bytes_.data()));
-  write(*writer, ros_messages::stamp_ns_of(frame.record), frame_id_, fields_);
-}
-
-Status DdsSink::put_sector(const publish::LabelledSector& sector) {
-  if (!sectors_ || sectors_->readers() == 0) return {};
-  bytes_.resize(sector.points.size() * sizeof(CloudPoint));
-  std::uint8_t* to = bytes_.data();
-  for (const points::LabelledPoint& point : sector.points) {
-    to = put_point(ros_messages::cloud_point(point, 0), to);
-  }
-  write(*sectors_, sector.record.first_packet_ns, frame_id_, fields_);
-  return {};
+  write(*writer, stamp_ns, frame_id_, fields_);
 }
 
 void DdsSink::put_raw(const publish::LabelledFrame& frame) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,7 +58,10 @@ class DdsSink final : public publish::FrameSink {
   explicit DdsSink(Participant participant) noexcept : participant_(std::move(participant)) {}
   [[nodiscard]] Status write_mount(const publish::RunFacts& facts);
   void await_readers();
-  void put_points(Writer& writer, const publish::LabelledFrame& frame, ros_messages::CloudOf which);
+  /// Publishes those of the points that belong to a cloud. `time_of_first_s` is added to their
+  /// times.
+  void put_points(Writer& writer, std::span<const points::LabelledPoint> points,
+                  std::int64_t stamp_ns, float time_of_first_s, ros_messages::CloudOf which);
   void put_raw(const publish::LabelledFrame& frame);
   /// Publishes the points that have been put into bytes_.
   void write(TopicWriter& writer, std::int64_t stamp_ns, std::string& frame_id,

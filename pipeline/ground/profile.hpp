@@ -29,6 +29,12 @@ struct SegmenterConfig {
   min_cut::GridCut::Config min_cut;
   stage::ReturnLabels::Config returns;
   road::RoadSurface::Config road;
+
+  /// Returns the height above the ground below which returns are counted as ghosts
+  /// (stage::SegmentationReport::below), metres.
+  [[nodiscard]] float ghost_limit_m() const noexcept {
+    return -2 * elevation_map.obstacle_height_m;
+  }
 };
 
 /// Returns the default profile: the paper's structure with measured improvements

@@ -10,7 +10,7 @@ Segmenter::Segmenter(const SegmenterConfig& config, const mount::RingProfile& pr
                      frame::ImageShape shape, std::size_t return_capacity,
                      memory::FixedMemory& memory)
     : last_stage_(config.last_stage),
-      below_m_(-2 * config.elevation_map.obstacle_height_m),
+      below_m_(config.ghost_limit_m()),
       planes_(shape, memory),
       coarse_(config, profile, shape, memory),
       fine_(config, profile, shape, memory),

@@ -14,35 +14,51 @@
 
 namespace terracut::test {
 
+/// A reader that keeps the open tile as it is, for tests that make points of it in their own way.
+template <std::size_t Lasers>
+class HeldTileReader : public frame::TileReader {
+ public:
+  void open(const frame::TileHeads& heads,
+            const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING final {
+    heads_ = heads;
+    raw_ = raw;
+  }
+  [[nodiscard]] std::span<const std::int32_t> rows() const noexcept TERRACUT_NONBLOCKING final {
+    return rows_;
+  }
+
+ protected:
+  explicit HeldTileReader(const std::array<std::int32_t, Lasers>& rows) : rows_(rows) {}
+
+  [[nodiscard]] std::uint16_t raw(std::size_t laser, std::size_t firing) const noexcept {
+    return raw_[laser * frame::kTileFirings + firing];
+  }
+
+  frame::TileHeads heads_{};
+  std::array<std::int32_t, Lasers> rows_;
+
+ private:
+  const std::uint16_t* raw_ = nullptr;
+};
+
 inline constexpr std::size_t kPlainLasers = 8;
 
 /// Points that tell where they were measured: x is the wire distance, y the head's azimuth, z the
 /// laser; the range is x. Laser i is of row 7 - i.
-class PlainReader final : public frame::TileReader {
+class PlainReader final : public HeldTileReader<kPlainLasers> {
  public:
-  void open(const frame::TileHeads& heads,
-            const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING override {
-    heads_ = heads;
-    raw_ = raw;
-  }
+  PlainReader() : HeldTileReader({7, 6, 5, 4, 3, 2, 1, 0}) {}
+
   void compute_points(std::size_t laser,
                       const frame::PointsOut& out) noexcept TERRACUT_NONBLOCKING override {
     for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
-      const auto raw = static_cast<float>(raw_[laser * frame::kTileFirings + f]);
-      out.x_m[f] = out.ground_range_m[f] = raw;
+      const auto distance = static_cast<float>(raw(laser, f));
+      out.x_m[f] = out.ground_range_m[f] = distance;
       out.y_m[f] = static_cast<float>(heads_.head_cdeg[f]);
-      out.z_m[f] = raw == 0 ? frame::kNoHeight_m : static_cast<float>(laser);
+      out.z_m[f] = distance == 0 ? frame::kNoHeight_m : static_cast<float>(laser);
     }
   }
-  [[nodiscard]] std::span<const std::int32_t> rows() const noexcept TERRACUT_NONBLOCKING override {
-    return rows_;
-  }
   void set_row(std::size_t laser, std::int32_t row) { rows_[laser] = row; }
-
- private:
-  frame::TileHeads heads_{};
-  const std::uint16_t* raw_ = nullptr;
-  std::array<std::int32_t, kPlainLasers> rows_{7, 6, 5, 4, 3, 2, 1, 0};
 };
 
 /// One tile, of which nothing was measured yet.

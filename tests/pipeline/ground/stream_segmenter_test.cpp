@@ -8,11 +8,13 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include "pipeline/ground/segmenter.hpp"
+#include "tests/firmware_io/frame/plain_tiles.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/synthetic_frame.hpp"
 
@@ -24,19 +26,14 @@ constexpr auto kLasers = static_cast<std::size_t>(kShape.rows);
 constexpr int kTile = int{frame::kTileFirings};
 
 /// Reads tiles of images: a firing is a column, a wire distance says whether there is a return.
-class ImageReader final : public frame::TileReader {
+class ImageReader final : public test::HeldTileReader<kLasers> {
  public:
-  explicit ImageReader(const frame::RangeImage& image) {
-    for (std::size_t i = 0; i < kLasers; ++i) rows_[i] = static_cast<std::int32_t>(i);
+  explicit ImageReader(const frame::RangeImage& image) : HeldTileReader({}) {
+    std::iota(rows_.begin(), rows_.end(), 0);
     show(image);
   }
   void show(const frame::RangeImage& image) { image_ = &image; }
 
-  void open(const frame::TileHeads& heads,
-            const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING override {
-    heads_ = heads;
-    raw_ = raw;
-  }
   void compute_points(std::size_t laser,
                       const frame::PointsOut& out) noexcept TERRACUT_NONBLOCKING override {
     for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
@@ -44,19 +41,12 @@ class ImageReader final : public frame::TileReader {
       out.x_m[f] = image_->x_m()[cell];
       out.y_m[f] = image_->y_m()[cell];
       out.ground_range_m[f] = image_->ground_range_m()[cell];
-      out.z_m[f] =
-          raw_[laser * frame::kTileFirings + f] == 0 ? frame::kNoHeight_m : image_->z_m()[cell];
+      out.z_m[f] = raw(laser, f) == 0 ? frame::kNoHeight_m : image_->z_m()[cell];
     }
-  }
-  [[nodiscard]] std::span<const std::int32_t> rows() const noexcept TERRACUT_NONBLOCKING override {
-    return rows_;
   }
 
  private:
   const frame::RangeImage* image_;
-  frame::TileHeads heads_{};
-  const std::uint16_t* raw_ = nullptr;
-  std::array<std::int32_t, kLasers> rows_{};
 };
 
 /// Ground as rough as grass, with low walls: thousands of unknown cells, alone and together.

@@ -10,12 +10,14 @@
 #include <numbers>
 #include <utility>
 
+#include "pipeline/stage/float_lanes.hpp"
 #include "rt/vector_clones.hpp"
 
 namespace terracut::elevation {
 namespace {
 
 constexpr auto kMostBands = static_cast<std::size_t>(RingGrid::kMaxBands);
+constexpr int kMostSectorsBehind = 100;  ///< Of Config::interpolate_sectors.
 
 /// Marks the bands of a sector whose height is needed but was not measured. Heights are needed in
 /// bands with a return and, for interpolation, in those next to them.
@@ -76,6 +78,37 @@ TERRACUT_VECTOR_CLONES void find_rises(const FoundInSector& before, const FoundI
   }
 }
 
+using stage::EightFloats, stage::EightInts;
+constexpr std::size_t kLanes = 8;
+
+/// A sector that lends heights to another, and how much they count; arrays by band.
+struct Donor {
+  const float* traced_m;
+  const std::uint8_t* origin;  // 0 where nothing was measured
+  float weight;
+};
+
+/// Replaces eight heights by the weighted means of what was measured in the bands of `donors` from
+/// `band` on; heights that nobody measured stay.
+TERRACUT_VECTOR_CLONES_OF_INLINED void mix_eight(std::span<const Donor> donors, std::size_t band,
+                                                 float* height_m) noexcept {
+  EightFloats sum_m{}, weights{};
+  for (const Donor& donor : donors) {
+    EightFloats traced_m;
+    std::uint8_t __attribute__((vector_size(8))) origin;
+    std::memcpy(&traced_m, donor.traced_m + band, sizeof(traced_m));
+    std::memcpy(&origin, donor.origin + band, sizeof(origin));
+    const EightInts is_measured = __builtin_convertvector(origin, EightInts) != 0;
+    const EightFloats weight = is_measured ? donor.weight - EightFloats{} : EightFloats{};
+    sum_m += weight * traced_m;
+    weights += weight;
+  }
+  EightFloats before_m;
+  std::memcpy(&before_m, height_m, sizeof(before_m));
+  const EightFloats mixed_m = weights > 0 ? sum_m / weights : before_m;
+  std::memcpy(height_m, &mixed_m, sizeof(mixed_m));
+}
+
 }  // namespace
 
 GroundSurface::GroundSurface(const Config& config, float obstacle_height_m, const RingGrid& grid,
@@ -85,10 +118,10 @@ GroundSurface::GroundSurface(const Config& config, float obstacle_height_m, cons
       deep_m_(grid.deepest_band_m()),
       behind_(std::min(config.interpolate_sectors, (grid.sectors() - 1) / 2)),
       ahead_(std::min({config.sectors_ahead, config.interpolate_sectors, behind_})),
-      traced_m_(memory.take<float>("ground surface", grid.cells())),
+      traced_m_(memory.take<float>("ground surface", grid.cells() + kLanes)),
       heights_(memory.take<EdgeHeights>("ground surface", grid.cells() + 1)),
       found_(memory.take<Origin>("ground surface", grid.cells())),
-      origin_(memory.take<Origin>("ground surface", grid.cells())),
+      origin_(memory.take<Origin>("ground surface", grid.cells() + kLanes)),
       has_regained_(
           memory.take<std::uint8_t>("ground surface", static_cast<std::size_t>(grid.sectors()))),
       wide_from_(
@@ -247,35 +280,46 @@ void GroundSurface::estimate(const RingGrid& grid, int sector,
                          &lowest[first]};
   };
   const FoundInSector here = found_in(sector);
-  std::array<std::uint8_t, kMostBands> is_missing;
+  std::array<std::uint8_t, kMostBands + kLanes> is_missing{};
   find_missing(here.lowest, here.origin, bands, is_missing.data());
+  std::array<float, kMostBands + kLanes> lower_m;
+  std::copy_n(here.traced_m, bands, lower_m.begin());
+  interpolate(grid, sector, is_missing, lower_m);
   std::array<float, kMostBands> rise_m;
   find_rises(found_in(sector - 1), here, found_in(sector + 1), config_.tall_m, max_rise_m_.data(),
              bands, rise_m.data());
   const std::span<EdgeHeights> heights = of_sector(heights_, grid, sector);
   for (std::size_t band = 0; band < bands; ++band) {
-    const float lower_m = is_missing[band] != 0
-                              ? interpolated_m(grid, sector, static_cast<int>(band))
-                              : here.traced_m[band];
-    heights[band] = {lower_m + std::max(-rise_m[band], 0.0F),
-                     lower_m + std::max(rise_m[band], 0.0F)};
+    heights[band] = {lower_m[band] + std::max(-rise_m[band], 0.0F),
+                     lower_m[band] + std::max(rise_m[band], 0.0F)};
   }
 }
 
-float GroundSurface::interpolated_m(const RingGrid& grid, int sector, int band) const noexcept {
-  float weights = 0, sum_m = 0;
-  const auto take = [&](int neighbour, int distance) {
-    const std::size_t donor = grid.cell(grid.wrapped(neighbour), band);
-    if (origin_[donor] == kPredicted) return;
-    const float weight = 1.0F / static_cast<float>(distance);
-    sum_m += weight * traced_m_[donor];
-    weights += weight;
+void GroundSurface::interpolate(const RingGrid& grid, int sector,
+                                std::span<const std::uint8_t> is_missing,
+                                std::span<float> height_m) const noexcept {
+  std::array<Donor, 2 * kMostSectorsBehind> donors;
+  std::size_t count = 0;
+  const auto add = [&](int neighbour, int distance) {
+    const std::size_t first = grid.cell(grid.wrapped(neighbour), 0);
+    donors[count++] = {&traced_m_[first], reinterpret_cast<const std::uint8_t*>(&origin_[first]),
+                       1.0F / static_cast<float>(distance)};
   };
   for (int distance = 1; distance <= behind_; ++distance) {
-    take(sector - distance, distance);
-    if (distance <= ahead_) take(sector + distance, distance);
+    add(sector - distance, distance);
+    if (distance <= ahead_) add(sector + distance, distance);
   }
-  return weights > 0 ? sum_m / weights : traced_m_[grid.cell(sector, band)];
+  for (std::size_t band = 0; band < static_cast<std::size_t>(grid.bands()); band += kLanes) {
+    std::uint64_t eight;
+    std::memcpy(&eight, &is_missing[band], sizeof(eight));
+    if (eight == 0) continue;
+    std::array<float, kLanes> mixed_m;
+    std::copy_n(&height_m[band], kLanes, mixed_m.begin());
+    mix_eight(std::span(donors).first(count), band, mixed_m.data());
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      if (is_missing[band + i] != 0) height_m[band + i] = mixed_m[i];
+    }
+  }
 }
 
 }  // namespace terracut::elevation

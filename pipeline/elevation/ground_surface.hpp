@@ -135,7 +135,9 @@ class GroundSurface {
                                          int end_band, const Ground& ground,
                                          std::span<const LowestReturn> lowest) const noexcept;
   [[nodiscard]] bool lies_on_wide_strip(const RingGrid& grid, int sector, int band) const noexcept;
-  [[nodiscard]] float interpolated_m(const RingGrid& grid, int sector, int band) const noexcept;
+  /// Replaces the heights of a sector's bands that are missing by those of other sectors.
+  void interpolate(const RingGrid& grid, int sector, std::span<const std::uint8_t> is_missing,
+                   std::span<float> height_m) const noexcept;
 
   Config config_;
   float foot_rise_m_;   // largest rise of a step to the foot of something tall

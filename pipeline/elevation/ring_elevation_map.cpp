@@ -6,14 +6,14 @@
 #include <bit>
 #include <cstring>
 
-#include "pipeline/stage/four_lanes.hpp"
+#include "pipeline/stage/float_lanes.hpp"
 #include "pipeline/stage/row_steps.hpp"
 #include "rt/vector_clones.hpp"
 
 namespace terracut::elevation {
 namespace {
 
-using stage::FourFloats, stage::FourInts;
+using stage::EightFloats, stage::EightInts, stage::FourFloats, stage::FourInts;
 
 // Each loop over a row's columns gets all it reads and writes as parameters, for __restrict:
 // without it the loops are not vectorised in clones.
@@ -107,6 +107,16 @@ TERRACUT_VECTOR_CLONES void label_heights(std::span<const float> height_m, float
   }
 }
 
+/// Makes obstacles of the returns that are higher than `most_m`, by column.
+TERRACUT_VECTOR_CLONES void label_higher(const float* __restrict z_m, std::span<const float> most_m,
+                                         frame::Label* __restrict label) noexcept {
+  const std::size_t count = most_m.size();
+  const float* const __restrict most = most_m.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    label[i] = z_m[i] > most[i] ? frame::Label::kObstacle : label[i];
+  }
+}
+
 using Extremes = RingElevationMap::Extremes;
 
 // The lowest and the highest return of a grid cell are found together as the minimum of a pair of
@@ -152,9 +162,6 @@ constexpr float kNowhere_m = GroundSurface::kEmpty;  // for the lowest and, nega
 Extremes nothing() noexcept {
   return Extremes{extremes_of(kNowhere_m, 0, kNoRow)[0], extremes_of(-kNowhere_m, 0, kNoRow)[1]};
 }
-
-using EightFloats = float __attribute__((vector_size(32)));
-using EightInts = std::int32_t __attribute__((vector_size(32)));
 
 /// Writes the extremes of eight returns of a row, of which those in `ground_m` may be ground, as if
 /// each were alone in its grid cell, four halves each; the third may have any value. Stores whole
@@ -214,25 +221,25 @@ TERRACUT_VECTOR_CLONES_OF_INLINED void find_extremes(const float* __restrict gro
   }
 }
 
-/// Adds each return of a row to the extremes of its grid cell; unrolled, as one return takes only a
-/// few instructions.
+/// Adds each return of a row to the extremes of its grid cell. Goes along four parts of the row at
+/// once: returns next to each other share a cell, and each would wait for the one before.
 void take_each(const std::uint32_t* __restrict halves, const std::int32_t* __restrict first_cell,
                std::span<const std::uint16_t> steps, const RingGrid& grid,
                Extremes* __restrict extremes) noexcept {
-  const auto take_next = [&](std::size_t next, const std::uint16_t* step) noexcept {
-    const auto cell = static_cast<std::uint32_t>(first_cell[next] + grid.band_of_step(step[next]));
+  const auto take_at = [&](std::size_t i) noexcept {
+    const auto cell = static_cast<std::uint32_t>(first_cell[i] + grid.band_of_step(steps[i]));
     Extremes one;
-    std::memcpy(&one, halves + 4 * next, sizeof(one));
+    std::memcpy(&one, halves + 4 * i, sizeof(one));
     take(one, extremes[cell]);
   };
-  const std::uint16_t *step = steps.data(), *const end = step + steps.size();
-  for (; end - step >= 4; step += 4, halves += 16, first_cell += 4) {
-    take_next(0, step);
-    take_next(1, step);
-    take_next(2, step);
-    take_next(3, step);
+  const std::size_t part = steps.size() / 4;
+  for (std::size_t i = 0; i < part; ++i) {
+    take_at(i);
+    take_at(i + part);
+    take_at(i + 2 * part);
+    take_at(i + 3 * part);
   }
-  for (; step != end; ++step, halves += 4, ++first_cell) take_next(0, step);
+  for (std::size_t i = 4 * part; i < steps.size(); ++i) take_at(i);
 }
 
 }  // namespace
@@ -389,16 +396,16 @@ void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRang
 }
 
 void RingElevationMap::label_standing_out(const float* z_m, int row, frame::ColumnRange columns,
-                                          frame::Label* label) const noexcept {
+                                          frame::Label* label) noexcept {
+  const std::span<float> most_m = row_kept_m_.first(columns.size());
   for (int column = columns.begin; column < columns.end;) {
     const int sector = grid_.sector_of(column);
     const int end = std::min(grid_.columns_of({sector, sector + 1}).end, columns.end);
-    const float least_m = opening_.opening_m(row, sector) + config_.obstacle_height_m;
-    for (; column < end; ++column) {
-      const int i = column - columns.begin;
-      if (z_m[i] > least_m) label[i] = frame::Label::kObstacle;
-    }
+    std::fill(most_m.begin() + (column - columns.begin), most_m.begin() + (end - columns.begin),
+              opening_.opening_m(row, sector) + config_.obstacle_height_m);
+    column = end;
   }
+  label_higher(z_m, most_m, label);
 }
 
 }  // namespace terracut::elevation

@@ -87,7 +87,7 @@ class RingElevationMap {
   void find_lowest(int sector) noexcept;
   /// Labels what stands out of a row obstacle.
   void label_standing_out(const float* z_m, int row, frame::ColumnRange columns,
-                          frame::Label* label) const noexcept;
+                          frame::Label* label) noexcept;
 
   Config config_;
   frame::ImageShape shape_;

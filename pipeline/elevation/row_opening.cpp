@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "rt/vector_clones.hpp"
+
 namespace terracut::elevation {
 namespace {
 
@@ -17,6 +19,25 @@ bool is_far_from_next(const mount::Ring& ring, const mount::RingProfile& profile
     const double farther_m = other.ground_distance_m - ring.ground_distance_m;
     return farther_m > 0 && farther_m <= static_cast<double>(RingGrid::kFarApart_m);
   });
+}
+
+/// What one sector is compared with another by, an array by slot each.
+struct Compared {
+  const float *lowest_m, *sector_m, *window_sectors;
+};
+
+/// Marks the slots whose height is above that of another sector, if their window reaches so far.
+/// `slope` is how many times a sector's width heights may rise in between.
+TERRACUT_VECTOR_CLONES void mark_above(const Compared& here, const float* __restrict other_m,
+                                       float distance, float slope,
+                                       std::span<std::int32_t> marks) noexcept {
+  const float* const __restrict lowest_m = here.lowest_m, * const __restrict sector_m = here.sector_m, * const __restrict window_sectors = here.window_sectors;
+  std::int32_t* const __restrict mark = marks.data();
+  const std::size_t slots = marks.size();
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    const float seen_m = other_m[slot] + slope * sector_m[slot];
+    mark[slot] |= (window_sectors[slot] > distance - 1 ? 1 : 0) & (seen_m < lowest_m[slot] ? 1 : 0);
+  }
 }
 
 }  // namespace
@@ -40,6 +61,11 @@ RowOpening::RowOpening(const Config& config, float slope, const RingGrid& grid,
   lowest_m_ = memory.take<float>("row opening", places);
   range_m_ = memory.take<float>("row opening", places);
   opening_m_ = memory.take<float>("row opening", places);
+  const auto slots = static_cast<std::size_t>(used_);
+  sector_m_ = memory.take<float>("row opening", slots);
+  window_sectors_ = memory.take<float>("row opening", slots);
+  is_lower_behind_ = memory.take<std::int32_t>("row opening", slots);
+  is_lower_ahead_ = memory.take<std::int32_t>("row opening", slots);
 }
 
 void RowOpening::take(int row, RingGrid::Sectors sectors, const float* z_m, const float* range_m,
@@ -49,10 +75,10 @@ void RowOpening::take(int row, RingGrid::Sectors sectors, const float* z_m, cons
     const frame::ColumnRange columns = grid.columns_of({sector, sector + 1});
     float lowest_m = kEmpty, at_m = 0;
     for (int i = columns.begin - begin; i < columns.end - begin; ++i) {
-      if (z_m[i] < lowest_m) {
-        lowest_m = z_m[i];
-        at_m = range_m[i];
-      }
+      // A branch would be mispredicted.
+      const bool is_lower = z_m[i] < lowest_m;
+      lowest_m = is_lower ? z_m[i] : lowest_m;
+      at_m = is_lower ? range_m[i] : at_m;
     }
     const std::size_t at = place(slots_[static_cast<std::size_t>(row)], sector);
     lowest_m_[at] = lowest_m;
@@ -61,14 +87,39 @@ void RowOpening::take(int row, RingGrid::Sectors sectors, const float* z_m, cons
 }
 
 void RowOpening::open(int sector) noexcept {
-  for (int slot = 0; slot < used_; ++slot) opening_m_[place(slot, sector)] = opened(slot, sector);
+  const std::size_t first = place(0, sector);
+  const auto slots = static_cast<std::size_t>(used_);
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    sector_m_[slot] = sector_rad_ * range_m_[first + slot];
+    window_sectors_[slot] = window_m_ / sector_m_[slot];
+  }
+  find_lower(sector, -1, behind_, is_lower_behind_);
+  find_lower(sector, 1, ahead_, is_lower_ahead_);
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    // Nothing stands out where a window to one side has nothing lower.
+    const bool may_stand_out =
+        (is_lower_behind_[slot] & is_lower_ahead_[slot]) != 0 && lowest_m_[first + slot] != kEmpty;
+    opening_m_[first + slot] =
+        may_stand_out ? opened(static_cast<int>(slot), sector) : lowest_m_[first + slot];
+  }
+}
+
+void RowOpening::find_lower(int sector, int side, int most,
+                            std::span<std::int32_t> is_lower) const noexcept {
+  const Compared here{&lowest_m_[place(0, sector)], sector_m_.data(), window_sectors_.data()};
+  std::ranges::fill(is_lower, 0);
+  for (int distance = 1; distance <= most; ++distance) {
+    const int other = (sector + side * distance + sectors_) % sectors_;
+    mark_above(here, &lowest_m_[place(0, other)], static_cast<float>(distance),
+               slope_ * static_cast<float>(distance), is_lower);
+  }
 }
 
 float RowOpening::opened(int slot, int sector) const noexcept {
   const float here_m = lowest_m_[place(slot, sector)];
-  if (here_m == kEmpty) return kEmpty;
-  const float sector_m = sector_rad_ * range_m_[place(slot, sector)];
-  const auto width = static_cast<int>(std::ceil(std::min(window_m_ / sector_m, 1e3F)));
+  const float sector_m = sector_m_[static_cast<std::size_t>(slot)];
+  const auto width =
+      static_cast<int>(std::ceil(std::min(window_sectors_[static_cast<std::size_t>(slot)], 1e3F)));
   const int reach = std::min(width, behind_);
   // The lowest height from here to each distance on either side.
   using Lowest = std::array<float, kMostBehind + 1>;
@@ -78,19 +129,15 @@ float RowOpening::opened(int slot, int sector) const noexcept {
       const auto i = static_cast<std::size_t>(distance);
       lowest_m[i] = lowest_m[i - 1];
       if (distance > most) continue;
-      int other = sector + side * distance;
-      if (other < 0) other += sectors_;
-      if (other >= sectors_) other -= sectors_;
+      const int other = (sector + side * distance + sectors_) % sectors_;
       const float seen_m =
           lowest_m_[place(slot, other)] + slope_ * static_cast<float>(distance) * sector_m;
       lowest_m[i] = std::min(lowest_m[i], seen_m);
     }
-    return lowest_m[static_cast<std::size_t>(reach)];
   };
   Lowest behind_m, ahead_m;
-  // Nothing stands out where a window to one side has nothing lower.
-  if (find_lowest(-1, behind_, behind_m) == here_m) return here_m;
-  if (find_lowest(1, ahead_, ahead_m) == here_m) return here_m;
+  find_lowest(-1, behind_, behind_m);
+  find_lowest(1, ahead_, ahead_m);
   float opening_m = -kEmpty;
   for (int distance = 0; distance <= reach; ++distance) {
     opening_m = std::max(opening_m, std::min(behind_m[static_cast<std::size_t>(distance)],

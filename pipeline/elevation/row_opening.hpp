@@ -64,8 +64,10 @@ class RowOpening {
   static constexpr float kEmpty = 1e9F;
 
   [[nodiscard]] std::size_t place(int slot, int sector) const noexcept {
-    return static_cast<std::size_t>(slot * sectors_ + sector);
+    return static_cast<std::size_t>(sector * used_ + slot);
   }
+  /// Marks the slots that have lower heights in their window on one side, behind (-1) or ahead (1).
+  void find_lower(int sector, int side, int most, std::span<std::int32_t> is_lower) const noexcept;
   [[nodiscard]] float opened(int slot, int sector) const noexcept;
 
   int sectors_;
@@ -74,9 +76,13 @@ class RowOpening {
   int behind_ = 0, ahead_ = 0;
   int used_ = 0;                   // number of rows with a slot
   std::span<std::int16_t> slots_;  // by row: its number among the rows that are opened, or -1
-  std::span<float> lowest_m_;      // by slot and sector; kEmpty if there is no return
+  std::span<float> lowest_m_;      // by sector and slot; kEmpty if there is no return
   std::span<float> range_m_;       // of the lowest return
-  std::span<float> opening_m_;     // by slot and sector
+  std::span<float> opening_m_;     // by sector and slot
+  // By slot, of the sector at work:
+  std::span<float> sector_m_;                                 // how wide a sector is
+  std::span<float> window_sectors_;                           // how many of them are a window
+  std::span<std::int32_t> is_lower_behind_, is_lower_ahead_;  // whether there are lower heights
 };
 
 }  // namespace terracut::elevation

@@ -9,7 +9,7 @@
 
 #include "firmware_io/frame/point_planes.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
-#include "pipeline/stage/four_lanes.hpp"
+#include "pipeline/stage/float_lanes.hpp"
 #include "pipeline/stage/portable_math.hpp"
 
 namespace terracut::random_field {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "pipeline/stage/four_lanes.hpp"
+#include "pipeline/stage/float_lanes.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::stage {

@@ -14,6 +14,10 @@ using FourFloats = float __attribute__((vector_size(16)));
 using TwoFloats = float __attribute__((vector_size(8)));
 /// The result of comparing four lanes: all bits of a lane are set if true, none if false.
 using FourInts = std::int32_t __attribute__((vector_size(16)));
+/// The same for eight numbers: one register with AVX2, otherwise two. Neither is passed to a
+/// function or returned, which machines do differently.
+using EightFloats = float __attribute__((vector_size(32)));
+using EightInts = std::int32_t __attribute__((vector_size(32)));
 
 /// Loads from[0] and from[1]; `from` may have any alignment.
 [[nodiscard]] inline TwoFloats load_two(const float* from) noexcept {

@@ -73,16 +73,15 @@ void RowOpening::take(int row, RingGrid::Sectors sectors, const float* z_m, cons
   const int begin = grid.columns_of(sectors).begin;
   for (int sector = sectors.begin; sector < sectors.end; ++sector) {
     const frame::ColumnRange columns = grid.columns_of({sector, sector + 1});
-    float lowest_m = kEmpty, at_m = 0;
-    for (int i = columns.begin - begin; i < columns.end - begin; ++i) {
-      // A branch would be mispredicted.
-      const bool is_lower = z_m[i] < lowest_m;
-      lowest_m = is_lower ? z_m[i] : lowest_m;
-      at_m = is_lower ? range_m[i] : at_m;
-    }
+    const int first = columns.begin - begin, end = columns.end - begin;
+    // Neither loop has a branch, which would be mispredicted.
+    float lowest_m = kEmpty;
+    for (int i = first; i < end; ++i) lowest_m = z_m[i] < lowest_m ? z_m[i] : lowest_m;
+    int lowest = end;
+    for (int i = end - 1; i >= first; --i) lowest += z_m[i] <= lowest_m ? i - lowest : 0;
     const std::size_t at = place(slots_[static_cast<std::size_t>(row)], sector);
     lowest_m_[at] = lowest_m;
-    range_m_[at] = at_m;
+    range_m_[at] = lowest < end ? range_m[lowest] : 0;
   }
 }
 

@@ -81,7 +81,7 @@ class GroundSurface {
   void estimate(const RingGrid& grid, int sector,
                 std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
 
-  static constexpr int kStripBehind = 14, kStripAhead = 5;
+  static constexpr int kStripBehind = 14, kStripAhead = 4;
   [[nodiscard]] int behind() const noexcept { return std::max(behind_, 1); }
   [[nodiscard]] int ahead() const noexcept { return std::max(ahead_, 1); }
 

@@ -35,7 +35,7 @@ class RowOpening {
   RowOpening(const Config& config, float slope, const RingGrid& grid,
              const mount::RingProfile& profile, memory::FixedMemory& memory);
 
-  static constexpr int kMostBehind = 8, kMostAhead = 5;
+  static constexpr int kMostBehind = 8, kMostAhead = 4;
   /// Returns how many sectors behind and ahead must be taken before a sector is opened.
   [[nodiscard]] int behind() const noexcept { return behind_; }
   [[nodiscard]] int ahead() const noexcept { return ahead_; }

@@ -20,7 +20,7 @@ namespace terracut::ground {
 ///
 ///   columns of a turn   0 ........................................................... all
 ///                       |  labelled  |  taken: their lowest returns known |  to come  |
-///                                    '-- a sector's ground depends on the 15 sectors that follow
+///                                    '-- a sector's ground depends on the 13 sectors that follow
 ///
 /// All memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
 class CoarseStages {

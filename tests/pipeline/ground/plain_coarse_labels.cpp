@@ -236,7 +236,7 @@ class PlainSurface {
                   grid_.sectors()});
     const auto is_ground = [&](int s) { return at(at(traced_, around(s)).is_ground, band); };
     int wide = 1;
-    for (int s = sector + 1; s <= sector + 5 && is_ground(s); ++s) ++wide;
+    for (int s = sector + 1; s <= sector + 4 && is_ground(s); ++s) ++wide;
     for (int s = sector - 1; s >= sector - 14 && is_ground(s); --s) ++wide;
     return wide >= enough;
   }
@@ -290,7 +290,7 @@ class PlainRows {
     const int reach =
         std::min({static_cast<int>(std::ceil(double{config_.opening.window_m} / width_m)), 8,
                   (grid_.sectors() - 1) / 2});
-    const int most_ahead = std::min(5, (grid_.sectors() - 1) / 2);
+    const int most_ahead = std::min(4, (grid_.sectors() - 1) / 2);
     double opening_m = -std::numeric_limits<double>::infinity();
     for (int first = sector - reach; first <= sector; ++first) {
       double lowest_m = std::numeric_limits<double>::infinity();

@@ -160,15 +160,15 @@ struct SpacingRule {
   }
 };
 
-/// Compares 32 columns at a time; the last block overlaps the one before, harmlessly. Columns are
-/// compared one by one if the left returns of a block would lie across the seam.
+/// Compares 32 columns at a time; the last block overlaps the one before, harmlessly. Columns whose
+/// left returns may lie across the seam, or that are fewer, are compared first.
 TERRACUT_VECTOR_CLONES void mark_by_slope(const RowPair rows, const frame::ColumnRange columns,
                                           int reach, const SlopeRule rule) noexcept {
   const int last = columns.end - kTogether;
   const int together = last < reach ? columns.end : std::max(columns.begin, reach);
-  for (int column = columns.begin; column < together; ++column) {
-    for_each_offset(rows, {column, column + 1}, reach,
-                    [&](const RowPair& one, int count) { rule.mark(one, count); });
+  for (int column = columns.begin; column < together; column += kTogether) {
+    for_each_offset(rows, {column, std::min(column + kTogether, together)}, reach,
+                    [&](const RowPair& some, int count) { rule.mark(some, count); });
   }
   for (int column = together; column < columns.end; column += kTogether) {
     const int begin = std::min(column, last);

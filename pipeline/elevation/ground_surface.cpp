@@ -78,8 +78,7 @@ TERRACUT_VECTOR_CLONES void find_rises(const FoundInSector& before, const FoundI
   }
 }
 
-using stage::EightFloats, stage::EightInts;
-constexpr std::size_t kLanes = 8;
+using stage::EightFloats, stage::EightInts, stage::kEight;
 
 /// A sector that lends heights to another, and how much they count; arrays by band.
 struct Donor {
@@ -118,10 +117,10 @@ GroundSurface::GroundSurface(const Config& config, float obstacle_height_m, cons
       deep_m_(grid.deepest_band_m()),
       behind_(std::min(config.interpolate_sectors, (grid.sectors() - 1) / 2)),
       ahead_(std::min({config.sectors_ahead, config.interpolate_sectors, behind_})),
-      traced_m_(memory.take<float>("ground surface", grid.cells() + kLanes)),
+      traced_m_(memory.take<float>("ground surface", grid.cells() + kEight)),
       heights_(memory.take<EdgeHeights>("ground surface", grid.cells() + 1)),
       found_(memory.take<Origin>("ground surface", grid.cells())),
-      origin_(memory.take<Origin>("ground surface", grid.cells() + kLanes)),
+      origin_(memory.take<Origin>("ground surface", grid.cells() + kEight)),
       has_regained_(
           memory.take<std::uint8_t>("ground surface", static_cast<std::size_t>(grid.sectors()))),
       wide_from_(
@@ -280,9 +279,9 @@ void GroundSurface::estimate(const RingGrid& grid, int sector,
                          &lowest[first]};
   };
   const FoundInSector here = found_in(sector);
-  std::array<std::uint8_t, kMostBands + kLanes> is_missing{};
+  std::array<std::uint8_t, kMostBands + kEight> is_missing{};
   find_missing(here.lowest, here.origin, bands, is_missing.data());
-  std::array<float, kMostBands + kLanes> lower_m;
+  std::array<float, kMostBands + kEight> lower_m;
   std::copy_n(here.traced_m, bands, lower_m.begin());
   interpolate(grid, sector, is_missing, lower_m);
   std::array<float, kMostBands> rise_m;
@@ -309,14 +308,14 @@ void GroundSurface::interpolate(const RingGrid& grid, int sector,
     add(sector - distance, distance);
     if (distance <= ahead_) add(sector + distance, distance);
   }
-  for (std::size_t band = 0; band < static_cast<std::size_t>(grid.bands()); band += kLanes) {
+  for (std::size_t band = 0; band < static_cast<std::size_t>(grid.bands()); band += kEight) {
     std::uint64_t eight;
     std::memcpy(&eight, &is_missing[band], sizeof(eight));
     if (eight == 0) continue;
-    std::array<float, kLanes> mixed_m;
-    std::copy_n(&height_m[band], kLanes, mixed_m.begin());
+    std::array<float, kEight> mixed_m;
+    std::copy_n(&height_m[band], kEight, mixed_m.begin());
     mix_eight(std::span(donors).first(count), band, mixed_m.data());
-    for (std::size_t i = 0; i < kLanes; ++i) {
+    for (std::size_t i = 0; i < kEight; ++i) {
       if (is_missing[band + i] != 0) height_m[band + i] = mixed_m[i];
     }
   }

@@ -13,7 +13,7 @@
 namespace terracut::elevation {
 namespace {
 
-using stage::EightFloats, stage::EightInts, stage::FourFloats, stage::FourInts;
+using stage::EightFloats, stage::EightInts, stage::kEight, stage::FourFloats, stage::FourInts;
 
 // Each loop over a row's columns gets all it reads and writes as parameters, for __restrict:
 // without it the loops are not vectorised in clones.
@@ -206,7 +206,6 @@ TERRACUT_VECTOR_CLONES_OF_INLINED void find_extremes(const float* __restrict gro
                                                      const float* __restrict range_m,
                                                      std::uint32_t row, std::size_t count,
                                                      std::uint32_t* __restrict halves) noexcept {
-  constexpr std::size_t kEight = 8;
   if (count < kEight) {
     for (std::size_t i = 0; i < count; ++i) {
       Extremes one = z_m[i] == z_m[i] ? extremes_of(z_m[i], range_m[i], row) : nothing();

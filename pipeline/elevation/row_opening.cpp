@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <numbers>
 
+#include "pipeline/stage/float_lanes.hpp"
 #include "rt/vector_clones.hpp"
 
 namespace terracut::elevation {
@@ -19,6 +22,47 @@ bool is_far_from_next(const mount::Ring& ring, const mount::RingProfile& profile
     const double farther_m = other.ground_distance_m - ring.ground_distance_m;
     return farther_m > 0 && farther_m <= static_cast<double>(RingGrid::kFarApart_m);
   });
+}
+
+using stage::EightFloats, stage::EightInts, stage::kEight;
+
+/// Returns the first of the lowest heights; `count` if all are NaN. Has no branch that depends on
+/// heights: it would be mispredicted.
+[[gnu::always_inline]] inline int first_lowest(const float* z_m, int count) noexcept {
+  constexpr int kAtOnce = kEight;
+  if (count < kAtOnce) {
+    int lowest = count;
+    for (int i = count - 1; i >= 0; --i) {
+      const float lowest_m = lowest < count ? z_m[lowest] : std::numeric_limits<float>::max();
+      lowest = z_m[i] <= lowest_m ? i : lowest;
+    }
+    return lowest;
+  }
+  // Lane n has the lowest height of returns n, n + 8, .. and its place; the last eight overlap.
+  EightFloats lowest_m = std::numeric_limits<float>::max() - EightFloats{};
+  EightInts lowest = count - EightInts{};
+  EightInts at{0, 1, 2, 3, 4, 5, 6, 7};
+  for (int next = 0; next < count; next += kAtOnce) {
+    const int first = std::min(next, count - kAtOnce);
+    EightFloats here_m;
+    std::memcpy(&here_m, z_m + first, sizeof(here_m));
+    const EightInts is_lower = here_m < lowest_m;
+    lowest_m = is_lower ? here_m : lowest_m;
+    lowest = is_lower ? at + first : lowest;
+  }
+  // Halves the lanes until one is left.
+  const auto keep_lower = [&](EightFloats other_m, EightInts other) __attribute__((always_inline)) {
+    const EightInts is_lower = (other_m < lowest_m) | ((other_m == lowest_m) & (other < lowest));
+    lowest_m = is_lower ? other_m : lowest_m;
+    lowest = is_lower ? other : lowest;
+  };
+  keep_lower(__builtin_shufflevector(lowest_m, lowest_m, 4, 5, 6, 7, 4, 5, 6, 7),
+             __builtin_shufflevector(lowest, lowest, 4, 5, 6, 7, 4, 5, 6, 7));
+  keep_lower(__builtin_shufflevector(lowest_m, lowest_m, 2, 3, 2, 3, 2, 3, 2, 3),
+             __builtin_shufflevector(lowest, lowest, 2, 3, 2, 3, 2, 3, 2, 3));
+  keep_lower(__builtin_shufflevector(lowest_m, lowest_m, 1, 1, 1, 1, 1, 1, 1, 1),
+             __builtin_shufflevector(lowest, lowest, 1, 1, 1, 1, 1, 1, 1, 1));
+  return lowest[0];
 }
 
 /// What one sector is compared with another by, an array by slot each.
@@ -68,19 +112,16 @@ RowOpening::RowOpening(const Config& config, float slope, const RingGrid& grid,
   is_lower_ahead_ = memory.take<std::int32_t>("row opening", slots);
 }
 
-void RowOpening::take(int row, RingGrid::Sectors sectors, const float* z_m, const float* range_m,
-                      const RingGrid& grid) noexcept {
+TERRACUT_VECTOR_CLONES_OF_INLINED void RowOpening::take(int row, RingGrid::Sectors sectors,
+                                                        const float* z_m, const float* range_m,
+                                                        const RingGrid& grid) noexcept {
   const int begin = grid.columns_of(sectors).begin;
   for (int sector = sectors.begin; sector < sectors.end; ++sector) {
     const frame::ColumnRange columns = grid.columns_of({sector, sector + 1});
     const int first = columns.begin - begin, end = columns.end - begin;
-    // Neither loop has a branch, which would be mispredicted.
-    float lowest_m = kEmpty;
-    for (int i = first; i < end; ++i) lowest_m = z_m[i] < lowest_m ? z_m[i] : lowest_m;
-    int lowest = end;
-    for (int i = end - 1; i >= first; --i) lowest += z_m[i] <= lowest_m ? i - lowest : 0;
+    const int lowest = first + first_lowest(z_m + first, end - first);
     const std::size_t at = place(slots_[static_cast<std::size_t>(row)], sector);
-    lowest_m_[at] = lowest_m;
+    lowest_m_[at] = lowest < end ? z_m[lowest] : kEmpty;
     range_m_[at] = lowest < end ? range_m[lowest] : 0;
   }
 }

@@ -37,6 +37,10 @@ min_cut::Seed kept(frame::Label label) noexcept {
 }
 
 constexpr std::size_t kTogether = 32;
+/// Returns a number of columns, rounded up to whole vectors.
+std::size_t whole(int columns) noexcept {
+  return (static_cast<std::size_t>(columns) + kTogether - 1) / kTogether * kTogether;
+}
 
 /// The windows around the cells of a row, and the share of ground from which ground is trusted.
 struct TrustedWindows {
@@ -206,7 +210,7 @@ void ConfidenceSeeds::select(const stage::CellPlanes& planes, frame::ColumnRange
 }
 
 void ConfidenceSeeds::start_counting(frame::ColumnRange columns) noexcept {
-  const std::size_t counted = columns.size() + 2 * static_cast<std::size_t>(reach());
+  const std::size_t counted = whole(static_cast<int>(columns.size()) + 2 * reach());
   std::ranges::fill(ground_in_column_.first(counted), std::uint8_t{0});
   std::ranges::fill(returns_in_column_.first(counted), std::uint8_t{0});
   counted_begin_ = counted_end_ = 0;
@@ -214,12 +218,15 @@ void ConfidenceSeeds::start_counting(frame::ColumnRange columns) noexcept {
 
 void ConfidenceSeeds::count_in_columns(const stage::CellPlanes& planes, int row,
                                        frame::ColumnRange columns) noexcept {
-  // Adds a row to the counts or takes it away again; its columns go on beyond the seam.
+  static_assert(kTogether <= stage::kReadBeyond);
+  // Adds a row to the counts or takes it away again; its columns go on beyond the seam. The last
+  // piece is made longer, to whole vectors: what is counted there is not read.
   const auto count_row = [&](int r, bool enters) noexcept {
     const int begin = columns.begin - reach(), end = columns.end + reach();
     for (int at = begin; at < end;) {
       const int column = (at + 8 * shape_.columns) % shape_.columns;
-      const auto count = static_cast<std::size_t>(std::min(end - at, shape_.columns - column));
+      const int piece = std::min(end - at, shape_.columns - column);
+      const auto count = at + piece < end ? static_cast<std::size_t>(piece) : whole(piece);
       const auto i = static_cast<std::size_t>(at - begin);
       const frame::Label* const labels = &planes.label[shape_.cell(r, column)];
       if (enters) {
@@ -227,7 +234,7 @@ void ConfidenceSeeds::count_in_columns(const stage::CellPlanes& planes, int row,
       } else {
         take_away(labels, count, &ground_in_column_[i], &returns_in_column_[i]);
       }
-      at += static_cast<int>(count);
+      at += piece;
     }
   };
   // Windows only move upwards, so every row enters once and leaves once.

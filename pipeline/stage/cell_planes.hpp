@@ -14,6 +14,8 @@
 namespace terracut::stage {
 
 inline constexpr std::uint8_t kSteep = 1;
+/// How many labels may be read beyond the last one, for whole vectors.
+inline constexpr std::size_t kReadBeyond = 32;
 
 /// The data that one stage passes to the next: planes over the range image's cells, row-major with
 /// the image's stride. The stages write them one after the other on one thread.
@@ -29,7 +31,8 @@ struct CellPlanes {
 
   CellPlanes(frame::ImageShape shape, memory::FixedMemory& memory)
       : height_m(memory.take<float>("cell planes", shape.cells())),
-        label(memory.take<frame::Label>("cell planes", shape.cells())),
+        label(memory.take<frame::Label>("cell planes", shape.cells() + kReadBeyond)
+                  .first(shape.cells())),
         steep(memory.take<std::uint8_t>("cell planes", shape.cells())) {
     std::ranges::fill(height_m, std::numeric_limits<float>::quiet_NaN());  // padding cells keep NaN
   }

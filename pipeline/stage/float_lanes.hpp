@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -18,6 +19,7 @@ using FourInts = std::int32_t __attribute__((vector_size(16)));
 /// function or returned, which machines do differently.
 using EightFloats = float __attribute__((vector_size(32)));
 using EightInts = std::int32_t __attribute__((vector_size(32)));
+inline constexpr std::size_t kEight = 8;
 
 /// Loads from[0] and from[1]; `from` may have any alignment.
 [[nodiscard]] inline TwoFloats load_two(const float* from) noexcept {

@@ -208,8 +208,7 @@ class LiveLabeller {
     status::FrameRecord record;
     record.info = turn.info;
     record.closing_packet_ns = newest_packet_ns_;
-    record.handed_over_ns = record.segment_begin_ns = fetched_ns_;
-    record.stages_ahead = stage::kStages;
+    record.handed_over_ns = fetched_ns_;
     record.segmentation = turns_.report();
     record.level = level_of(record.segmentation);
     record.firing_to_label = waits_;

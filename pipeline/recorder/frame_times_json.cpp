@@ -24,11 +24,9 @@ void append_frame(Text text, const status::FrameRecord& frame, bool whole,
   fmt::format_to(text,
                  ",\n   \"first_packet_ns\": {}, \"last_packet_ns\": {}, "
                  "\"closing_packet_ns\": {}, \"newest_motion_ns\": {},\n   \"handed_over_ns\": {}, "
-                 "\"segment_begin_ns\": {}, "
                  "\"labels_ns\": {},\n",
                  frame.info.first_packet_ns, frame.info.last_packet_ns, frame.closing_packet_ns,
-                 frame.info.deskew.newest_motion_ns, frame.handed_over_ns, frame.segment_begin_ns,
-                 frame.labels_ns);
+                 frame.info.deskew.newest_motion_ns, frame.handed_over_ns, frame.labels_ns);
   fmt::format_to(text,
                  "   \"decode_cpu_ns\": {}, \"segment_cpu_ns\": {}, \"run_queue_wait_ns\": {}, "
                  "\"steal_ns\": {}, \"cut_operations\": {},\n   \"stage_cpu_ns\": {{",

@@ -75,10 +75,9 @@ struct FrameRecord {
   frame::FrameInfo info;  ///< From the decoder: number, packets' stamps, returns, losses.
 
   std::int64_t closing_packet_ns = 0;  ///< Stamp of the packet with which its last labels came.
-  std::int64_t handed_over_ns = 0;     ///< When work on that packet began.
-  std::int64_t segment_begin_ns = 0;
-  std::int64_t labels_ns = 0;     ///< When labels were handed out or the frame was skipped.
-  FiringToLabel firing_to_label;  ///< Known in a live run.
+  std::int64_t handed_over_ns = 0;     ///< When work on that packet, or on a cloud, began.
+  std::int64_t labels_ns = 0;          ///< When labels were handed out or the frame was skipped.
+  FiringToLabel firing_to_label;       ///< Known in a live run.
 
   /// Processor time of the work on the frame:
   std::int64_t decode_cpu_ns = 0;   ///< Decoding all packets of the frame.
@@ -94,8 +93,6 @@ struct FrameRecord {
 
   stage::SegmentationReport segmentation;
   Level level = Level::kFull;
-  std::uint8_t stages_ahead =
-      0;  ///< How many of the first stages were done before segment_begin_ns.
 
   bool missed = false;                              ///< Set by DeadlineMonitor::judge.
   FrameMissCause cause = FrameMissCause::kOwnWork;  ///< Set by judge; valid only if missed.

@@ -27,7 +27,6 @@ FrameRecord frame_of(std::uint32_t number, std::int64_t latency_ms) {
   frame.info.last_packet_ns = kStart_ns + number * 100 * kMs;
   frame.closing_packet_ns = frame.info.last_packet_ns;
   frame.handed_over_ns = frame.info.last_packet_ns + 1 * kMs;
-  frame.segment_begin_ns = frame.handed_over_ns;
   frame.labels_ns = frame.info.last_packet_ns + latency_ms * kMs;
   frame.decode_cpu_ns = 3 * kMs;
   frame.segment_cpu_ns = 6 * kMs;

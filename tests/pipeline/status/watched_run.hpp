@@ -94,8 +94,7 @@ class WatchedRun {
         frame.info.first_packet_ns + 105 * kMs;  // two frames are open at the seam
     frame.closing_packet_ns = frame.info.last_packet_ns;
     frame.handed_over_ns = frame.info.last_packet_ns + 1 * kMs;
-    frame.segment_begin_ns = frame.handed_over_ns;
-    frame.labels_ns = frame.segment_begin_ns + 10 * kMs;
+    frame.labels_ns = frame.handed_over_ns + 10 * kMs;
     frame.decode_cpu_ns = 4 * kMs;
     frame.stages.stage_ns = {2 * kMs, 1 * kMs, 5 * kMs};
     frame.segment_cpu_ns = 8 * kMs;
@@ -107,7 +106,7 @@ class WatchedRun {
       frame.level = Level::kSkipped;
       frame.stages = {};
       frame.segment_cpu_ns = 0;
-      frame.labels_ns = frame.segment_begin_ns;
+      frame.labels_ns = frame.handed_over_ns;
     } else if (number == 42) {
       frame.level = Level::kCoarse;
       frame.stages.stage_ns[2] = 0;

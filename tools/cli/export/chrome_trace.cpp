@@ -24,9 +24,8 @@ constexpr int kProcess = 1;
 std::int64_t origin_of(std::span<const status::FrameRecord> frames) {
   std::int64_t origin_ns = INT64_MAX;
   for (const status::FrameRecord& frame : frames) {
-    for (const std::int64_t stamp_ns :
-         {frame.info.first_packet_ns, frame.info.last_packet_ns, frame.handed_over_ns,
-          frame.segment_begin_ns, frame.labels_ns}) {
+    for (const std::int64_t stamp_ns : {frame.info.first_packet_ns, frame.info.last_packet_ns,
+                                        frame.handed_over_ns, frame.labels_ns}) {
       if (stamp_ns > 0) origin_ns = std::min(origin_ns, stamp_ns);
     }
   }
@@ -70,24 +69,20 @@ class Trace {
 
   void add_segment(const status::FrameRecord& frame) {
     if (frame.level == status::Level::kSkipped) return;
-    slice(kSegment, fmt::format("frame {}", frame.info.number), frame.segment_begin_ns,
+    Json stages = Json::object();
+    for (std::size_t i = 0; i < figures_.stages(); ++i) {
+      stages[std::string(figures_.stage_names[i].view())] = milliseconds(frame.stages.stage_ns[i]);
+    }
+    slice(kSegment, fmt::format("frame {}", frame.info.number), frame.handed_over_ns,
           frame.labels_ns,
           {{"level", to_string(frame.level)},
            {"latency_ms", milliseconds(frame.labels_ns - frame.info.last_packet_ns)},
            {"cpu_ms", milliseconds(frame.segment_cpu_ns)},
+           {"stages_cpu_ms", std::move(stages)},
            {"run_queue_wait_ms", milliseconds(frame.run_queue_wait_ns)},
            {"steal_ms", milliseconds(frame.steal_ns)},
            {"cut_operations", frame.segmentation.cut.operations()},
            {"motion", to_string(frame.info.deskew.state)}});
-    if (frame.segment_begin_ns <= 0) return;
-    std::int64_t begin_ns = frame.segment_begin_ns;
-    for (std::size_t i = frame.stages_ahead; i < figures_.stages(); ++i) {
-      if (frame.stages.stage_ns[i] <= 0) continue;  // the stage did not run at this frame's level
-      const std::int64_t end_ns = std::min(begin_ns + frame.stages.stage_ns[i], frame.labels_ns);
-      slice(kSegment, std::string(figures_.stage_names[i].view()), begin_ns, end_ns,
-            {{"cpu_ms", milliseconds(frame.stages.stage_ns[i])}});
-      begin_ns = end_ns;
-    }
   }
 
   /// Marks the missed deadline of a labelled frame, or the time at which a skipped frame was given

@@ -72,14 +72,13 @@ bool NodeLabeller::skip_if_late(status::FrameRecord& record) const noexcept {
   const std::int64_t now_ns = SystemClock().realtime_ns();
   if (!is_ready() || now_ns < record.info.last_packet_ns + deadline_ns_) return false;
   record.level = status::Level::kSkipped;
-  record.segment_begin_ns = record.labels_ns = now_ns;
+  record.labels_ns = now_ns;
   return true;
 }
 
 Status NodeLabeller::label(status::FrameRecord& record) {
   const SystemClock clock;
   const bool is_timed = record.info.last_packet_ns != 0;
-  record.segment_begin_ns = clock.realtime_ns();
   if (is_timed && !degradation_.begin(record.info.last_packet_ns)) {
     record.level = status::Level::kSkipped;
     record.labels_ns = clock.realtime_ns();

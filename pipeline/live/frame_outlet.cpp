@@ -51,32 +51,46 @@ void FrameOutlet::work() {
 void FrameOutlet::hand_out_sectors() {
   if (sectors_ == nullptr) return;
   for (SectorPool::Frame sector; sectors_->take(sector);) {
-    const Status published = rt::caught([&]() -> Status {
-      const auto shared = std::make_shared<publish::LabelledSector>();
-      shared->record = sector.record;
-      shared->points.assign(sector.items.begin(), sector.items.end());
-      publisher_.put_sector(shared);
-      return {};
-    });
-    sectors_->give_back(published.has_value());
+    const bool served = !stream_ || !stream_->sends_sectors || stream(sector.record, sector.items);
+    sectors_->give_back(served && publish(sector));
   }
 }
 
-bool FrameOutlet::stream(const Slots::Frame& frame) {
+bool FrameOutlet::publish(const SectorPool::Frame& sector) {
+  if (!publisher_.wants_sectors()) return true;
+  return rt::caught([&]() -> Status {
+           const auto shared = std::make_shared<publish::LabelledSector>();
+           shared->record = sector.record;
+           shared->points.assign(sector.items.begin(), sector.items.end());
+           publisher_.put_sector(shared);
+           return {};
+         })
+      .has_value();
+}
+
+bool FrameOutlet::stream(const status::FrameRecord& record,
+                         std::span<const points::LabelledPoint> points) {
+  const bool late = record.labels_ns - record.info.last_packet_ns > stream_->deadline_ns;
+  return stream({stream::header_of(record, stream_->sensor, late, points.size()), points});
+}
+
+bool FrameOutlet::stream(const points::SectorRecord& record,
+                         std::span<const points::LabelledPoint> points) {
+  const bool late = record.labels_ns - record.first_packet_ns > stream_->deadline_ns;
+  return stream({stream::header_of(record, stream_->sensor, late, points.size()), points});
+}
+
+bool FrameOutlet::stream(const stream::LabelledFrame& frame) {
   stream::FrameStreamServer* const open = server();
   if (open == nullptr) {
     ++while_closed_;
     return true;
   }
-  const std::int64_t latency_ns = frame.record.labels_ns - frame.record.info.last_packet_ns;
-  return open->serve({.record = frame.record,
-                      .sensor = stream_->sensor,
-                      .late = latency_ns > stream_->deadline_ns,
-                      .points = frame.items});
+  return open->serve(frame);
 }
 
 bool FrameOutlet::hand_out(const Slots::Frame& frame) {
-  const bool served = !stream_ || stream(frame);
+  const bool served = !stream_ || stream_->sends_sectors || stream(frame.record, frame.items);
   if (!publisher_.has_sinks()) return served;
   const Status published = rt::caught([&]() -> Status {
     const auto shared = publisher_.buffer();

@@ -19,10 +19,9 @@
 namespace terracut::live {
 
 /// Takes labelled points from the labelling thread and, on a thread of its own, hands them to the
-/// readers of the stream and to the queue of every other output; to those that want them, sectors,
-/// too. The stream needs no queue: its
-/// server never waits, and a busy reader misses the frame. If the stream's address is in use,
-/// opening it is tried again.
+/// readers of the stream and to the queue of every other output: frames, to those that want them
+/// sectors, too. The stream sends one or the other and needs no queue: its server never waits, and
+/// a busy reader misses the frame. If the stream's address is in use, opening it is tried again.
 class FrameOutlet {
  public:
   using Slots = FramePool<points::LabelledPoint>;
@@ -30,6 +29,7 @@ class FrameOutlet {
     publish::Reopened<stream::FrameStreamServer> server;
     sensor::SensorModel sensor;
     std::int64_t deadline_ns;
+    bool sends_sectors = false;  ///< In place of frames.
   };
 
   /// `ready` is woken when `slots` has a frame or `sectors` a sector, and by finish(). `sectors`
@@ -43,7 +43,8 @@ class FrameOutlet {
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
   [[nodiscard]] bool has_stream() const noexcept { return stream_.has_value(); }
-  /// Returns how many frames came while the stream's address was in use. For any thread.
+  /// Returns how many frames, or sectors, came while the stream's address was in use. For any
+  /// thread.
   [[nodiscard]] std::uint64_t frames_while_closed() const noexcept { return while_closed_; }
   /// Returns the stream's figures as of the last frame or second. For one other thread.
   [[nodiscard]] const stream::FrameStreamFigures& figures() const noexcept {
@@ -58,7 +59,12 @@ class FrameOutlet {
   [[nodiscard]] bool hand_out(const Slots::Frame& frame);
   /// Hands out the sectors that came.
   void hand_out_sectors();
-  [[nodiscard]] bool stream(const Slots::Frame& frame);
+  [[nodiscard]] bool publish(const SectorPool::Frame& sector);
+  [[nodiscard]] bool stream(const status::FrameRecord& record,
+                            std::span<const points::LabelledPoint> points);
+  [[nodiscard]] bool stream(const points::SectorRecord& record,
+                            std::span<const points::LabelledPoint> points);
+  [[nodiscard]] bool stream(const stream::LabelledFrame& frame);
   /// Returns the stream's server; null if there is no stream or its address is in use.
   [[nodiscard]] stream::FrameStreamServer* server() {
     return stream_ ? stream_->server.get() : nullptr;

@@ -103,10 +103,11 @@ bool FrameStreamServer::serve(const LabelledFrame& frame) noexcept {
     return false;
   }
   ++figures_.frames;
+  const bool is_sector = (frame.header.flags & kFrameSector) != 0;
   std::size_t slot = kNoSlot;
   for (Peer& peer : peers_) {
     if (!peer.socket) continue;
-    if (peer.backlog_bytes > 0) {
+    if (is_sector ? peer.slot != kNoSlot : peer.backlog_bytes > 0) {
       ++peer.figures.missed;
       ++figures_.missed;
       continue;
@@ -222,7 +223,7 @@ std::size_t FrameStreamServer::free_slot() const noexcept {
 }
 
 void FrameStreamServer::begin(Peer& peer, std::size_t slot, const LabelledFrame& frame) noexcept {
-  peer.header = header_of(frame.record, frame.sensor, frame.late, frame.points.size());
+  peer.header = frame.header;
   peer.header.missed = static_cast<std::uint32_t>(peer.figures.missed);
   peer.slot = slot;
   ++slots_[slot].holders;

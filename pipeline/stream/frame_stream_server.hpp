@@ -21,7 +21,7 @@ namespace terracut::stream {
 struct FrameStreamConfig {
   StreamAddress address{};
   ::mode_t unix_mode = ListeningSocket::kOwnerAndGroup;  ///< Rights of a Unix socket's file.
-  std::size_t max_points = 0;  ///< Most points of a frame, [1, kMostFramePoints]
+  std::size_t max_points = 0;  ///< Most points of a frame or sector, [1, kMostFramePoints]
   std::size_t max_peers = 4;   ///< Readers connected at once, [1, 64]
   /// A reader that takes nothing for this time (> 0) while a frame waits for it is disconnected: it
   /// hangs, or its machine has vanished.
@@ -29,16 +29,14 @@ struct FrameStreamConfig {
   std::size_t send_buffer_bytes = 0;  ///< The kernel's buffer per reader; 0: enough for a frame.
 };
 
-/// A frame to be sent to the stream's readers.
+/// A frame, or a sector of one, to be sent to the stream's readers.
 struct LabelledFrame {
-  status::FrameRecord record;
-  sensor::SensorModel sensor = sensor::SensorModel::kUnknown;
-  bool late = false;  ///< True if labelled after the deadline.
+  FrameWireHeader header;  ///< From header_of().
   std::span<const points::LabelledPoint> points{};
 };
 
-/// Counts since the start. For each connected reader, every frame taken was sent, was missed, was
-/// cut short when the reader left, or is being sent.
+/// Counts since the start, of sectors if these are sent. For each connected reader, every frame
+/// taken was sent, was missed, was cut short when the reader left, or is being sent.
 struct FrameStreamFigures {
   std::uint64_t frames = 0;            ///< Frames taken by serve().
   std::uint64_t frames_too_large = 0;  ///< Frames not taken, with more than max_points.
@@ -72,6 +70,9 @@ struct PeerFigures {
 /// it, and kept until the last of them has it; a free reader holds no frame, so there is always
 /// memory for the next frame that it takes.
 ///
+/// Sectors are sent likewise, but a reader that has not read the one before gets the next one, too,
+/// as long as the kernel's buffer has room: they come a millisecond after each other.
+///
 /// For one thread of normal priority: it makes system calls that take up to a few milliseconds for
 /// a frame's bytes, but never waits. Allocates nothing after open().
 class FrameStreamServer {
@@ -84,8 +85,8 @@ class FrameStreamServer {
   FrameStreamServer& operator=(FrameStreamServer&&) noexcept = default;
   ~FrameStreamServer() = default;
 
-  /// Takes a frame and begins to send it to every free reader. Returns false, and counts the frame,
-  /// if it has more than max_points. `frame.points` may be reused after the call.
+  /// Takes a frame or sector and begins to send it to every free reader. Returns false, and counts
+  /// the frame, if it has more than max_points. `frame.points` may be reused after the call.
   bool serve(const LabelledFrame& frame) noexcept;
 
   /// Continues sending, accepts readers and drops those that have gone. Call it when descriptor()

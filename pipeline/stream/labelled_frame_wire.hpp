@@ -11,6 +11,7 @@
 #include "calib/sensor/sensor_model.hpp"
 #include "pipeline/output/label_sink.hpp"
 #include "pipeline/points/labelled_point.hpp"
+#include "pipeline/points/sector_record.hpp"
 #include "pipeline/status/frame_record.hpp"
 
 /// The wire format of labelled frames on a socket (docs/reference/labelled_stream.md): a header,
@@ -51,6 +52,8 @@ inline constexpr std::uint32_t kFrameLate = 1U << 1;      ///< Labelled after it
 inline constexpr std::uint32_t kFrameDeskewed = 1U << 2;
 /// Deskewing was asked for but not done for lack of motion: points lie where they were seen.
 inline constexpr std::uint32_t kFrameNoEgoMotion = 1U << 3;
+/// A sector: a piece of the frame of this number, as labelled while the rest was still coming.
+inline constexpr std::uint32_t kFrameSector = 1U << 4;
 
 inline constexpr std::array<char, 4> kFrameMagic{'T', 'C', 'L', 'T'};
 /// The version increases only if readers of the last version could no longer read. New fields are
@@ -72,8 +75,8 @@ struct FrameWireHeader {
   std::uint8_t sensor = 0;   ///< A value of StreamedSensor.
   std::uint8_t level = 0;    ///< status::Level: 0 full, 1 cut stopped, 2 coarse, 3 skipped.
   std::uint32_t flags = 0;   ///< Bits such as kFrameComplete.
-  std::uint32_t missed = 0;  ///< Frames this reader missed since it connected.
-  std::uint32_t reserved = 0;
+  std::uint32_t missed = 0;  ///< Frames, or sectors, that this reader missed since it connected.
+  std::uint32_t first_return = 0;  ///< Place in the frame of a sector's first return.
 
   bool operator==(const FrameWireHeader&) const = default;
 };
@@ -85,7 +88,8 @@ static_assert(offsetof(FrameWireHeader, header_bytes) == 6 &&
               offsetof(FrameWireHeader, labels_ns) == 32 &&
               offsetof(FrameWireHeader, point_bytes) == 40 &&
               offsetof(FrameWireHeader, sensor) == 42 && offsetof(FrameWireHeader, level) == 43 &&
-              offsetof(FrameWireHeader, flags) == 44 && offsetof(FrameWireHeader, missed) == 48);
+              offsetof(FrameWireHeader, flags) == 44 && offsetof(FrameWireHeader, missed) == 48 &&
+              offsetof(FrameWireHeader, first_return) == 52);
 /// Returns the header of a frame, with `missed` at 0.
 [[nodiscard]] constexpr FrameWireHeader header_of(const status::FrameRecord& record,
                                                   sensor::SensorModel sensor, bool late,
@@ -101,6 +105,19 @@ static_assert(offsetof(FrameWireHeader, header_bytes) == 6 &&
           .flags = (record.info.complete ? kFrameComplete : 0U) | (late ? kFrameLate : 0U) |
                    (deskew == frame::DeskewState::kDone ? kFrameDeskewed : 0U) |
                    (deskew == frame::DeskewState::kNoEgoMotion ? kFrameNoEgoMotion : 0U)};
+}
+/// Returns the header of a sector, with `missed` at 0. What is known of whole frames alone is 0.
+[[nodiscard]] constexpr FrameWireHeader header_of(const points::SectorRecord& record,
+                                                  sensor::SensorModel sensor, bool late,
+                                                  std::size_t points) noexcept {
+  return {.number = record.frame,
+          .points = static_cast<std::uint32_t>(points),
+          .first_packet_ns = record.first_packet_ns,
+          .last_packet_ns = record.last_packet_ns,
+          .labels_ns = record.labels_ns,
+          .sensor = sensor::row_of(sensor).stream_number,
+          .flags = kFrameSector | (late ? kFrameLate : 0U),
+          .first_return = record.first_return};
 }
 static_assert(static_cast<int>(status::Level::kFull) == 0 &&
                   static_cast<int>(status::Level::kSkipped) == 3,

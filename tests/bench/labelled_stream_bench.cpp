@@ -106,8 +106,10 @@ void serve_frame(benchmark::State& state) {
     });
   }
   while (server->peers() < readers) server->work_round();
-  stream::LabelledFrame labelled;
-  labelled.points = std::span(frame.points).first(frame.image.returns());
+  const std::size_t returns = frame.image.returns();
+  const stream::LabelledFrame labelled{
+      stream::header_of(status::FrameRecord{}, sensor::SensorModel::kUnknown, false, returns),
+      std::span(frame.points).first(returns)};
   std::uint64_t expected = 0;
   for (auto each : state) {
     server->serve(labelled);

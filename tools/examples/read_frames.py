@@ -3,7 +3,7 @@
 # Copyright 2026 The terracut authors
 """Reads labelled frames from a running `terracut live --stream ADDRESS` (docs/reference/labelled_stream.md).
 
-Prints a line a frame; with --pcd also writes each as a binary PCD file. Needs nothing but Python 3.8:
+Prints a line a frame, or a sector (--stream-sectors); with --pcd also writes each as a binary PCD file. Needs nothing but Python 3.8:
 copy decode_header() and receive_frames() into a program of your own. With numpy, the points are
 numpy.frombuffer(points, POINT_DTYPE).
 """
@@ -19,11 +19,11 @@ POINT_DTYPE = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"),
                ("intensity", "u1"), ("label", "u1"), ("row", "<u2"), ("time", "<f4")]
 HEADER_FIELDS = ("magic", "version", "header_bytes", "number", "points", "first_packet_ns",
                  "last_packet_ns", "labels_ns", "point_bytes", "sensor", "level", "flags",
-                 "missed", "reserved")
+                 "missed", "first_return")
 MOST_POINTS = 4194304
 SENSORS = {1: "hdl64e", 2: "ruby128", 3: "vlp16", 4: "hdl32e", 5: "vlp32c", 6: "vls128"}
 RUNGS = {0: "full", 1: "cut_stopped", 2: "coarse", 3: "skipped"}
-COMPLETE, LATE, NO_EGO_MOTION = 1, 2, 8
+COMPLETE, LATE, NO_EGO_MOTION, SECTOR = 1, 2, 8, 16
 GROUND, OTHER_GROUND, OBSTACLE = 40, 49, 99
 
 
@@ -92,17 +92,22 @@ def receive_frames(connection):
 
 
 def describe(header, points):
-    """Returns a frame as one line for people."""
+    """Returns a frame, or a sector, as one line for people."""
+    is_sector = header["flags"] & SECTOR
     labels = points[13::POINT.size]
     obstacles = labels.count(OBSTACLE)
     ground = labels.count(GROUND) + labels.count(OTHER_GROUND)
-    line = "frame %d  %s  %s  %d points  %d ground  %d obstacle" % (
-        header["number"], SENSORS.get(header["sensor"], "unknown"),
-        RUNGS.get(header["level"], "unknown"), header["points"], ground, obstacles)
+    which = "frame %d" % header["number"]
+    if is_sector:
+        which += " from return %d" % header["first_return"]
+    which += "  " + SENSORS.get(header["sensor"], "unknown")
+    if not is_sector:  # a level is of a whole frame
+        which += "  " + RUNGS.get(header["level"], "unknown")
+    line = "%s  %d points  %d ground  %d obstacle" % (which, header["points"], ground, obstacles)
     if header["labels_ns"]:
         line += "  labelled after %.1f ms" % (
             (header["labels_ns"] - header["last_packet_ns"]) / 1e6)
-    if not header["flags"] & COMPLETE:
+    if not is_sector and not header["flags"] & COMPLETE:
         line += "  incomplete"
     if header["flags"] & LATE:
         line += "  late"
@@ -140,7 +145,10 @@ def main():
             for frames, (header, points) in enumerate(receive_frames(connection), 1):
                 print(describe(header, points), flush=True)
                 if arguments.pcd:
-                    write_pcd(os.path.join(arguments.pcd, "%06d.pcd" % header["number"]), points)
+                    name = "%06d" % header["number"]
+                    if header["flags"] & SECTOR:
+                        name += "-%06d" % header["first_return"]
+                    write_pcd(os.path.join(arguments.pcd, name + ".pcd"), points)
                 if frames == arguments.count:
                     break
     except (OSError, ValueError, StreamError) as error:

@@ -60,6 +60,7 @@ void bind_frame(py::module_& module) {
       .def_property_readonly("number", of_info(&frame::FrameInfo::number))
       .def_property_readonly("first_packet_ns", of_info(&frame::FrameInfo::first_packet_ns))
       .def_property_readonly("last_packet_ns", of_info(&frame::FrameInfo::last_packet_ns))
+      .def_readonly("first_return", &FrameData::first_return)
       .def_property_readonly("complete", of_info(&frame::FrameInfo::complete))
       .def_property_readonly("deskewed",
                              [](const FrameData& frame) {

@@ -13,9 +13,11 @@
 
 namespace terracut::python {
 
-/// One labelled frame, whose numpy arrays are views of `points` and keep it alive.
+/// One labelled frame, or a sector of one, whose numpy arrays are views of `points` and keep it
+/// alive.
 struct FrameData {
   frame::FrameInfo info;
+  std::uint32_t first_return = 0;             ///< Place in the frame of a sector's first return.
   std::optional<status::FrameRecord> record;  ///< Record of the frame; none for a live run.
   std::vector<stream::WirePoint> points;
 };

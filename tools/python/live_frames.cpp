@@ -45,9 +45,26 @@ Expected<LiveRun::Config> config_of(const cli::Options& options) {
   return config;
 }
 
+/// Copies points and labels of a frame or sector; times are 0.
+template <class Labelled>
+void copy_points(const Labelled& from, FrameData& to) {
+  to.points.resize(from.points.size());
+  for (std::size_t i = 0; i < from.points.size(); ++i) {
+    const Point& point = from.points[i];
+    to.points[i] = {point.x_m,
+                    point.y_m,
+                    point.z_m,
+                    point.intensity,
+                    static_cast<std::uint8_t>(output::semantic_kitti_class(from.labels[i])),
+                    point.ring,
+                    0};
+  }
+}
+
 }  // namespace
 
-LiveFrames::LiveFrames(const std::vector<std::string>& words) {
+LiveFrames::LiveFrames(const std::vector<std::string>& words, bool sectors)
+    : gives_sectors_(sectors) {
   const Status opened = without_the_lock([&] { return open(words); });
   if (!opened) raise(opened.error());
   begun_ = std::chrono::steady_clock::now();
@@ -57,7 +74,9 @@ LiveFrames::LiveFrames(const std::vector<std::string>& words) {
           keep_figures();
           return is_over();
         },
-        [this](const Frame& frame) { keep(frame); });
+        [this](const Frame& frame) {
+          if (!gives_sectors_) keep(frame);
+        });
     keep_figures();
     const std::lock_guard lock(mutex_);
     ended_ = true;
@@ -73,8 +92,9 @@ Status LiveFrames::open(const std::vector<std::string>& words) {
   const auto arguments = cli::parse_arguments(words);
   if (!arguments) return tl::unexpected(arguments.error());
   duration_s_ = arguments->options.capture.duration_s;
-  const auto config = config_of(arguments->options);
+  auto config = config_of(arguments->options);
   if (!config) return tl::unexpected(config.error());
+  if (gives_sectors_) config->on_sector = [this](const Sector& sector) { keep(sector); };
   auto run = LiveRun::open(*config, is_interrupted);
   if (!run) return tl::unexpected(run.error());
   run_ = *std::move(run);
@@ -96,19 +116,27 @@ void LiveFrames::keep(const Frame& frame) {
   data->info.complete = frame.complete;
   data->info.returns = static_cast<std::uint32_t>(frame.points.size());
   if (frame.deskewed) data->info.deskew.state = frame::DeskewState::kDone;
-  data->points.resize(frame.points.size());
-  for (std::size_t i = 0; i < frame.points.size(); ++i) {
-    const Point& point = frame.points[i];
-    data->points[i] = {point.x_m,
-                       point.y_m,
-                       point.z_m,
-                       point.intensity,
-                       static_cast<std::uint8_t>(output::semantic_kitti_class(frame.labels[i])),
-                       point.ring,
-                       frame.time_s[i]};
-  }
+  copy_points(frame, *data);
+  for (std::size_t i = 0; i < frame.points.size(); ++i) data->points[i].time_s = frame.time_s[i];
+  keep(std::move(data));
+}
+
+void LiveFrames::keep(const Sector& sector) {
+  std::shared_ptr<FrameData> data = buffers_.take();
+  data->record.reset();
+  data->info = {};
+  data->info.number = sector.frame;
+  data->info.first_packet_ns = sector.first_packet_ns;
+  data->info.last_packet_ns = sector.last_packet_ns;
+  data->info.returns = static_cast<std::uint32_t>(sector.points.size());
+  data->first_return = static_cast<std::uint32_t>(sector.first_return);
+  copy_points(sector, *data);
+  keep(std::move(data));
+}
+
+void LiveFrames::keep(std::shared_ptr<FrameData> data) {
   const std::lock_guard lock(mutex_);
-  if (waiting_.size() == kMostWaiting) {
+  if (waiting_.size() == (gives_sectors_ ? kMostSectors : kMostFrames)) {
     waiting_.pop_front();
     ++left_out_;
   }
@@ -151,7 +179,11 @@ py::dict LiveFrames::figures() {
   figures["datagrams"] = figures_.datagrams;
   figures["decoded"] = figures_.decoded;
   figures["frames"] = figures_.frames;
-  figures["frames_left_out"] = figures_.frames_left_out + left_out_;
+  figures["frames_left_out"] = figures_.frames_left_out + (gives_sectors_ ? 0 : left_out_);
+  if (gives_sectors_) {
+    figures["sectors"] = figures_.sectors;
+    figures["sectors_left_out"] = figures_.sectors_left_out + left_out_;
+  }
   figures["deadlines_missed"] = figures_.deadlines_missed;
   return figures;
 }
@@ -163,7 +195,7 @@ std::string LiveFrames::refusals() {
 
 void bind_live(py::module_& module) {
   py::class_<LiveFrames>(module, "Live", "The labelled frames of a live sensor, as they come.")
-      .def(py::init<const std::vector<std::string>&>())
+      .def(py::init<const std::vector<std::string>&, bool>())
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__",
            [](LiveFrames& frames) {

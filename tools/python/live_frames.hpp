@@ -19,14 +19,14 @@
 
 namespace terracut::python {
 
-/// A live sensor's frames for a loop in Python. The run has threads of its own, which never hold
-/// the interpreter's lock; if the loop is too slow, the oldest waiting frames are dropped and
-/// counted.
+/// A live sensor's frames, or their sectors, for a loop in Python. The run has threads of its own,
+/// which never hold the interpreter's lock; if the loop is too slow, the oldest waiting ones are
+/// dropped and counted.
 class LiveFrames {
  public:
   /// `words` is a command line of `terracut live`. Returns once the sensor is heard; Ctrl-C ends
   /// the wait.
-  explicit LiveFrames(const std::vector<std::string>& words);
+  LiveFrames(const std::vector<std::string>& words, bool sectors);
   ~LiveFrames();
 
   /// Waits for the next frame and returns it; null when the run is over.
@@ -37,16 +37,19 @@ class LiveFrames {
   [[nodiscard]] std::string refusals();
 
  private:
-  static constexpr std::size_t kMostWaiting = 4;
+  static constexpr std::size_t kMostFrames = 4, kMostSectors = 256;  ///< That wait.
 
   [[nodiscard]] Status open(const std::vector<std::string>& words);
   [[nodiscard]] bool is_over() const;
   void keep(const Frame& frame);
+  void keep(const Sector& sector);
+  void keep(std::shared_ptr<FrameData> data);
   void keep_figures();
 
   std::optional<LiveRun> run_;
   std::optional<double> duration_s_;
   std::chrono::steady_clock::time_point begun_;
+  bool gives_sectors_;
   FrameBuffers buffers_;
   std::atomic<bool> stop_{false};
   std::mutex mutex_;

@@ -58,24 +58,23 @@ TEST_P(FrameStream, HandsOverHeaderAndPointsAsTheyWereGiven) {
   open({.max_points = 1000});
   FrameStreamReader first = reader();
   const auto points = points_of_frame(7, 1000);
-  LabelledFrame given = frame_of(7, points);
-  given.record.level = status::Level::kCoarse;
-  given.late = true;
-  given.record.info.deskew.state = frame::DeskewState::kDone;
-  ASSERT_TRUE(server().serve(given));
+  status::FrameRecord given = record_of(7);
+  given.level = status::Level::kCoarse;
+  given.info.deskew.state = frame::DeskewState::kDone;
+  ASSERT_TRUE(server().serve(frame_of(given, points, true)));
   ReceivedFrame frame;
   ASSERT_TRUE(receive(first, frame).value_or(false));
   EXPECT_EQ(frame.header, (FrameWireHeader{.number = 7,
                                            .points = 1000,
-                                           .first_packet_ns = given.record.info.first_packet_ns,
-                                           .last_packet_ns = given.record.info.last_packet_ns,
-                                           .labels_ns = given.record.labels_ns,
+                                           .first_packet_ns = given.info.first_packet_ns,
+                                           .last_packet_ns = given.info.last_packet_ns,
+                                           .labels_ns = given.labels_ns,
                                            .sensor = 1,
                                            .level = 2,
                                            .flags = kFrameComplete | kFrameLate | kFrameDeskewed}));
   EXPECT_EQ(frame.points, on_wire(points));
-  given.record.info.deskew.state = frame::DeskewState::kNoEgoMotion;
-  ASSERT_TRUE(server().serve(given));
+  given.info.deskew.state = frame::DeskewState::kNoEgoMotion;
+  ASSERT_TRUE(server().serve(frame_of(given, points, true)));
   ASSERT_TRUE(receive(first, frame).value_or(false));
   EXPECT_EQ(frame.header.flags, kFrameComplete | kFrameLate | kFrameNoEgoMotion);
 }
@@ -89,6 +88,41 @@ TEST_P(FrameStream, EveryReaderGetsTheWholeFrame) {
   EXPECT_EQ(figures().sent, 3U);
   EXPECT_EQ(figures().missed, 0U);
   EXPECT_EQ(figures().bytes, 3 * (sizeof(FrameWireHeader) + kManyPoints * sizeof(WirePoint)));
+}
+
+TEST_P(FrameStream, SectorsWaitForAReaderWhereFramesAreMissed) {
+  open({.max_points = 100, .send_buffer_bytes = kSmallSendBuffer_bytes});
+  FrameStreamReader busy = reader();
+  const auto points = points_of_frame(7, 100);
+  constexpr std::uint32_t kSectors = 16;
+  for (std::uint32_t n = 0; n < kSectors; ++n) {
+    const points::SectorRecord sector{.frame = 7, .first_return = 100 * n};
+    ASSERT_TRUE(server().serve(
+        {header_of(sector, sensor::SensorModel::kHdl64e, false, points.size()), points}));
+  }
+  for (std::uint32_t n = 0; n < kSectors; ++n) {
+    ReceivedFrame sector;
+    ASSERT_TRUE(receive(busy, sector).value_or(false));
+    EXPECT_EQ(sector.header.flags, kFrameSector);
+    EXPECT_EQ(sector.header.first_return, 100 * n);
+    EXPECT_EQ(sector.points, on_wire(points));
+  }
+  EXPECT_EQ(figures().missed, 0U);
+}
+
+TEST_P(FrameStream, SectorsThatFindNoRoomAreMissedAndCounted) {
+  open({.max_points = kManyPoints, .send_buffer_bytes = kSmallSendBuffer_bytes});
+  FrameStreamReader stands_still = reader(kSmallBuffer_bytes);
+  const auto points = points_of_frame(7, kManyPoints);
+  for (std::uint32_t n = 0; n < 3; ++n) {
+    const points::SectorRecord sector{.frame = n, .first_return = 0};
+    ASSERT_TRUE(server().serve(
+        {header_of(sector, sensor::SensorModel::kHdl64e, false, points.size()), points}));
+  }
+  EXPECT_EQ(figures().missed, 2U);
+  ReceivedFrame sector;
+  ASSERT_TRUE(receive(stands_still, sector).value_or(false));
+  EXPECT_EQ(sector.header.number, 0U);
 }
 
 TEST_P(FrameStream, AFrameWithoutPointsIsAFrame) {

@@ -22,7 +22,8 @@ FrameWireHeader some_header() {
           .sensor = 2,
           .level = 1,
           .flags = kFrameComplete | kFrameLate,
-          .missed = 0x41424344};
+          .missed = 0x41424344,
+          .first_return = 0x51525354};
 }
 
 TEST(LabelledFrameWire, HeaderHasTheDocumentedBytes) {
@@ -33,7 +34,7 @@ TEST(LabelledFrameWire, HeaderHasTheDocumentedBytes) {
       0x28, 0x27, 0x26, 0x25, 0x24, 0x23, 0x22, 0x21,  // last packet
       0x38, 0x37, 0x36, 0x35, 0x34, 0x33, 0x32, 0x31,  // labels
       20,   0,    2,    1,    3,    0,    0,    0,     // point size, sensor, level, flags
-      0x44, 0x43, 0x42, 0x41, 0,    0,    0,    0,     // missed, reserved
+      0x44, 0x43, 0x42, 0x41, 0x54, 0x53, 0x52, 0x51,  // missed, first return
   };
   EXPECT_EQ(std::bit_cast<HeaderBytes>(some_header()), expected);
 }
@@ -45,9 +46,26 @@ TEST(LabelledFrameWire, PointHasTheDocumentedBytes) {
   EXPECT_EQ((std::bit_cast<std::array<std::uint8_t, 20>>(point)), expected);
 }
 
+TEST(LabelledFrameWire, ASectorSaysWhichPieceOfItsFrameItIs) {
+  const points::SectorRecord sector{.frame = 7,
+                                    .first_return = 1536,
+                                    .first_packet_ns = 1000,
+                                    .last_packet_ns = 2000,
+                                    .labels_ns = 9000};
+  EXPECT_EQ(header_of(sector, sensor::SensorModel::kHdl64e, true, 1500),
+            (FrameWireHeader{.number = 7,
+                             .points = 1500,
+                             .first_packet_ns = 1000,
+                             .last_packet_ns = 2000,
+                             .labels_ns = 9000,
+                             .sensor = 1,
+                             .flags = kFrameSector | kFrameLate,
+                             .first_return = 1536}));
+}
+
 TEST(LabelledFrameWire, OnlyTheSensorsThatAreDecodedHaveANumber) {
   const auto number_of = [](sensor::SensorModel model) {
-    return int{header_of({}, model, false, 0).sensor};
+    return int{header_of(status::FrameRecord{}, model, false, 0).sensor};
   };
   EXPECT_EQ(number_of(sensor::SensorModel::kHdl64e), 1);
   EXPECT_EQ(number_of(sensor::SensorModel::kHdl64eS1), 1);

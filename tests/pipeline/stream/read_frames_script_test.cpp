@@ -62,15 +62,32 @@ TEST_P(ReadFramesScript, PrintsWhatWasServed) {
   auto script = run("--count 1");
   ASSERT_TRUE(reader_came());
   const auto points = points_of_frame(41, 150'000);
-  LabelledFrame frame = frame_of(41, points);
-  frame.record.level = status::Level::kCutStopped;
-  frame.late = true;
-  ASSERT_TRUE(server().serve(frame));
+  status::FrameRecord record = record_of(41);
+  record.level = status::Level::kCutStopped;
+  ASSERT_TRUE(server().serve(frame_of(record, points, true)));
   const Outcome outcome = end_of(script);
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.text,
             "frame 41  hdl64e  cut_stopped  150000 points  50000 ground  100000 obstacle  labelled "
             "after 6.0 ms  late\n");
+}
+
+TEST_P(ReadFramesScript, SaysOfASectorWhereInItsFrameItIs) {
+  auto script = run("--count 1 --pcd " + folder_.string());
+  ASSERT_TRUE(reader_came());
+  const auto points = points_of_frame(41, 1500);
+  const points::SectorRecord sector{.frame = 41,
+                                    .first_return = 3000,
+                                    .first_packet_ns = 1'000'000'000,
+                                    .last_packet_ns = 1'001'000'000,
+                                    .labels_ns = 1'018'000'000};
+  ASSERT_TRUE(server().serve(
+      {header_of(sector, sensor::SensorModel::kHdl64e, false, points.size()), points}));
+  const Outcome outcome = end_of(script);
+  EXPECT_EQ(outcome.text,
+            "frame 41 from return 3000  hdl64e  1500 points  500 ground  1000 obstacle  labelled "
+            "after 17.0 ms\n");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "000041-003000.pcd"));
 }
 
 TEST_P(ReadFramesScript, WritesPcdFilesWithThePointsAsTheyWere) {

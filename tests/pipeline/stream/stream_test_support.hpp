@@ -48,15 +48,22 @@ inline std::vector<WirePoint> on_wire(const std::vector<points::LabelledPoint>& 
   return wire;
 }
 
+inline status::FrameRecord record_of(std::uint32_t number) {
+  status::FrameRecord record;
+  record.info.number = number;
+  record.info.first_packet_ns = 1'000'000'000LL * number;
+  record.info.last_packet_ns = 1'000'000'000LL * number + 99'000'000;
+  record.info.complete = true;
+  record.labels_ns = 1'000'000'000LL * number + 105'000'000;
+  return record;
+}
+inline LabelledFrame frame_of(const status::FrameRecord& record,
+                              const std::vector<points::LabelledPoint>& points, bool late = false) {
+  return {header_of(record, sensor::SensorModel::kHdl64e, late, points.size()), points};
+}
 inline LabelledFrame frame_of(std::uint32_t number,
                               const std::vector<points::LabelledPoint>& points) {
-  LabelledFrame frame{.record = {}, .sensor = sensor::SensorModel::kHdl64e, .points = points};
-  frame.record.info.number = number;
-  frame.record.info.first_packet_ns = 1'000'000'000LL * number;
-  frame.record.info.last_packet_ns = 1'000'000'000LL * number + 99'000'000;
-  frame.record.info.complete = true;
-  frame.record.labels_ns = 1'000'000'000LL * number + 105'000'000;
-  return frame;
+  return frame_of(record_of(number), points);
 }
 
 /// Until `done()` says so, in vain after kTestPatience_ms.

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <vector>
 
 #include "firmware_io/net/live_pcap_source.hpp"
@@ -275,6 +276,43 @@ TEST_F(CliLive, GivesLabelledPointsToOtherProcesses) {
   }
   EXPECT_LE(missing, json("live.json").at("losses").at("unwritten_label_frames"));
   EXPECT_LT(missing, frames.size());
+}
+
+TEST_F(CliLive, GivesSectorsToOtherProcessesAsTheyAreLabelled) {
+  const fs::path socket = folder_ / "frames";
+  LiveRun run = live_with_table("--labels labels --json live.json --stream-sectors --stream " +
+                                quoted(socket));
+  const Sensors sender = sensor(run);
+  ASSERT_TRUE(run.says("labelled points at "));
+  auto reader = test::FrameStreamReader::connect(*stream::parse_stream_address(socket.string()));
+  ASSERT_TRUE(reader) << reader.error().message;
+  constexpr int kHour_ms = 3'600'000;
+  // The first turn may have begun before the reader came; the last one is cut short.
+  std::map<std::uint32_t, std::vector<test::ReceivedFrame>> sectors_of;
+  while (sectors_of.size() < 5) {
+    test::ReceivedFrame sector;
+    ASSERT_TRUE(reader->next(sector, kHour_ms).value_or(false));
+    ASSERT_NE(sector.header.flags & stream::kFrameSector, 0U);
+    sectors_of[sector.header.number].push_back(std::move(sector));
+  }
+  expect_good_end(run.interrupted());
+  // Put together, those of a frame are the label file's returns, in their order.
+  int whole = 0;
+  for (const auto& [number, sectors] : sectors_of) {
+    const fs::path file = folder_ / "labels" / fmt::format("{:06}.label", number);
+    if (!fs::exists(file)) continue;
+    const auto ids = ids_of(file);
+    std::size_t returns = 0;
+    for (const test::ReceivedFrame& sector : sectors) {
+      ASSERT_LE(sector.header.first_return + sector.points.size(), ids.size());
+      for (std::size_t i = 0; i < sector.points.size(); ++i) {
+        ASSERT_EQ(sector.points[i].label, ids[sector.header.first_return + i]);
+      }
+      returns += sector.points.size();
+    }
+    whole += returns == ids.size() ? 1 : 0;
+  }
+  EXPECT_GE(whole, 1);
 }
 
 TEST_F(CliLive, SaysWhereItsFiguresAre) {

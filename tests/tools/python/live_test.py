@@ -58,6 +58,21 @@ class Live(unittest.TestCase):
         self.assertGreater(waiting[0].number, first.number + 1)
         self.assertLessEqual(len(waiting), 4)
 
+    def test_sectors_come_one_after_the_other_and_make_up_their_frames(self):
+        self.be_the_sensor()
+        with terracut.live(self.address, CALIBRATION, deadline=1000, lock_memory=False, sectors=True) as sectors:
+            taken = [sector for sector, _ in zip(sectors, range(300))]
+        places = [(sector.number, sector.first_return) for sector in taken]
+        self.assertEqual(places, sorted(set(places)))
+        self.assertGreater(len({number for number, _ in places}), 1)
+        follow = sum(
+            before.number == after.number and before.first_return + len(before) == after.first_return
+            for before, after in zip(taken, taken[1:])
+        )
+        self.assertGreater(follow, 100)
+        self.assertLessEqual({*np.unique(taken[0].labels)}, {terracut.GROUND, terracut.OBSTACLE})
+        self.assertGreaterEqual(sectors.figures()["sectors"], 300)
+
     def test_a_run_ends_by_itself_after_its_duration(self):
         self.be_the_sensor()
         frames = list(terracut.live(self.address, CALIBRATION, duration=0.5, deadline=1000, lock_memory=False))

@@ -167,7 +167,7 @@ live::LiveConfig live_config_of(const Options& options, const streams::SensorOnA
       .longest_gathering_ns = static_cast<std::int64_t>(options.listen.gather_ms * 1e6),
       .keeps_labels = !options.output.labels.empty(),
       .keeps_points = wants_points,
-      .keeps_sectors = wants_sectors(options.output),
+      .keeps_sectors = wants_sectors(options.output) || options.stream_sectors,
       .compares_tables = !options.capture.calibration.empty(),
       .thread = live::thread_request("tc-label", realtime.priority, realtime.core)};
   config.recorder_seconds = keeps_packets(options) ? options.recorder.seconds : 0;
@@ -200,7 +200,7 @@ class Writers {
       std::optional<live::FrameOutlet::Stream> stream;
       if (!options.stream.empty()) {
         stream = {publish::Reopened<stream::FrameStreamServer>(stream_at(options, parts)),
-                  sensor.model, deadline_ns};
+                  sensor.model, deadline_ns, options.stream_sectors};
       }
       outlet_.emplace(std::move(stream), *publisher_, *parts.thread.points(),
                       parts.thread.sectors(), parts.thread.points_ready());
@@ -239,11 +239,17 @@ class Writers {
 
  private:
   [[nodiscard]] publish::Reopened<stream::FrameStreamServer>::Config stream_at(
-      const Options& options, const live::LiveParts& parts) {
-    const stream::FrameStreamConfig config{
+      const Options& options, live::LiveParts& parts) {
+    const std::size_t most_points = parts.turns.decoder().return_capacity();
+    stream::FrameStreamConfig config{
         .address = stream::parse_stream_address(options.stream).value(),
         .unix_mode = options.stream_mode,
-        .max_points = parts.turns.decoder().return_capacity()};
+        .max_points = most_points};
+    if (options.stream_sectors) {
+      config.max_points = parts.thread.sectors()->most_returns();
+      // Up to a turn of them may wait for a reader.
+      config.send_buffer_bytes = most_points * sizeof(stream::WirePoint);
+    }
     const auto open = [this, config]() -> Expected<stream::FrameStreamServer> {
       auto server = stream::FrameStreamServer::open(config, stream_memory_);
       if (!server) return server;

@@ -111,19 +111,23 @@ def live(
     mount_pitch: Optional[float] = None,
     priority: Optional[int] = None,
     lock_memory: bool = True,
+    sectors: bool = False,
 ) -> Live:
     """Returns the labelled frames of a sensor that sends to `listen` (ADDRESS:PORT, or a port of any address).
 
     Returns when the sensor is heard. Labels are made before the deadline (milliseconds) by threads that Python does not
     delay; if the loop is too slow, the oldest of four waiting frames is dropped and counted in `figures()`.
     `with terracut.live() as frames:` ends the run with the block.
+
+    With `sectors`, they come in pieces of some four degrees, each as soon as its labels are known, some milliseconds
+    after it was measured; `first_return` is a piece's place in its frame. 256 of them wait for the loop.
     """
     return Live(_words("live", [], {
         "listen": listen, "calibration": calibration, "deadline": deadline, "duration": duration, "patience": patience,
         "gather": gather, "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch,
         "priority": priority,
         "no_lock_memory": not lock_memory,
-    }))  # fmt: skip
+    }), sectors)  # fmt: skip
 
 
 class Segmenter:

@@ -20,8 +20,11 @@ class Frame:
     @property
     def last_packet_ns(self) -> int: ...
     @property
+    def first_return(self) -> int:
+        """Of a sector: the place in its frame of its first return; else 0."""
+    @property
     def complete(self) -> bool:
-        """Every firing was seen."""
+        """Every firing was seen; not known of a sector."""
     @property
     def deskewed(self) -> bool: ...
     @property
@@ -58,7 +61,7 @@ class Replay:
         """What `terracut replay --json` writes, of the frames so far."""
 
 class Live:
-    def __init__(self, words: Sequence[str]) -> None: ...
+    def __init__(self, words: Sequence[str], sectors: bool) -> None: ...
     def __iter__(self) -> Live: ...
     def __next__(self) -> Frame: ...
     def __enter__(self) -> Live: ...
@@ -66,7 +69,7 @@ class Live:
     def stop(self) -> None:
         """Ends the run; frames that wait can still be taken."""
     def figures(self) -> dict[str, int]:
-        """datagrams, decoded, frames, frames_left_out, deadlines_missed."""
+        """datagrams, decoded, frames, frames_left_out, deadlines_missed; with sectors sectors, sectors_left_out."""
     @property
     def refusals(self) -> str:
         """What the system did not grant (priorities, locked memory), a line each."""

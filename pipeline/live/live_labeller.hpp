@@ -208,6 +208,7 @@ class LiveLabeller {
     status::FrameRecord record;
     record.info = turn.info;
     record.closing_packet_ns = newest_packet_ns_;
+    record.labels_ns = clock_.realtime_ns();
     record.handed_over_ns = fetched_ns_;
     record.segmentation = turns_.report();
     record.level = level_of(record.segmentation);
@@ -221,7 +222,7 @@ class LiveLabeller {
         now_ns - std::exchange(spent_ns_, now_ns) - record.segment_cpu_ns, 0);
     // The frame's closing packet came with this fetch or the previous one.
     record.run_queue_wait_ns = wait_.read_ns() - waited_before_last_fetch_ns_;
-    record.labels_ns = clock_.realtime_ns();
+    record.labels_ns = clock_.realtime_ns();  // with the work of handing them on
     gathering_.note_frame(turn.info.last_packet_ns, received_);
     if (!lets_go_) gate_.note_frame(turn.info.last_packet_ns, record.labels_ns);
     to_.records->pass_on(record);

@@ -72,7 +72,7 @@ std::vector<status::NamedCount> Publisher::losses(bool over) const {
     losses.push_back({{name}, worker->left_out() + (over ? worker->waiting() : 0)});
     if (worker->sink().wants_sectors()) {
       losses.push_back({{fmt::format("{}_sectors_left_out", worker->sink().name())},
-                        worker->sectors_left_out()});
+                        worker->sectors_left_out() + (over ? worker->sectors_waiting() : 0)});
     }
     std::ranges::move(worker->sink().losses(), std::back_inserter(losses));
   }

@@ -48,7 +48,7 @@ class Publisher {
   /// Returns the first error of any output. This and the next function may be called on any thread.
   [[nodiscard]] Status outcome() const;
   /// Returns each output's left-out frames (NAME_frames_left_out), sectors likewise, and the
-  /// output's own losses. If `over` is true, frames that still wait count as lost.
+  /// output's own losses. If `over` is true, those that still wait count as lost.
   [[nodiscard]] std::vector<status::NamedCount> losses(bool over = false) const;
 
  private:

@@ -15,6 +15,7 @@ struct RunFacts {
   int rows = 0;        ///< Rows of the range image; points have rows [0, rows).
   mount::Mount mount{};
   std::int64_t deadline_ns = 0;  ///< From a frame's last packet to its labels; 0: no deadline.
+  bool gives_sectors = false;    ///< True if each frame's sectors come before it.
   bool has_road = false;         ///< True if ground that is not road has its own label.
 
   /// Names of coordinate frames in ROS' transform tree. Points lie in the vehicle frame

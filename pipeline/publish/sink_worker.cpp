@@ -81,6 +81,11 @@ std::uint64_t SinkWorker::waiting() const {
   return frames_.size() + (is_working_ ? 1 : 0);
 }
 
+std::uint64_t SinkWorker::sectors_waiting() const {
+  const std::scoped_lock lock(mutex_);
+  return sectors_.size() + (is_working_on_sector_ ? 1 : 0);
+}
+
 std::optional<Error> SinkWorker::failure() const {
   const std::scoped_lock lock(mutex_);
   return failure_;
@@ -93,12 +98,13 @@ bool SinkWorker::is_sector_next() const {
 
 std::optional<SinkWorker::Work> SinkWorker::next() {
   std::unique_lock lock(mutex_);
-  is_working_ = false;
+  is_working_ = is_working_on_sector_ = false;
   came_.wait(lock, [this] { return finish_ || figures_ || !frames_.empty() || !sectors_.empty(); });
   Work work{.sector = {}, .frame = {}, .figures = std::exchange(figures_, nullptr)};
   if (is_sector_next()) {
     work.sector = std::move(sectors_.front());
     sectors_.pop_front();
+    is_working_on_sector_ = true;
     return work;
   }
   if (frames_.empty()) return work.figures ? std::optional(std::move(work)) : std::nullopt;
@@ -114,8 +120,8 @@ void SinkWorker::fail(const Error& error) {
   {
     const std::scoped_lock lock(mutex_);
     left_out_ += frames_.size() + (is_working_ ? 1 : 0);
-    sectors_left_out_ += sectors_.size();
-    is_working_ = false;
+    sectors_left_out_ += sectors_.size() + (is_working_on_sector_ ? 1 : 0);
+    is_working_ = is_working_on_sector_ = false;
     frames_.clear();
     sectors_.clear();
     figures_ = nullptr;

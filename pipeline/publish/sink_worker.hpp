@@ -58,6 +58,7 @@ class SinkWorker {
   [[nodiscard]] std::uint64_t sectors_left_out() const;
   /// Returns how many frames wait or are being written; they are lost if the sink hangs for good.
   [[nodiscard]] std::uint64_t waiting() const;
+  [[nodiscard]] std::uint64_t sectors_waiting() const;
   /// Returns the first error, if any; after it the sink got nothing more.
   [[nodiscard]] std::optional<Error> failure() const;
 
@@ -86,7 +87,7 @@ class SinkWorker {
   std::deque<SharedSector> sectors_;
   std::shared_ptr<const status::MonitorSnapshot> figures_;
   std::uint64_t left_out_ = 0, sectors_left_out_ = 0;
-  bool is_working_ = false, finish_ = false;
+  bool is_working_ = false, is_working_on_sector_ = false, finish_ = false;
   std::optional<Error> failure_;
 
   threads::BackgroundThread thread_;  ///< Declared last, because it uses the members above.

@@ -291,6 +291,25 @@ TEST_F(LiveFrames, TheRecorderHasEveryDatagramWhateverBecameOfIt) {
   EXPECT_EQ(dump->datagrams, packets.size() + 1);
 }
 
+TEST_F(LiveFrames, OutputsAreToldWhenLabelsWereKnown) {
+  FramePool<points::LabelledPoint> points{"points", 4, turns_.decoder().return_capacity(), memory_};
+  begin(0, 10'000, nullptr, &points);
+  send(drive(3));
+  run();
+  ASSERT_GE(records_.size(), 2U);
+  for (const status::FrameRecord& record : records_) {
+    FramePool<frame::Label>::Frame labelled;
+    ASSERT_TRUE(labels_.take(labelled));
+    EXPECT_GT(labelled.record.labels_ns, record.info.last_packet_ns);
+    EXPECT_LE(labelled.record.labels_ns, record.labels_ns);
+    labels_.give_back(true);
+    FramePool<points::LabelledPoint>::Frame with_points;
+    ASSERT_TRUE(points.take(with_points));
+    EXPECT_EQ(with_points.record.labels_ns, labelled.record.labels_ns);
+    points.give_back(true);
+  }
+}
+
 TEST_F(LiveFrames, FramesThatBreakOffWhereABacklogIsLetGoDoNotCountAsLate) {
   send(drive(8));
   // Labels of a frame whose last packet comes 5 ms after that are 55 ms late.

@@ -212,6 +212,20 @@ TEST_F(PublisherTest, SectorsThatAnOutputHasNoTimeForAreCountedAndCostItNoFrame)
   EXPECT_EQ(slow_.done.back(), 1U);
 }
 
+TEST_F(PublisherTest, SectorsThatWaitForAnOutputWhichHangsAreLostInTheEnd) {
+  Publisher::Sinks sinks;
+  sinks.push_back(std::make_unique<SectorSink>(slow_));
+  Publisher publisher(std::move(sinks), WhenFull::kDropOldest, [](auto, const Error&) {});
+  slow_.set_open(false);
+  for (int i = 0; i < 5; ++i) publisher.put_sector(std::make_shared<LabelledSector>());
+  slow_.wait_until([&] { return slow_.begun.size() == 1; });
+  EXPECT_EQ(loss(publisher, "sectors_sectors_left_out"), 0U);
+  EXPECT_EQ(loss(publisher, "sectors_sectors_left_out", true), 5U);
+  slow_.set_open(true);
+  EXPECT_TRUE(publisher.finish(std::nullopt));
+  EXPECT_EQ(loss(publisher, "sectors_sectors_left_out", true), 0U);
+}
+
 TEST_F(PublisherTest, OfARecordingNothingIsLostHoweverSlowAnOutputIs) {
   Publisher& publisher = make(WhenFull::kWait);
   slow_.set_open(false);

@@ -194,6 +194,7 @@ class Writers {
                        .rows = parts.turns.decoder().shape().rows,
                        .mount = mount,
                        .deadline_ns = deadline_ns,
+                       .gives_sectors = true,
                        .has_road = method_config_of(options.method).segmenter.road.enabled}),
         publish::WhenFull::kDropOldest, warn_of_failure);
     if (parts.thread.points()) {

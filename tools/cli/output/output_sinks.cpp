@@ -64,6 +64,10 @@ void name_frames(const OutputOptions& options, publish::RunFacts& facts) {
 bool wants_view(const OutputOptions& options) {
   return !options.view.empty() && options.view != "off";
 }
+bool dds_wants_sectors(const OutputOptions& options) {
+  const std::string& sectors = options.dds.sectors;
+  return options.dds.publishes && !sectors.empty() && sectors != "off";
+}
 
 /// A requested output, and how to open it.
 struct Output {
@@ -91,11 +95,13 @@ std::vector<Output> outputs_of(const OutputOptions& options, publish::RunFacts f
   if (options.dds.publishes) {
     outputs.push_back({.name = "dds",
                        .open = [=] { return open_dds_sink(options.dds, facts); },
-                       .wants_sectors = wants_sectors(options),
+                       .wants_sectors = dds_wants_sectors(options),
                        .is_to_be_whole = true});
   }
   if (wants_view(options)) {
-    outputs.push_back({.name = "view", .open = [=] { return open_view(options.view, facts); }});
+    outputs.push_back({.name = "view",
+                       .open = [=] { return open_view(options.view, facts); },
+                       .wants_sectors = facts.gives_sectors});
   }
   return outputs;
 }
@@ -132,8 +138,7 @@ bool wants_sinks(const OutputOptions& options) {
 }
 
 bool wants_sectors(const OutputOptions& options) {
-  const std::string& sectors = options.dds.sectors;
-  return options.dds.publishes && !sectors.empty() && sectors != "off";
+  return dds_wants_sectors(options) || wants_view(options);
 }
 
 Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,

@@ -38,31 +38,33 @@ void FrameStream::begin() {
                     [self = shared_from_this()](error_code error, std::size_t) {
                       if (error) return self->stream_.close();
                       self->is_sending_ = false;
-                      self->send_newest();
+                      self->send_later();
                     });
   notice_end();
 }
 
-void FrameStream::send_newest() {
+void FrameStream::send_later() {
   if (is_sending_) return;
-  const ViewFrames::Newest newest = source_.frames.newest();
-  if (newest.number == seen_) return;
-  const std::uint64_t skipped = seen_ == 0 ? 0 : newest.number - seen_ - 1;
-  source_.skipped += skipped;
-  seen_ = newest.number;
-  frame_ = newest.frame;
-  const std::uint32_t missed = header_.missed + static_cast<std::uint32_t>(skipped);
-  header_ = frame_->header;
-  header_.missed = missed;
+  ViewFrames::Later later = source_.frames.after(seen_);
+  if (later.kept.empty()) return;
+  seen_ = later.number;
+  source_.skipped += later.skipped;
+  missed_ += static_cast<std::uint32_t>(later.skipped);
+  kept_ = std::move(later.kept);
+  headers_.clear();
+  for (const auto& each : kept_) headers_.emplace_back(each->header).missed = missed_;
+  std::vector<asio::const_buffer> parts;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    parts.push_back(asio::buffer(&headers_[i], sizeof(headers_[i])));
+    parts.push_back(asio::buffer(kept_[i]->points));
+  }
   is_sending_ = true;
-  const std::array<asio::const_buffer, 2> parts{asio::buffer(&header_, sizeof(header_)),
-                                                asio::buffer(frame_->points)};
   asio::async_write(stream_, parts, [self = shared_from_this()](error_code error, std::size_t) {
     if (error) return self->stream_.close();
     self->is_sending_ = false;
-    self->frame_ = nullptr;
-    ++self->source_.sent;
-    self->send_newest();
+    self->source_.sent += self->kept_.size();
+    self->kept_.clear();
+    self->send_later();
   });
 }
 

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "view_frames.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/status/loss_causes.hpp"
@@ -18,16 +19,28 @@ double milliseconds(std::int64_t ns) {
 
 ViewFrames::ViewFrames(const publish::RunFacts& facts) : facts_(facts) {}
 
-void ViewFrames::put(const publish::LabelledFrame& frame) {
+template <class Record>
+void ViewFrames::keep(const Record& record, bool late,
+                      std::span<const points::LabelledPoint> points) {
   const std::shared_ptr<Kept> room = rooms_.take();
-  const Shown of_frame = shown(frame.record);
-  room->points.resize(frame.points.size());
-  std::ranges::transform(frame.points, room->points.begin(), stream::wire_point);
-  room->header = stream::header_of(frame.record, sensor::SensorModel::kUnknown, of_frame.missed,
-                                   frame.points.size());
+  room->points.resize(points.size());
+  std::ranges::transform(points, room->points.begin(), stream::wire_point);
+  room->header = stream::header_of(record, sensor::SensorModel::kUnknown, late, points.size());
   const std::lock_guard lock(mutex_);
-  newest_ = room;
-  ++frames_put_;
+  if (kept_.size() == (gives_sectors() ? kSectorsKept : 1)) kept_.pop_front();
+  kept_.push_back(room);
+  ++number_;
+}
+
+void ViewFrames::put_sector(const publish::LabelledSector& sector) {
+  const std::int64_t wait_ns = sector.record.labels_ns - sector.record.first_packet_ns;
+  keep(sector.record, wait_ns > facts_.deadline_ns, sector.points);
+}
+
+void ViewFrames::put(const publish::LabelledFrame& frame) {
+  const Shown of_frame = shown(frame.record);
+  if (!gives_sectors()) keep(frame.record, of_frame.missed, frame.points);
+  const std::lock_guard lock(mutex_);
   losses_ += frame.record.info.losses;
   shown_.push_back(of_frame);
   if (shown_.size() > kFramesShown) shown_.pop_front();
@@ -38,9 +51,13 @@ void ViewFrames::put_figures(const status::MonitorSnapshot& figures) {
   run_ = figures;
 }
 
-ViewFrames::Newest ViewFrames::newest() const {
+ViewFrames::Later ViewFrames::after(std::uint64_t number) const {
   const std::lock_guard lock(mutex_);
-  return {frames_put_, newest_};
+  const std::uint64_t came = number_ - number;
+  const std::size_t kept = std::min<std::uint64_t>(came, kept_.size());
+  return {number_,
+          {kept_.end() - static_cast<std::ptrdiff_t>(kept), kept_.end()},
+          number == 0 ? 0 : came - kept};
 }
 
 ViewFrames::Shown ViewFrames::shown(const status::FrameRecord& record) const noexcept {

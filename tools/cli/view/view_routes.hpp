@@ -22,7 +22,7 @@ struct ViewSource {
 /// Answers:
 ///
 ///   GET  /, /view.js, ...   the page
-///   GET  /frames            the labelled stream, from the newest frame on (FrameStream)
+///   GET  /frames            the labelled stream, from the newest frame or turn on (FrameStream)
 ///   GET  /figures           ViewFrames::figures(), and of a capture its PlayerState
 ///   POST /control           a PlayerCommand as JSON; answered as /figures
 ///

@@ -33,8 +33,18 @@ Expected<std::unique_ptr<ViewSink>> ViewSink::open(const std::string& endpoint,
 
 Status ViewSink::put(const publish::LabelledFrame& frame) {
   frames_.put(frame);
-  server_->for_each_guest([](HttpGuest& guest) { static_cast<FrameStream&>(guest).send_newest(); });
+  tell_browsers();
   return {};
+}
+
+Status ViewSink::put_sector(const publish::LabelledSector& sector) {
+  frames_.put_sector(sector);
+  tell_browsers();
+  return {};
+}
+
+void ViewSink::tell_browsers() {
+  server_->for_each_guest([](HttpGuest& guest) { static_cast<FrameStream&>(guest).send_later(); });
 }
 
 Status ViewSink::put_figures(const status::MonitorSnapshot& figures) {
@@ -43,7 +53,9 @@ Status ViewSink::put_figures(const status::MonitorSnapshot& figures) {
 }
 
 std::vector<status::NamedCount> ViewSink::losses() const {
-  return {{"view_frames_skipped_by_browsers", source_.skipped},
+  const bool are_sectors = frames_.gives_sectors();
+  return {{are_sectors ? "view_sectors_skipped_by_browsers" : "view_frames_skipped_by_browsers",
+           source_.skipped},
           {"view_requests_refused", server_->figures().refused},
           {"view_browsers_stalled", server_->figures().stalled}};
 }

@@ -16,9 +16,10 @@
 
 namespace terracut::cli {
 
-/// An output of a run that shows frames in a browser (view_routes.hpp), within HttpBounds: each
-/// slow browser holds a frame of its own. All that a run notices of browsers is the count of frames
-/// that they skipped, in losses(). Listen on loopback unless the network is trusted.
+/// An output of a run that shows frames, in a live run sectors as they come, in a browser
+/// (view_routes.hpp), within HttpBounds: each slow browser holds a frame of its own. All that a run
+/// notices of browsers is the count of frames that they skipped, in losses(). Listen on loopback
+/// unless the network is trusted.
 class ViewSink : public publish::FrameSink {
  public:
   /// `endpoint` is like "127.0.0.1:8480". `capture` is its player, which outlives this object; null
@@ -29,7 +30,9 @@ class ViewSink : public publish::FrameSink {
                                                                 const HttpBounds& bounds = {});
 
   [[nodiscard]] std::string_view name() const noexcept override { return "view"; }
+  [[nodiscard]] bool wants_sectors() const noexcept override { return frames_.gives_sectors(); }
   [[nodiscard]] Status put(const publish::LabelledFrame& frame) override;
+  [[nodiscard]] Status put_sector(const publish::LabelledSector& sector) override;
   [[nodiscard]] Status put_figures(const status::MonitorSnapshot& figures) override;
   [[nodiscard]] std::vector<status::NamedCount> losses() const override;
 
@@ -38,6 +41,7 @@ class ViewSink : public publish::FrameSink {
 
  private:
   ViewSink(const publish::RunFacts& facts, ViewedCapture* capture);
+  void tell_browsers();
 
   ViewFrames frames_;
   ViewSource source_;

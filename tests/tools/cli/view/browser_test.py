@@ -263,7 +263,7 @@ class APage(unittest.TestCase):
             try:
                 self.browser.open(served.url)
                 self.browser.wait_for("document.getElementById('frame').dataset.number")
-                served.wait_until(lambda figures: figures["browsers"]["sent"] >= 60)
+                served.wait_until(lambda figures: figures["browsers"]["sent"] >= 60 * 87)  # sectors of 60 turns
                 rate = self.browser.wait_for("document.getElementById('rate').textContent")
                 returns = self.browser.evaluate("document.getElementById('frame').textContent")
                 picture(self.browser, "live")

@@ -44,10 +44,14 @@ class NotedCapture : public ViewedCapture {
 
 class Page : public testing::Test {
  protected:
-  explicit Page(ViewedCapture* capture = nullptr) {
-    auto opened = ViewSink::open(
-        "127.0.0.1:0",
-        {.sensor = "a made sensor", .rows = 64, .mount = {}, .deadline_ns = 50'000'000}, capture);
+  explicit Page(ViewedCapture* capture = nullptr, bool gives_sectors = false) {
+    auto opened = ViewSink::open("127.0.0.1:0",
+                                 {.sensor = "a made sensor",
+                                  .rows = 64,
+                                  .mount = {},
+                                  .deadline_ns = 50'000'000,
+                                  .gives_sectors = gives_sectors},
+                                 capture);
     if (!opened) throw std::runtime_error(opened.error().message);
     sink_ = *std::move(opened);
     const std::string& url = sink_->url();
@@ -68,6 +72,17 @@ class Page : public testing::Test {
 
   std::unique_ptr<ViewSink> sink_;
   std::uint16_t port_ = 0;
+};
+
+class PageOfSectors : public Page {
+ protected:
+  PageOfSectors() : Page(nullptr, true) {}
+  void put_sector(std::uint32_t frame, std::uint32_t first_return, std::size_t points = 100) {
+    publish::LabelledSector sector;
+    sector.record = {.frame = frame, .first_return = first_return};
+    sector.points.assign(points, {.x_m = 1, .label = frame::Label::kGround});
+    ASSERT_TRUE(sink_->put_sector(sector));
+  }
 };
 
 class PageOfACapture : public Page {
@@ -99,8 +114,8 @@ TEST_F(Page, IsCompleteInItself) {
   EXPECT_EQ(page.status, 200);
   EXPECT_THAT(page.body, HasSubstr("<canvas id=\"scene\""));
   EXPECT_THAT(page.head, HasSubstr("Content-Security-Policy: default-src 'self'"));
-  for (const char* file :
-       {"/view.js", "/scene.js", "/camera.js", "/colours.js", "/frames.js", "/strip.js"}) {
+  for (const char* file : {"/view.js", "/scene.js", "/camera.js", "/colours.js", "/frames.js",
+                           "/strip.js", "/turn.js"}) {
     const auto module = get(file);
     EXPECT_EQ(module.status, 200) << file;
     EXPECT_THAT(module.head, HasSubstr("Content-Type: text/javascript")) << file;
@@ -182,6 +197,46 @@ TEST_F(Page, SlowBrowsersLeaveFramesOutWhichAreCounted) {
   EXPECT_EQ(newest.number, 6U);
   EXPECT_EQ(newest.missed, 4U);
   EXPECT_EQ(sink_->losses().front().count, 4U);
+}
+
+TEST_F(PageOfSectors, SendsEachSectorAndNoFrameBesides) {
+  ASSERT_TRUE(sink_->wants_sectors());
+  const auto looking = browser();
+  for (std::uint32_t frame = 7; frame < 9; ++frame) {
+    for (std::uint32_t first = 0; first < 500; first += 100) put_sector(frame, first);
+    ASSERT_TRUE(sink_->put(frame_of(frame, 500)));
+    for (std::uint32_t first = 0; first < 500; first += 100) {
+      const stream::FrameWireHeader header = next_frame(*looking);
+      EXPECT_EQ(header.flags & stream::kFrameSector, stream::kFrameSector);
+      EXPECT_EQ(header.number, frame);
+      EXPECT_EQ(header.first_return, first);
+    }
+  }
+  EXPECT_EQ(figures().at("frames").size(), 2U);
+}
+
+TEST_F(PageOfSectors, ABrowserThatComesLaterGetsTheTurnSoFar) {
+  for (std::uint32_t first = 0; first < 20'000; first += 100) put_sector(3, first);
+  const auto late = browser();
+  constexpr std::uint32_t kFirstKept = 20'000 - 100 * ViewFrames::kSectorsKept;
+  for (std::uint32_t first = kFirstKept; first < 20'000; first += 100) {
+    ASSERT_EQ(next_frame(*late).first_return, first);
+  }
+}
+
+TEST_F(PageOfSectors, SlowBrowsersLeaveSectorsOutWhichAreCounted) {
+  put_sector(1, 0, kMany);
+  const auto slow = browser(4096);
+  EXPECT_EQ(next_header(*slow).number, 1U);
+  // It is busy, while more come than are kept.
+  const auto more = static_cast<std::uint32_t>(ViewFrames::kSectorsKept) + 5;
+  for (std::uint32_t number = 2; number < 2 + more; ++number) put_sector(number, 0);
+  (void)slow->read(kMany * sizeof(stream::WirePoint));
+  const stream::FrameWireHeader next = next_frame(*slow);
+  EXPECT_EQ(next.number, 7U);
+  EXPECT_EQ(next.missed, 5U);
+  EXPECT_EQ(sink_->losses().front().name.view(), "view_sectors_skipped_by_browsers");
+  EXPECT_EQ(sink_->losses().front().count, 5U);
 }
 
 TEST_F(Page, ABrowserThatLeavesIsNoticedThoughNoFrameComes) {

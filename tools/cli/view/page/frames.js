@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 
-// The labelled stream (docs/reference/labelled_stream.md) out of a fetch: whole frames, one after the other.
+// The labelled stream (docs/reference/labelled_stream.md) out of a fetch: whole frames, one after the other, or sectors.
 
 const MAGIC = 0x544c4354; // "TCLT", little-endian
 const HEADER_START = 8;   // up to and with header_bytes
 const MOST_POINTS = 4194304;
+const IS_SECTOR = 1 << 4;
 
 export const LEVELS = ["full", "cut stopped", "coarse", "skipped"];
 
@@ -19,7 +20,9 @@ function parseHeader(bytes) {
     labelsNs: view.getBigInt64(32, true),
     pointBytes: view.getUint16(40, true),
     level: view.getUint8(43),
+    isSector: (view.getUint32(44, true) & IS_SECTOR) !== 0,
     missed: view.getUint32(48, true),
+    firstReturn: view.getUint32(52, true),
   };
 }
 

@@ -6,6 +6,7 @@ import { KINDS, css, ramp, rangeText, RANGES } from "./colours.js";
 import { readFrames } from "./frames.js";
 import { Scene } from "./scene.js";
 import { degradedText, drawStrip, figuresText } from "./strip.js";
+import { Turn } from "./turn.js";
 
 const at = (id) => document.getElementById(id);
 const canvas = at("scene");
@@ -71,13 +72,14 @@ function noteLabels({ header, points }) {
 
 async function follow() {
   for (;;) {
+    const turn = new Turn();
     try {
       for await (const frame of readFrames("frames")) {
-        newest = frame;
+        newest = frame.header.isSector ? turn.take(frame) : frame;
         isDirty = true;
         say("");
         // The next frame only when this one was drawn: what comes meanwhile is left out by the sender.
-        await new Promise(requestAnimationFrame);
+        if (!frame.header.isSector) await new Promise(requestAnimationFrame);
       }
     } catch (error) {
       console.warn(error);

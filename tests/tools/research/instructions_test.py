@@ -37,6 +37,7 @@ class Instructions(unittest.TestCase):
     def test_a_function_belongs_to_the_stage_of_its_own_namespace(self):
         for function, stage in {
             "bool terracut::min_cut::contract<terracut::random_field::Term>(terracut::Label)": "min-cut",
+            "terracut::ground::(anonymous namespace)::solve(terracut::min_cut::MinCut&)": "min-cut",
             "terracut::elevation::AdjacentPoints::compare(int)": "adjacent points",
             "terracut::elevation::(anonymous namespace)::mark_by_slope(int) [clone .avx2]": "adjacent points",
             "terracut::elevation::RingElevationMap::label(terracut::frame::RangeImage const&)": "elevation map",

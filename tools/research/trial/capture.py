@@ -25,8 +25,12 @@ class Drive:
     """The files of `terracut simulate -o PCAP`."""
 
     pcap: Path
-    calibration: Path
+    calibration: Path | None  # none where the sensor's table is built in
     truth: Path
+
+    @property
+    def table_options(self) -> list[object]:
+        return ["--calibration", self.calibration] if self.calibration else []
 
 
 def records(pcap: Path):

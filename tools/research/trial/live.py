@@ -77,7 +77,7 @@ class Live:
         self.summary_file.unlink(missing_ok=True)
         self.log = program.scratch / "live.log"
         self.prefix, self.sender_prefix = prefix or [], sender_prefix or []
-        self.command = ["live", "--listen", f"{listen}:0", "--calibration", str(drive.calibration), "--deadline",
+        self.command = ["live", "--listen", f"{listen}:0", *map(str, drive.table_options), "--deadline",
                         f"{deadline_ms:g}", "--name", self.name, "--json", str(self.summary_file), *MOUNT]  # fmt: skip
         self.command += [str(option) for option in options]
         if "--metrics" not in self.command:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Runs minutes at 10 Hz through a socket of this machine: an HDL-64E, then an RS-Ruby128 in dual return."""
+"""Runs minutes at 10 Hz through a socket of this machine: an HDL-64E, then an RS-Ruby128 in dual return, or a VLP-16."""
 
 from __future__ import annotations
 
@@ -28,7 +28,8 @@ class Sensor:
     cpu_bar_ms: float  # limit for the 99.9th percentile of a frame's processor time
 
 
-SENSORS = {"hdl64e": Sensor("hdl64e", "single", 15), "ruby128": Sensor("ruby128", "dual", 25)}
+SENSORS = {"hdl64e": Sensor("hdl64e", "single", 15), "ruby128": Sensor("ruby128", "dual", 25), "vlp16": Sensor("vlp16", "single", 5)}
+BY_DEFAULT = ("hdl64e", "ruby128")  # of all trials: one after the other
 
 
 def hold(program: Program, report: Report, minutes: float, sensors: list[str]) -> None:

@@ -16,9 +16,9 @@ from .program import Program, TrialError
 from .report import Report
 
 REPOSITORY = Path(__file__).resolve().parents[3]
-ABOUT = """Puts `terracut live` to the trials that docs/reference/benchmark.md reports, and judges each point: PASS, FAIL, or SKIP
+ABOUT = """Puts `terracut live` to the trials that docs/reference/benchmark.md names, and judges each point: PASS, FAIL, or SKIP
 with its reason. Wall-clock times are shown and not judged: a machine may be shared. Exit code 1 when a point
-failed, 2 when a trial could not be held. Results: DIR/results/TRIAL.json and .md (ready for docs/reference/benchmark.md)."""
+failed, 2 when a trial could not be held. Results: DIR/results/TRIAL.json and .md."""
 
 
 def parse(arguments: list[str]) -> argparse.Namespace:
@@ -33,7 +33,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
         sub = trials.add_parser(name, help=about, description=about)
         if minutes is not None:
             sub.add_argument("--minutes", type=float, default=minutes, help=f"a run (default {minutes:g})")
-            sub.add_argument("--sensor", choices=[*loopback.SENSORS], help="only this one (default: one after the other)")
+            sub.add_argument("--sensor", choices=[*loopback.SENSORS], help=f"only this one (default: {' and '.join(loopback.BY_DEFAULT)})")
         return sub
 
     add("loopback", "minutes at 10 Hz: losses, page faults, processor time, misses", 10)
@@ -54,14 +54,14 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     sub.add_argument("--short", action="store_true", help="as of breakage")
     sub = add("hostile", "floods, second sensors, stamps from the past, a sensor that reboots, clocks that step")
     sub.add_argument("--seconds", type=float, help="of each (default 10, with --short 3)")
-    sub.add_argument("--sensor", choices=[*loopback.SENSORS], help="only this one (default: one after the other)")
+    sub.add_argument("--sensor", choices=[*loopback.SENSORS], help=f"only this one (default: {' and '.join(loopback.BY_DEFAULT)})")
     sub.add_argument("--short", action="store_true", help="one sensor, and a deadline for busy machines")
     return parser.parse_args(arguments)
 
 
 def hold(options: argparse.Namespace, program: Program, report: Report) -> None:
     if options.trial in ("loopback", "loaded", "steady"):
-        sensors = [options.sensor] if options.sensor else [*loopback.SENSORS]
+        sensors = [options.sensor] if options.sensor else loopback.BY_DEFAULT
         {"loopback": loopback, "loaded": loaded, "steady": steady}[options.trial].hold(
             program, report, options.minutes, sensors)  # fmt: skip
     elif options.trial == "stalled":
@@ -73,7 +73,7 @@ def hold(options: argparse.Namespace, program: Program, report: Report) -> None:
     elif options.trial == "faults":
         scripted_faults.hold(program, report, options.short)
     elif options.trial == "hostile":
-        sensors = [options.sensor] if options.sensor else [*loopback.SENSORS][: 1 if options.short else None]
+        sensors = [options.sensor] if options.sensor else loopback.BY_DEFAULT[: 1 if options.short else None]
         hostile.hold(program, report, options.seconds or (3 if options.short else 10), sensors, options.short)
     else:
         trial = {"breakage": breakage, "doors": doors}[options.trial]

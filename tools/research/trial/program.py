@@ -42,18 +42,21 @@ class Program:
         """Returns a drive, which is simulated once and then kept: after a change of the simulator,
         delete the folder."""
         pcap = self.scratch / "drives" / f"{sensor}-{returns}-{scene}-{seconds:g}s.pcap"
-        table = pcap.with_suffix(".calibration." + ("csv" if sensor == "ruby128" else "xml"))
+        ending = {"hdl64e": "xml", "ruby128": "csv"}.get(sensor)  # the others' tables are built in
+        table = ending and pcap.with_suffix(f".calibration.{ending}")
         drive = Drive(pcap, table, pcap.with_suffix(".truth"))
-        if not (pcap.exists() and table.exists()):
+        if not (pcap.exists() and (table is None or table.exists())):
             print(f"Simulating {seconds:g} s of '{scene}' with the {sensor}, {returns} return", flush=True)
             self.must("simulate", "--sensor", sensor, "--returns", returns, "--scene", scene, "--seed", 1,
                       "--duration", seconds, "-o", pcap)  # fmt: skip
         return drive
 
-    def replay(self, pcap: Path, calibration: Path, labels: Path | None = None, *options: object) -> dict:
+    def replay(self, pcap: Path, calibration: Path | None, labels: Path | None = None, *options: object) -> dict:
         """Returns the report of `terracut replay`."""
         report = self.scratch / "replay.json"
-        arguments = ["replay", pcap, "--calibration", calibration, "--json", report, *MOUNT, *options]
+        arguments = ["replay", pcap, "--json", report, *MOUNT, *options]
+        if calibration is not None:
+            arguments += ["--calibration", calibration]
         if labels is not None:
             arguments += ["--labels", labels]
         self.must(*arguments)

@@ -15,9 +15,10 @@ REPOSITORY, TERRACUT, LABEL_HASH = map(Path, sys.argv[1:4])
 sys.path.insert(0, str(REPOSITORY / "tools/research"))
 
 from measures.columns import COLUMNS, runs_of  # noqa: E402
-from measures.documents import DOCUMENTS, RESULTS, blocks, filled  # noqa: E402
+from measures.documents import DOCUMENTS, RESULTS, blocks  # noqa: E402
 from measures.measurement import Measured, evaluated, said, version_of  # noqa: E402
 from measures.rows import METHOD, OFF, TOGETHER, Row, parameters_of, rows_of  # noqa: E402
+from tables import filled  # noqa: E402
 
 SEEN_AGAIN = "vlp16"  # sees what the label hash's 64 rows do not: rows that are far apart
 LEAST_DIFFERENCE = 0.02  # the simulator's sines differ in their last bit between machines
@@ -49,7 +50,7 @@ def incomplete(results, rows):
 def printed_otherwise(results, rows):
     for name in DOCUMENTS:
         text = (REPOSITORY / name).read_text(encoding="utf-8")
-        if filled(text, blocks(results, rows)) != text:
+        if filled(text, "measures", blocks(results, rows)) != text:
             yield f"{name} shows other figures than {RESULTS} has"
 
 

@@ -11,11 +11,11 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tools/research"))
 
 from measures.columns import COLUMNS, Run, cells_of, layout, runs_of  # noqa: E402
-from measures.documents import filled  # noqa: E402
 from measures.measurement import Measured  # noqa: E402
 from measures.rows import METHOD, STAGES, Row, chosen, parameters_of, rows_of  # noqa: E402
 from measures.thinned_scans import ring_starts, thin_folder, thinned  # noqa: E402
 from measures.worth import changes, losses, most_lost, worth_table  # noqa: E402
+from tables import filled  # noqa: E402
 
 PARAMETERS = """| key | unit | range | terracut | paper | what it is |
 |---|---|---|---|---|---|
@@ -133,8 +133,8 @@ class Documents(unittest.TestCase):
         text = "a\n<!-- measures: x -->\nold\nold\n<!-- end of x -->\n| <!-- measures: y --><!-- end of y --> |"
         new = "a\n<!-- measures: x -->\n1\n2\n<!-- end of x -->\n| <!-- measures: y -->3<!-- end of y --> |"
         blocks = {"x": ["1", "2"], "y": ["3"]}
-        self.assertEqual(filled(text, blocks), new)
-        self.assertEqual(filled(new, blocks), new)
+        self.assertEqual(filled(text, "measures", blocks), new)
+        self.assertEqual(filled(new, "measures", blocks), new)
 
 
 class ThinnedScans(unittest.TestCase):

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""The tables of docs/reference, and where they stand: between `<!-- measures: NAME -->` and `<!-- end of NAME -->`."""
-
-import re
+"""The tables of docs/reference, as they stand between `<!-- measures: NAME -->` and `<!-- end of NAME -->`."""
 
 from tables import mean, table
 
@@ -110,13 +108,3 @@ def blocks(results, rows):
         "tuned": worth_table(results, rows, True),
         "least": summary(results, rows),
     }  # fmt: skip
-
-
-def filled(text, blocks_of):
-    """The document with every block of it as it should be; one that begins and ends within a line stays there."""
-
-    def block(found):
-        name, newline = found[1], found[2]
-        return f"<!-- measures: {name} -->{newline}" + "\n".join(blocks_of[name]) + f"{newline}<!-- end of {name} -->"
-
-    return re.sub(r"<!-- measures: (\w+) -->(\n?).*?<!-- end of \1 -->", block, text, flags=re.DOTALL)

@@ -22,10 +22,11 @@ import os
 import sys
 from pathlib import Path
 
+from tables import filled
 from whole_file import write_whole_file
 
 from .columns import COLUMNS
-from .documents import DOCUMENTS, RESULTS, blocks, filled
+from .documents import DOCUMENTS, RESULTS, blocks
 from .measurement import Refused, measure, said, version_of
 from .rows import chosen, parameters_of, rows_of
 from .worth import summary, worth_table
@@ -97,7 +98,7 @@ def main(given):
 
 def show(results, rows):
     for document in (REPOSITORY / name for name in DOCUMENTS):
-        write_whole_file(document, filled(document.read_text(encoding="utf-8"), blocks(results, rows)))
+        write_whole_file(document, filled(document.read_text(encoding="utf-8"), "measures", blocks(results, rows)))
 
 
 def written(results):

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""What is measured, part by part; each adds to its results what they do not have yet."""
+
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from peers.main import SCENES, percentile
+from tables import mean
+from trial.program import MOUNT, Program
+
+TOOLS = Path(__file__).resolve().parents[2]
+STAGES = ("decode", "elevation_map", "adjacent_points", "seeds", "min_cut", "labels", "total", "after_frame")
+LIVE_SENSORS = ("hdl64e", "ruby128", "vlp16")
+RECORDED = ("semantickitti", "semantickitti_more")
+
+
+@dataclass(frozen=True)
+class Setting:
+    program: Path
+    beside: Path | None  # another version of it
+    scratch: Path  # drives are kept there
+    data: Path
+    peers: Path
+    quick: bool
+
+    @property
+    def rounds(self):
+        return 1 if self.quick else 5
+
+
+@dataclass(frozen=True)
+class Case:
+    """What `bench` reads: a drive of `simulate` (returns, scene), a folder for `encode`, or a capture."""
+
+    sensor: str
+    title: str
+    drive: tuple = ()
+    scans: str = ""
+    capture: str = ""
+
+    @property
+    def name(self):
+        return f"{self.sensor}, {self.title}"
+
+
+CASES = (
+    Case("hdl64e", "street", ("single", "street")),
+    Case("hdl64e", "rural", ("single", "rural")),
+    Case("hdl64e", "recorded", scans="semantickitti/sequences/00"),
+    Case("ruby128", "street", ("single", "street")),
+    Case("ruby128", "rural", ("single", "rural")),
+    Case("ruby128", "street, dual return", ("dual", "street")),
+    Case("vlp16", "street", ("single", "street")),
+    Case("vlp16", "rural", ("single", "rural")),
+    Case("vlp16", "capture", capture="pcap/sample_velodyne_vlp16_gps.pcap"),
+    Case("vlp16", "capture, dual return", capture="pcap/vlp16_nebula.pcap"),
+    Case("hdl32e", "capture", capture="pcap/sample_velodyne_hdl32.pcap"),
+    Case("vlp32c", "capture", capture="pcap/vlp32_nebula.pcap"),
+    Case("vls128", "capture", capture="pcap/vls128_nebula.pcap"),
+)
+DRIVE_S, COUNTED_S = 2, 0.3  # of a simulated drive; of one whose instructions are counted
+
+
+class Failed(Exception):
+    """What a program was asked for and said. It ends its part, whose figures up to then are kept."""
+
+
+def told(command, **options):
+    """What a command prints. Raises Failed."""
+    ran = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, text=True, **options)
+    if ran.returncode != 0:
+        raise Failed(f"{' '.join(map(str, command))}\nexit code {ran.returncode}\n{ran.stderr or ''}")
+    return ran.stdout
+
+
+def quietly(command):
+    return told(command, stderr=subprocess.PIPE)
+
+
+def options_of(drive):
+    return [drive.pcap, *drive.table_options, *MOUNT]
+
+
+def input_of(case, setting):
+    """The arguments that name the case's capture, made if need be. Raises FileNotFoundError."""
+    program = Program(setting.program, setting.scratch)
+    if case.drive:
+        return options_of(program.drive(case.sensor, *case.drive, DRIVE_S))
+    given = setting.data / (case.scans or case.capture)
+    if not given.exists():
+        raise FileNotFoundError(f"there is no {given}")
+    if case.capture:
+        return [given]
+    capture = setting.scratch / "drives" / f"{case.scans.replace('/', '-')}.pcap"
+    if not capture.is_file():
+        quietly([setting.program, "encode", given, "-o", capture])
+    return [capture, "--calibration", capture.with_suffix(".calibration.xml"), *MOUNT]
+
+
+def bench(program, arguments, setting):
+    report = setting.scratch / "bench.json"
+    ran = subprocess.run([str(part) for part in (program, "bench", *arguments, "--repeat", 2 if setting.quick else 5,
+                                                 "--json", report)], capture_output=True, text=True)  # fmt: skip
+    if ran.returncode != 0:
+        raise Failed(f"{program} bench {' '.join(map(str, arguments))}\n{ran.stderr}")
+    return json.loads(report.read_text(encoding="utf-8"))
+
+
+def benches(number, arguments, setting):
+    """This version's report, and the other's or why it has none; None without another."""
+    if setting.beside is None:
+        return bench(setting.program, arguments, setting), None
+    ours = bench(setting.program, arguments, setting) if number % 2 == 0 else None
+    try:
+        other = bench(setting.beside, arguments, setting)
+    except Failed as refused:
+        other = str(refused)
+    return ours or bench(setting.program, arguments, setting), other
+
+
+def ratios(frames, others):
+    """[whole work, after the last packet] of two reports' frames, by their medians."""
+
+    def median(of, *keys):
+        return statistics.median(sum(frame[key] for key in keys) for frame in of)
+
+    return [round(median(frames, *keys) / median(others, *keys), 3) for keys in (("decode", "segment"), ("after_frame",))]
+
+
+def sensors(setting, results):
+    """`terracut bench`, every case in each round; beside another version in turn, who is first changes by the round."""
+    for number in range(setting.rounds):
+        for case in CASES:
+            if results.rounds(case.name) > number:
+                continue
+            try:
+                arguments = input_of(case, setting)
+            except FileNotFoundError as missing:
+                results.leave_out(case.name, str(missing))
+                continue
+            report, other = benches(number, arguments, setting)
+            figures = {"returns": report["returns_per_frame"]}
+            figures |= {stage: [report["ms"][stage][of] for of in ("p50", "p99")] for stage in STAGES}
+            if isinstance(other, str):
+                results.leave_out(f"{case.name}, of the other version", other.strip().splitlines()[-1])
+            elif other is not None:
+                figures["beside"] = ratios(report["frames_ms"], other["frames_ms"])
+            results.add(case.name, figures | {"planned_bytes": planned_bytes(case.sensor, setting)})
+            print(f"round {number + 1}/{setting.rounds}: {case.name}", file=sys.stderr)
+
+
+def planned_bytes(sensor, setting):
+    plan = setting.scratch / "plan.json"
+    quietly([setting.program, "plan", "--sensor", sensor, "--json", plan])
+    return json.loads(plan.read_text(encoding="utf-8"))["total_bytes"]
+
+
+def instructions(setting, results):
+    """./tools/instructions."""
+    for case in [case for case in CASES if case.drive and case.drive[0] == "single" and case.sensor != "vlp16"]:
+        if results.rounds(case.name):
+            continue
+        drive = Program(setting.program, setting.scratch).drive(case.sensor, *case.drive, COUNTED_S)
+        printed = quietly(["env", f"TERRACUT={setting.program}", TOOLS / "instructions", *options_of(drive)])
+        rows = re.findall(r"^\| \**([^|*]+?)\** \| \**([\d.]+)\** \| (?:\d+%)? ?\|$", printed, re.MULTILINE)
+        results.add(case.name, {stage: float(million) for stage, million in rows})
+        print(f"instructions: {case.name}", file=sys.stderr)
+
+
+def live_trial(setting, trial, *options):
+    """The tables of a trial, each a list of {header: cell}, and how many of its points failed, of how many."""
+    command = [TOOLS / "live_trial", "--program", setting.program, "--dir", setting.scratch, trial, *options]
+    ran = subprocess.run([str(part) for part in command], stdout=sys.stderr)
+    if ran.returncode not in (0, 1):
+        raise Failed(f"{' '.join(map(str, command))}\nexit code {ran.returncode}")
+    report = json.loads((setting.scratch / "results" / f"{trial}.json").read_text(encoding="utf-8"))
+    verdicts = [point["verdict"] for point in report["points"]]
+    tables = [[dict(zip(table["header"], row)) for row in table["rows"]] for table in report["tables"]]
+    return tables, f"{verdicts.count('FAIL')} of {len(verdicts) - verdicts.count('SKIP')}"
+
+
+def live(setting, results):
+    """./tools/live_trial loopback."""
+    for sensor in LIVE_SENSORS:
+        if not results.rounds(sensor):
+            tables, failed = live_trial(setting, "loopback", "--minutes", 0.5 if setting.quick else 10, "--sensor", sensor)
+            results.add(sensor, tables[0][0] | {"points of the trial that failed": failed})
+
+
+def outputs(setting, results):
+    """./tools/live_trial outputs."""
+    if not results.rounds("outputs"):
+        quick = ("--seconds", 4, "--rounds", 1)
+        tables, failed = live_trial(setting, "outputs", *(quick if setting.quick else ()))
+        results.add("outputs", {"each": tables[0], "stalled": tables[1], "failed": failed})
+
+
+def peers(setting, results):
+    """./tools/beside_peer, a run for all recorded scans and one for each scene."""
+    roots = [setting.data / name for name in RECORDED if (setting.data / name).is_dir()]
+    cases = {"recorded": [*roots, "--scenes", ""]} if roots else {}
+    if not roots:
+        results.leave_out("recorded", f"there is no {setting.data / RECORDED[0]}")
+    cases |= {scene: ["--scenes", scene, "--duration", 0.3 if setting.quick else 1] for scene in SCENES}
+    for name, arguments in cases.items():
+        if results.rounds(name):
+            continue
+        report = setting.scratch / "peers.json"
+        ran = subprocess.run([str(part) for part in (
+            "env", f"TERRACUT={setting.program}", TOOLS / "beside_peer", *arguments, "--peers", setting.peers,
+            "--rounds", setting.rounds, "--json", report)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)  # fmt: skip
+        if ran.returncode != 0:
+            raise Failed(f"beside_peer: exit code {ran.returncode}\n{ran.stderr}")
+        for peer, reason in re.findall(r"^left out: (.*?): (.*)$", ran.stderr, re.MULTILINE):
+            results.leave_out(peer, reason.split(": ")[0])
+        results.add(name, of_peers(json.loads(report.read_text(encoding="utf-8"))))
+        print(f"peers: {name}", file=sys.stderr)
+
+
+def of_peers(report):
+    """{program: {"ms": [p50, p99] over all frames, "quality": [IoU_g, Recall_o], the means over drives}}."""
+    figures = {}
+    for name in next(iter(report["ms"].values())):
+        ms = [time for drive in report["ms"].values() for time in drive[name]]
+        quality = [mean(drive[name][measure] for drive in report["quality"].values()) for measure in (0, 1)]
+        figures[name] = {"ms": [round(statistics.median(ms), 3), round(percentile(ms, 99), 3)],
+                         "quality": [None if share is None else round(share, 4) for share in quality]}  # fmt: skip
+    return figures
+
+
+@dataclass(frozen=True)
+class Part:
+    name: str
+    measure: Callable
+    way: Callable  # of quick: how it is measured, for its line in the page
+
+
+PARTS = (
+    Part("sensors", sensors, lambda quick: "1 round of 2 passes (--quick)" if quick else "5 rounds of 5 passes"),
+    Part("instructions", instructions, lambda quick: "3 frames"),
+    Part("live", live, lambda quick: "half a minute a sensor (--quick)" if quick else "10 minutes a sensor"),
+    Part("outputs", outputs, lambda quick: "4 s a run, 1 round (--quick)" if quick else "20 s a run, 3 rounds"),
+    Part("peers", peers, lambda quick: "1 round, scenes of 0.3 s (--quick)" if quick else "5 rounds, scenes of 1 s"),
+)

@@ -191,7 +191,7 @@ def live(setting, results):
     """./tools/live_trial loopback."""
     for sensor in LIVE_SENSORS:
         if not results.rounds(sensor):
-            tables, failed = live_trial(setting, "loopback", "--minutes", 0.5 if setting.quick else 10, "--sensor", sensor)
+            tables, failed = live_trial(setting, "loopback", "--minutes", 0.5 if setting.quick else 3, "--sensor", sensor)
             results.add(sensor, tables[0][0] | {"points of the trial that failed": failed})
 
 
@@ -246,7 +246,7 @@ class Part:
 PARTS = (
     Part("sensors", sensors, lambda quick: "1 round of 2 passes (--quick)" if quick else "5 rounds of 5 passes"),
     Part("instructions", instructions, lambda quick: "3 frames"),
-    Part("live", live, lambda quick: "half a minute a sensor (--quick)" if quick else "10 minutes a sensor"),
+    Part("live", live, lambda quick: "half a minute a sensor (--quick)" if quick else "3 minutes a sensor"),
     Part("outputs", outputs, lambda quick: "4 s a run, 1 round (--quick)" if quick else "20 s a run, 3 rounds"),
     Part("peers", peers, lambda quick: "1 round, scenes of 0.3 s (--quick)" if quick else "5 rounds, scenes of 1 s"),
 )

@@ -51,7 +51,8 @@ using stage::EightFloats, stage::EightInts, stage::kEight;
     lowest = is_lower ? at + first : lowest;
   }
   // Halves the lanes until one is left.
-  const auto keep_lower = [&](EightFloats other_m, EightInts other) __attribute__((always_inline)) {
+  const auto keep_lower = [&](const EightFloats& other_m,
+                              const EightInts& other) __attribute__((always_inline)) {
     const EightInts is_lower = (other_m < lowest_m) | ((other_m == lowest_m) & (other < lowest));
     lowest_m = is_lower ? other_m : lowest_m;
     lowest = is_lower ? other : lowest;
@@ -127,6 +128,7 @@ TERRACUT_VECTOR_CLONES_OF_INLINED void RowOpening::take(int row, RingGrid::Secto
 }
 
 void RowOpening::open(int sector) noexcept {
+  if (used_ == 0) return;
   const std::size_t first = place(0, sector);
   const auto slots = static_cast<std::size_t>(used_);
   for (std::size_t slot = 0; slot < slots; ++slot) {

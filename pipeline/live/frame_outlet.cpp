@@ -51,7 +51,7 @@ void FrameOutlet::work() {
 void FrameOutlet::hand_out_sectors() {
   if (sectors_ == nullptr) return;
   for (SectorPool::Frame sector; sectors_->take(sector);) {
-    const bool served = !stream_ || !stream_->sends_sectors || stream(sector.record, sector.items);
+    const bool served = !stream_ || !stream_->serves_sectors || stream(sector.record, sector.items);
     sectors_->give_back(served && publish(sector));
   }
 }
@@ -71,26 +71,29 @@ bool FrameOutlet::publish(const SectorPool::Frame& sector) {
 bool FrameOutlet::stream(const status::FrameRecord& record,
                          std::span<const points::LabelledPoint> points) {
   const bool late = record.labels_ns - record.info.last_packet_ns > stream_->deadline_ns;
-  return stream({stream::header_of(record, stream_->sensor, late, points.size()), points});
+  return stream({stream::header_of(record, stream_->sensor, late, points.size()), points},
+                while_closed_);
 }
 
 bool FrameOutlet::stream(const points::SectorRecord& record,
                          std::span<const points::LabelledPoint> points) {
   const bool late = record.labels_ns - record.first_packet_ns > stream_->deadline_ns;
-  return stream({stream::header_of(record, stream_->sensor, late, points.size()), points});
+  return stream({stream::header_of(record, stream_->sensor, late, points.size()), points},
+                sectors_while_closed_);
 }
 
-bool FrameOutlet::stream(const stream::LabelledFrame& frame) {
+bool FrameOutlet::stream(const stream::LabelledFrame& frame,
+                         std::atomic<std::uint64_t>& while_closed) {
   stream::FrameStreamServer* const open = server();
   if (open == nullptr) {
-    ++while_closed_;
+    ++while_closed;
     return true;
   }
   return open->serve(frame);
 }
 
 bool FrameOutlet::hand_out(const Slots::Frame& frame) {
-  const bool served = !stream_ || stream_->sends_sectors || stream(frame.record, frame.items);
+  const bool served = !stream_ || stream(frame.record, frame.items);
   if (!publisher_.has_sinks()) return served;
   const Status published = rt::caught([&]() -> Status {
     const auto shared = publisher_.buffer();

@@ -20,8 +20,8 @@ namespace terracut::live {
 
 /// Takes labelled points from the labelling thread and, on a thread of its own, hands them to the
 /// readers of the stream and to the queue of every other output: frames, to those that want them
-/// sectors, too. The stream sends one or the other and needs no queue: its server never waits, and
-/// a busy reader misses the frame. If the stream's address is in use, opening it is tried again.
+/// sectors, too. The stream needs no queue: its server never waits, and a busy reader misses the
+/// frame. If the stream's address is in use, opening it is tried again.
 class FrameOutlet {
  public:
   using Slots = FramePool<points::LabelledPoint>;
@@ -29,7 +29,7 @@ class FrameOutlet {
     publish::Reopened<stream::FrameStreamServer> server;
     sensor::SensorModel sensor;
     std::int64_t deadline_ns;
-    bool sends_sectors = false;  ///< In place of frames.
+    bool serves_sectors = false;  ///< To readers that ask for them.
   };
 
   /// `ready` is woken when `slots` has a frame or `sectors` a sector, and by finish(). `sectors`
@@ -43,9 +43,12 @@ class FrameOutlet {
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
   [[nodiscard]] bool has_stream() const noexcept { return stream_.has_value(); }
-  /// Returns how many frames, or sectors, came while the stream's address was in use. For any
-  /// thread.
+  /// Returns how many frames came while the stream's address was in use. For any thread, as is the
+  /// next function.
   [[nodiscard]] std::uint64_t frames_while_closed() const noexcept { return while_closed_; }
+  [[nodiscard]] std::uint64_t sectors_while_closed() const noexcept {
+    return sectors_while_closed_;
+  }
   /// Returns the stream's figures as of the last frame or second. For one other thread.
   [[nodiscard]] const stream::FrameStreamFigures& figures() const noexcept {
     (void)figures_.take_if_new();
@@ -64,7 +67,9 @@ class FrameOutlet {
                             std::span<const points::LabelledPoint> points);
   [[nodiscard]] bool stream(const points::SectorRecord& record,
                             std::span<const points::LabelledPoint> points);
-  [[nodiscard]] bool stream(const stream::LabelledFrame& frame);
+  /// If the stream's address is in use, counts the frame in `while_closed`.
+  [[nodiscard]] bool stream(const stream::LabelledFrame& frame,
+                            std::atomic<std::uint64_t>& while_closed);
   /// Returns the stream's server; null if there is no stream or its address is in use.
   [[nodiscard]] stream::FrameStreamServer* server() {
     return stream_ ? stream_->server.get() : nullptr;
@@ -76,7 +81,7 @@ class FrameOutlet {
   SectorPool* sectors_;
   const threads::WakeEvent& ready_;
   std::atomic<bool> finish_{false};
-  std::atomic<std::uint64_t> while_closed_{0};
+  std::atomic<std::uint64_t> while_closed_{0}, sectors_while_closed_{0};
   mutable queues::LatestValue<stream::FrameStreamFigures> figures_;
   threads::BackgroundThread thread_;  ///< Declared last, because it uses the members above.
 };

@@ -42,9 +42,6 @@ class FramePool {
     }
   }
 
-  /// Returns the capacity of a slot.
-  [[nodiscard]] std::size_t most_returns() const noexcept { return slots_[0].room.size(); }
-
   /// To be called on the labelling thread: passes a frame on. `fill(std::span<T>)` writes the
   /// `returns` items of the frame. Real-time safe if `fill` is.
   template <class Fill>

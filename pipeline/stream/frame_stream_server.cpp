@@ -40,6 +40,10 @@ void set_tcp_options(int socket) noexcept {
   set(IPPROTO_TCP, TCP_KEEPCNT, 3);
 }
 
+[[nodiscard]] std::size_t bytes_of(const FrameWireHeader& header) noexcept {
+  return sizeof(FrameWireHeader) + header.points * sizeof(WirePoint);
+}
+
 Status check(const FrameStreamConfig& config) {
   if (config.max_points < 1 || config.max_points > kMostFramePoints) {
     return fail(ErrorCode::kInvalidArgument,
@@ -83,7 +87,7 @@ FrameStreamServer::FrameStreamServer(const FrameStreamConfig& config, ListeningS
       peers_(config.max_peers),
       slots_(memory.take<Slot>("stream of frames", config.max_peers)) {
   for (Slot& slot : slots_) {
-    slot = {memory.take<WirePoint>("stream of frames", config.max_points), 0, 0};
+    slot = {memory.take<WirePoint>("stream of frames", config.max_points), 0};
   }
   const bool is_unix = config.address.is_unix();
   const std::size_t wanted = config.send_buffer_bytes > 0
@@ -102,27 +106,32 @@ bool FrameStreamServer::serve(const LabelledFrame& frame) noexcept {
     ++figures_.frames_too_large;
     return false;
   }
-  ++figures_.frames;
   const bool is_sector = (frame.header.flags & kFrameSector) != 0;
+  ++(is_sector ? figures_.sectors : figures_.frames);
+  hand_out(frame, is_sector);
+  if (!is_sector) hand_out({without_points(frame.header), {}}, true);
+  return true;
+}
+
+void FrameStreamServer::hand_out(const LabelledFrame& message, bool by_sectors) noexcept {
   std::size_t slot = kNoSlot;
   for (Peer& peer : peers_) {
-    if (!peer.socket) continue;
-    if (is_sector ? peer.slot != kNoSlot : peer.backlog_bytes > 0) {
+    if (!peer.socket || peer.by_sectors != by_sectors) continue;
+    // Sectors may wait in the kernel, whole frames would be old by then.
+    if (by_sectors ? peer.slot != kNoSlot : peer.backlog_bytes > 0) {
       ++peer.figures.missed;
-      ++figures_.missed;
+      ++(by_sectors ? figures_.sectors_missed : figures_.missed);
       continue;
     }
     if (slot == kNoSlot) {
       slot = free_slot();
-      std::transform(frame.points.begin(), frame.points.end(), slots_[slot].room.begin(),
+      std::transform(message.points.begin(), message.points.end(), slots_[slot].room.begin(),
                      wire_point);
-      slots_[slot].points = frame.points.size();
       ++slots_[slot].holders;  // held here until all readers have been served
     }
-    begin(peer, slot, frame);
+    begin(peer, slot, message.header);
   }
   if (slot != kNoSlot) --slots_[slot].holders;
-  return true;
 }
 
 void FrameStreamServer::work_round() noexcept {
@@ -153,6 +162,7 @@ void FrameStreamServer::handle_events() noexcept {
     if ((event.events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) {
       part_with(peer, figures_.left);
     } else {
+      if ((event.events & EPOLLIN) != 0) hear(peer);
       give(peer);
     }
   }
@@ -192,8 +202,21 @@ void FrameStreamServer::take_in(files::OwnedDescriptor socket) noexcept {
   Peer& peer = *place;
   peer.socket = std::move(socket);
   peer.backlog_bytes = 0;
+  peer.asked_bytes = 0;
+  peer.by_sectors = false;
   peer.figures = {.connected = true, .connection = ++figures_.connected};
-  watch(peer, EPOLL_CTL_ADD, false);
+  watch(peer, EPOLL_CTL_ADD);
+}
+
+/// Reads what a reader asks for; nothing that it sends after that is read.
+void FrameStreamServer::hear(Peer& peer) noexcept {
+  const std::span rest = std::span(peer.asked).subspan(peer.asked_bytes);
+  const ::ssize_t got = ::recv(peer.socket.get(), rest.data(), rest.size(), MSG_DONTWAIT);
+  if (got <= 0) return;  // an end or an error is an event of its own
+  peer.asked_bytes += static_cast<std::size_t>(got);
+  if (peer.asked_bytes < peer.asked.size()) return;
+  peer.by_sectors = peer.asked == kSectorsPlease;
+  watch(peer, EPOLL_CTL_MOD);
 }
 
 void FrameStreamServer::watch_listener(bool watch) noexcept {
@@ -222,8 +245,9 @@ std::size_t FrameStreamServer::free_slot() const noexcept {
   return static_cast<std::size_t>(slot - slots_.begin());
 }
 
-void FrameStreamServer::begin(Peer& peer, std::size_t slot, const LabelledFrame& frame) noexcept {
-  peer.header = frame.header;
+void FrameStreamServer::begin(Peer& peer, std::size_t slot,
+                              const FrameWireHeader& header) noexcept {
+  peer.header = header;
   peer.header.missed = static_cast<std::uint32_t>(peer.figures.missed);
   peer.slot = slot;
   ++slots_[slot].holders;
@@ -232,16 +256,16 @@ void FrameStreamServer::begin(Peer& peer, std::size_t slot, const LabelledFrame&
   give(peer);
   if (!peer.socket) return;
   peer.backlog_bytes = backlog(peer);
-  if (peer.slot != kNoSlot) watch(peer, EPOLL_CTL_MOD, true);
+  if (peer.slot != kNoSlot) watch(peer, EPOLL_CTL_MOD);
 }
 
 void FrameStreamServer::give(Peer& peer) noexcept {
   if (!peer.socket || peer.slot == kNoSlot) return;
-  const std::size_t all_bytes = frame_bytes(peer);
+  const std::size_t all_bytes = bytes_of(peer.header);
   while (peer.given_bytes < all_bytes) {
     const std::span header = std::as_writable_bytes(std::span(&peer.header, 1));
-    const Slot& slot = slots_[peer.slot];
-    const std::span points = std::as_writable_bytes(slot.room.first(slot.points));
+    const std::span points =
+        std::as_writable_bytes(slots_[peer.slot].room.first(peer.header.points));
     const std::size_t of_header = std::min(peer.given_bytes, header.size());
     const std::size_t of_points = peer.given_bytes - of_header;
     std::array<::iovec, 2> parts{{{header.data() + of_header, header.size() - of_header},
@@ -263,7 +287,7 @@ void FrameStreamServer::give(Peer& peer) noexcept {
   release(peer);
   ++peer.figures.sent;
   ++figures_.sent;
-  watch(peer, EPOLL_CTL_MOD, false);
+  watch(peer, EPOLL_CTL_MOD);
 }
 
 void FrameStreamServer::release(Peer& peer) noexcept {
@@ -280,28 +304,26 @@ void FrameStreamServer::part_with(Peer& peer, std::uint64_t& counter) noexcept {
   }
   // Ends both the registration and the connection itself: a child process may hold copies of the
   // descriptor.
-  watch(peer, EPOLL_CTL_DEL, false);
+  watch(peer, EPOLL_CTL_DEL);
   ::shutdown(peer.socket.get(), SHUT_RDWR);
   peer.socket.close();
   peer.backlog_bytes = 0;
   peer.figures.connected = false;
 }
 
-/// Watches a connection. Data from a reader is ignored, but the end of it is an event.
-void FrameStreamServer::watch(Peer& peer, int operation, bool for_room) noexcept {
+/// Watches a connection: its end; room in it, while a message is being sent; and what the reader
+/// asks for, until that is known.
+void FrameStreamServer::watch(Peer& peer, int operation) noexcept {
+  const bool is_heard = config_.serves_sectors && peer.asked_bytes < peer.asked.size();
   ::epoll_event event{};
-  event.events = EPOLLRDHUP | (for_room ? EPOLLOUT : 0U);
+  event.events = EPOLLRDHUP | (peer.slot != kNoSlot ? EPOLLOUT : 0U) | (is_heard ? EPOLLIN : 0U);
   event.data.u64 = static_cast<std::uint64_t>(&peer - peers_.data());
   ::epoll_ctl(events_.get(), operation, peer.socket.get(), &event);
 }
 
 std::size_t FrameStreamServer::backlog(const Peer& peer) const noexcept {
-  const std::size_t ours = peer.slot == kNoSlot ? 0 : frame_bytes(peer) - peer.given_bytes;
+  const std::size_t ours = peer.slot == kNoSlot ? 0 : bytes_of(peer.header) - peer.given_bytes;
   return ours + bytes_waiting_in(peer.socket.get(), config_.address.is_unix());
-}
-
-std::size_t FrameStreamServer::frame_bytes(const Peer& peer) const noexcept {
-  return sizeof(FrameWireHeader) + slots_[peer.slot].points * sizeof(WirePoint);
 }
 
 }  // namespace terracut::stream

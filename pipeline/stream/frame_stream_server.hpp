@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,6 +28,7 @@ struct FrameStreamConfig {
   /// hangs, or its machine has vanished.
   std::int64_t stall_limit_ns = 30'000'000'000;
   std::size_t send_buffer_bytes = 0;  ///< The kernel's buffer per reader; 0: enough for a frame.
+  bool serves_sectors = false;        ///< Readers that ask for sectors get them.
 };
 
 /// A frame, or a sector of one, to be sent to the stream's readers.
@@ -35,14 +37,16 @@ struct LabelledFrame {
   std::span<const points::LabelledPoint> points{};
 };
 
-/// Counts since the start, of sectors if these are sent. For each connected reader, every frame
-/// taken was sent, was missed, was cut short when the reader left, or is being sent.
+/// Counts since the start. A message is a frame or, for readers by sectors, a sector or the header
+/// of a frame. For each connected reader, every message was sent, was missed, was cut short when
+/// the reader left, or is being sent.
 struct FrameStreamFigures {
-  std::uint64_t frames = 0;            ///< Frames taken by serve().
-  std::uint64_t frames_too_large = 0;  ///< Frames not taken, with more than max_points.
-  std::uint64_t sent = 0;              ///< Whole frames given to the kernel, per reader.
-  std::uint64_t missed = 0;     ///< Frames missed as the reader was busy with an earlier one.
-  std::uint64_t cut_short = 0;  ///< Frames whose reader left before the frame's end.
+  std::uint64_t frames = 0, sectors = 0;  ///< Taken by serve().
+  std::uint64_t frames_too_large = 0;     ///< Frames not taken, with more than max_points.
+  std::uint64_t sent = 0;                 ///< Whole messages given to the kernel, per reader.
+  std::uint64_t missed = 0;          ///< Frames missed as the reader was busy with an earlier one.
+  std::uint64_t sectors_missed = 0;  ///< Messages missed by readers by sectors.
+  std::uint64_t cut_short = 0;       ///< Messages whose reader left before their end.
   std::uint64_t bytes = 0;
 
   std::uint64_t connected = 0;  ///< Readers that were accepted.
@@ -70,8 +74,9 @@ struct PeerFigures {
 /// it, and kept until the last of them has it; a free reader holds no frame, so there is always
 /// memory for the next frame that it takes.
 ///
-/// Sectors are sent likewise, but a reader that has not read the one before gets the next one, too,
-/// as long as the kernel's buffer has room: they come a millisecond after each other.
+/// A reader that asks for sectors gets these in place of frames, and after the last one of a frame
+/// the frame's header. What it has not read waits in the kernel's buffer, for sectors come a
+/// millisecond after each other; while that is full, it misses what comes.
 ///
 /// For one thread of normal priority: it makes system calls that take up to a few milliseconds for
 /// a frame's bytes, but never waits. Allocates nothing after open().
@@ -85,8 +90,9 @@ class FrameStreamServer {
   FrameStreamServer& operator=(FrameStreamServer&&) noexcept = default;
   ~FrameStreamServer() = default;
 
-  /// Takes a frame or sector and begins to send it to every free reader. Returns false, and counts
-  /// the frame, if it has more than max_points. `frame.points` may be reused after the call.
+  /// Takes a frame or sector and begins to send it to every free reader of frames, or of sectors.
+  /// Sectors come before their frame. Returns false, and counts the frame, if it has more than
+  /// max_points. `frame.points` may be reused after the call.
   bool serve(const LabelledFrame& frame) noexcept;
 
   /// Continues sending, accepts readers and drops those that have gone. Call it when descriptor()
@@ -113,14 +119,16 @@ class FrameStreamServer {
 
   struct Slot {
     std::span<WirePoint> room;
-    std::size_t points = 0;
     std::size_t holders = 0;
   };
   struct Peer {
     files::OwnedDescriptor socket;
     PeerFigures figures;
-    FrameWireHeader header;      ///< Header of the frame being sent.
-    std::size_t slot = kNoSlot;  ///< Slot of the frame's points until all are in the kernel.
+    std::array<char, 4> asked{};  ///< The first bytes that the reader sent.
+    std::size_t asked_bytes = 0;
+    bool by_sectors = false;
+    FrameWireHeader header;      ///< Header of the message being sent.
+    std::size_t slot = kNoSlot;  ///< Slot of its points until all are in the kernel.
     std::size_t given_bytes = 0;
     std::size_t backlog_bytes = 0;  ///< Bytes not yet sent when last checked.
     std::int64_t progress_ns = 0;   ///< Monotonic time when the backlog began or last shrank.
@@ -132,16 +140,18 @@ class FrameStreamServer {
   void handle_events() noexcept;
   void let_in() noexcept;
   void take_in(files::OwnedDescriptor socket) noexcept;
+  void hear(Peer& peer) noexcept;
   void watch_listener(bool watch) noexcept;
   void look_after(Peer& peer, std::int64_t now_ns) noexcept;
   [[nodiscard]] std::size_t free_slot() const noexcept;
-  void begin(Peer& peer, std::size_t slot, const LabelledFrame& frame) noexcept;
+  /// Begins to send a message to every free reader of frames, or of sectors.
+  void hand_out(const LabelledFrame& message, bool by_sectors) noexcept;
+  void begin(Peer& peer, std::size_t slot, const FrameWireHeader& header) noexcept;
   void give(Peer& peer) noexcept;
   void release(Peer& peer) noexcept;
   void part_with(Peer& peer, std::uint64_t& counter) noexcept;
-  void watch(Peer& peer, int operation, bool for_room) noexcept;
+  void watch(Peer& peer, int operation) noexcept;
   [[nodiscard]] std::size_t backlog(const Peer& peer) const noexcept;
-  [[nodiscard]] std::size_t frame_bytes(const Peer& peer) const noexcept;
 
   FrameStreamConfig config_;
   ListeningSocket listener_;

@@ -56,6 +56,8 @@ inline constexpr std::uint32_t kFrameNoEgoMotion = 1U << 3;
 inline constexpr std::uint32_t kFrameSector = 1U << 4;
 
 inline constexpr std::array<char, 4> kFrameMagic{'T', 'C', 'L', 'T'};
+/// What a reader sends first to get sectors in place of frames.
+inline constexpr std::array<char, 4> kSectorsPlease{'T', 'C', 'L', 'S'};
 /// The version increases only if readers of the last version could no longer read. New fields are
 /// added at the end of the header or point; readers skip them by header_bytes and point_bytes.
 inline constexpr std::uint16_t kFrameWireVersion = 1;
@@ -76,7 +78,7 @@ struct FrameWireHeader {
   std::uint8_t level = 0;    ///< status::Level: 0 full, 1 cut stopped, 2 coarse, 3 skipped.
   std::uint32_t flags = 0;   ///< Bits such as kFrameComplete.
   std::uint32_t missed = 0;  ///< Frames, or sectors, that this reader missed since it connected.
-  std::uint32_t first_return = 0;  ///< Place in the frame of a sector's first return.
+  std::uint32_t first_return = 0;  ///< Place in the frame of the first point that follows.
 
   bool operator==(const FrameWireHeader&) const = default;
 };
@@ -105,6 +107,12 @@ static_assert(offsetof(FrameWireHeader, header_bytes) == 6 &&
           .flags = (record.info.complete ? kFrameComplete : 0U) | (late ? kFrameLate : 0U) |
                    (deskew == frame::DeskewState::kDone ? kFrameDeskewed : 0U) |
                    (deskew == frame::DeskewState::kNoEgoMotion ? kFrameNoEgoMotion : 0U)};
+}
+/// Returns the header that a reader by sectors gets after the last sector of a frame.
+[[nodiscard]] constexpr FrameWireHeader without_points(FrameWireHeader header) noexcept {
+  header.first_return = header.points;
+  header.points = 0;
+  return header;
 }
 /// Returns the header of a sector, with `missed` at 0. What is known of whole frames alone is 0.
 [[nodiscard]] constexpr FrameWireHeader header_of(const points::SectorRecord& record,

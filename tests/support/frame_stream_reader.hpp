@@ -40,9 +40,15 @@ class FrameStreamReader {
   }
   explicit FrameStreamReader(files::OwnedDescriptor socket) noexcept : socket_(std::move(socket)) {}
 
-  /// The next whole frame. False: the sender ended the stream, after a whole frame. kUnreadable:
-  /// nothing came for `patience_ms` (-1: wait as long as it takes), or the connection broke.
-  /// kMalformed: the stream ended within a frame, or is none of this version.
+  /// Asks for sectors as they come, in place of whole frames. What is on its way comes first.
+  void ask_for_sectors() const {
+    ::send(socket_.get(), stream::kSectorsPlease.data(), stream::kSectorsPlease.size(),
+           MSG_NOSIGNAL);
+  }
+
+  /// The next whole frame, or sector. False: the sender ended the stream, after a whole frame.
+  /// kUnreadable: nothing came for `patience_ms` (-1: wait as long as it takes), or the connection
+  /// broke. kMalformed: the stream ended within a frame, or is none of this version.
   [[nodiscard]] Expected<bool> next(ReceivedFrame& frame, int patience_ms) {
     const auto begun = fill(std::as_writable_bytes(std::span(&frame.header, 1)), patience_ms);
     if (!begun || *begun == 0) return begun.map([](std::size_t) { return false; });

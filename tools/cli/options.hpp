@@ -258,7 +258,7 @@ struct Options {
   std::filesystem::path trace;
   std::string stream;           ///< Where labelled points are sent; empty: nowhere.
   ::mode_t stream_mode = 0660;  ///< Permissions of a Unix socket's file.
-  bool stream_sectors = false;  ///< Sectors go over the stream in place of frames.
+  bool stream_sectors = false;  ///< Readers of the stream that ask for sectors get them.
   double deadline_ms = 50;      ///< From a frame's last packet to its labels.
   RealtimeOptions realtime;
   RecorderOptions recorder;

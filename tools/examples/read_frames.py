@@ -3,8 +3,8 @@
 # Copyright 2026 The terracut authors
 """Reads labelled frames from a running `terracut live --stream ADDRESS` (docs/reference/labelled_stream.md).
 
-Prints a line a frame, or a sector (--stream-sectors); with --pcd also writes each as a binary PCD file. Needs nothing but Python 3.8:
-copy decode_header() and receive_frames() into a program of your own. With numpy, the points are
+Prints a line a frame; with --pcd also writes each as a binary PCD file. With --sectors, of a run with --stream-sectors, frames come in
+parts of some four degrees, each as soon as it is labelled. Needs nothing but Python 3.8: copy decode_header() and receive_frames() into a program of your own. With numpy, the points are
 numpy.frombuffer(points, POINT_DTYPE).
 """
 import argparse
@@ -31,15 +31,18 @@ class StreamError(Exception):
     """Raised if the data are not a stream of labelled frames, or end in the middle of one."""
 
 
-def connect(address):
+def connect(address, sectors=False):
     """Returns a connected socket. `address` is ADDRESS:PORT, a port on this machine, or the path of
     a Unix socket."""
     if "/" in address:
         connection = socket.socket(socket.AF_UNIX)
         connection.connect(address)
-        return connection
-    host, _, port = address.rpartition(":")
-    return socket.create_connection((host or "127.0.0.1", int(port)))
+    else:
+        host, _, port = address.rpartition(":")
+        connection = socket.create_connection((host or "127.0.0.1", int(port)))
+    if sectors:
+        connection.sendall(b"TCLS")
+    return connection
 
 
 def receive(connection, count):
@@ -135,13 +138,14 @@ def main():
     parser = argparse.ArgumentParser(description="Labelled frames of a running terracut live.")
     parser.add_argument("address", help="as given to `terracut live --stream`: ADDRESS:PORT, a "
                         "port of this machine, or the path of a Unix socket")
-    parser.add_argument("--count", type=int, default=0, help="stop after so many frames")
+    parser.add_argument("--count", type=int, default=0, help="stop after so many frames, or sectors")
+    parser.add_argument("--sectors", action="store_true", help="ask for sectors as they come")
     parser.add_argument("--pcd", metavar="FOLDER", help="write each frame there as NUMBER.pcd")
     arguments = parser.parse_args()
     try:
         if arguments.pcd:
             os.makedirs(arguments.pcd, exist_ok=True)
-        with connect(arguments.address) as connection:
+        with connect(arguments.address, arguments.sectors) as connection:
             for frames, (header, points) in enumerate(receive_frames(connection), 1):
                 print(describe(header, points), flush=True)
                 if arguments.pcd:

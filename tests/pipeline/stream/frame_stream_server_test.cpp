@@ -27,13 +27,6 @@ constexpr std::size_t kSmallSendBuffer_bytes = 65'536;
 
 class FrameStream : public StreamTest {
  protected:
-  /// Reads a frame while the server goes on; so large ones come through.
-  Expected<bool> receive(FrameStreamReader& reader, ReceivedFrame& frame) {
-    auto result =
-        std::async(std::launch::async, [&] { return reader.next(frame, kTestPatience_ms); });
-    while (result.wait_for(std::chrono::seconds(0)) != std::future_status::ready) step();
-    return result.get();
-  }
   void expect_frame(FrameStreamReader& reader, std::uint32_t number, std::size_t points) {
     ReceivedFrame frame;
     const auto result = receive(reader, frame);
@@ -88,41 +81,6 @@ TEST_P(FrameStream, EveryReaderGetsTheWholeFrame) {
   EXPECT_EQ(figures().sent, 3U);
   EXPECT_EQ(figures().missed, 0U);
   EXPECT_EQ(figures().bytes, 3 * (sizeof(FrameWireHeader) + kManyPoints * sizeof(WirePoint)));
-}
-
-TEST_P(FrameStream, SectorsWaitForAReaderWhereFramesAreMissed) {
-  open({.max_points = 100, .send_buffer_bytes = kSmallSendBuffer_bytes});
-  FrameStreamReader busy = reader();
-  const auto points = points_of_frame(7, 100);
-  constexpr std::uint32_t kSectors = 16;
-  for (std::uint32_t n = 0; n < kSectors; ++n) {
-    const points::SectorRecord sector{.frame = 7, .first_return = 100 * n};
-    ASSERT_TRUE(server().serve(
-        {header_of(sector, sensor::SensorModel::kHdl64e, false, points.size()), points}));
-  }
-  for (std::uint32_t n = 0; n < kSectors; ++n) {
-    ReceivedFrame sector;
-    ASSERT_TRUE(receive(busy, sector).value_or(false));
-    EXPECT_EQ(sector.header.flags, kFrameSector);
-    EXPECT_EQ(sector.header.first_return, 100 * n);
-    EXPECT_EQ(sector.points, on_wire(points));
-  }
-  EXPECT_EQ(figures().missed, 0U);
-}
-
-TEST_P(FrameStream, SectorsThatFindNoRoomAreMissedAndCounted) {
-  open({.max_points = kManyPoints, .send_buffer_bytes = kSmallSendBuffer_bytes});
-  FrameStreamReader stands_still = reader(kSmallBuffer_bytes);
-  const auto points = points_of_frame(7, kManyPoints);
-  for (std::uint32_t n = 0; n < 3; ++n) {
-    const points::SectorRecord sector{.frame = n, .first_return = 0};
-    ASSERT_TRUE(server().serve(
-        {header_of(sector, sensor::SensorModel::kHdl64e, false, points.size()), points}));
-  }
-  EXPECT_EQ(figures().missed, 2U);
-  ReceivedFrame sector;
-  ASSERT_TRUE(receive(stands_still, sector).value_or(false));
-  EXPECT_EQ(sector.header.number, 0U);
 }
 
 TEST_P(FrameStream, AFrameWithoutPointsIsAFrame) {

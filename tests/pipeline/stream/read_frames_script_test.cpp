@@ -27,7 +27,7 @@ class ReadFramesScript : public StreamTest {
         0)
       GTEST_SKIP() << "no python3 of version 3.8 or newer";
     StreamTest::SetUp();
-    open({.max_points = 200'000});
+    open({.max_points = 200'000, .serves_sectors = true});
   }
   void TearDown() override {
     if (!folder_.empty()) StreamTest::TearDown();
@@ -73,7 +73,7 @@ TEST_P(ReadFramesScript, PrintsWhatWasServed) {
 }
 
 TEST_P(ReadFramesScript, SaysOfASectorWhereInItsFrameItIs) {
-  auto script = run("--count 1 --pcd " + folder_.string());
+  auto script = run("--sectors --count 1 --pcd " + folder_.string());
   ASSERT_TRUE(reader_came());
   const auto points = points_of_frame(41, 1500);
   const points::SectorRecord sector{.frame = 41,
@@ -81,8 +81,10 @@ TEST_P(ReadFramesScript, SaysOfASectorWhereInItsFrameItIs) {
                                     .first_packet_ns = 1'000'000'000,
                                     .last_packet_ns = 1'001'000'000,
                                     .labels_ns = 1'018'000'000};
-  ASSERT_TRUE(server().serve(
-      {header_of(sector, sensor::SensorModel::kHdl64e, false, points.size()), points}));
+  const LabelledFrame given{header_of(sector, sensor::SensorModel::kHdl64e, false, points.size()),
+                            points};
+  // It gets none until its question has been heard.
+  ASSERT_TRUE(step_until([&] { (void)server().serve(given); }, [&] { return figures().sent > 0; }));
   const Outcome outcome = end_of(script);
   EXPECT_EQ(outcome.text,
             "frame 41 from return 3000  hdl64e  1500 points  500 ground  1000 obstacle  labelled "

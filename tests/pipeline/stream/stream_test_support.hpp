@@ -6,10 +6,14 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <future>
 #include <optional>
 #include <ostream>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,6 +68,14 @@ inline LabelledFrame frame_of(const status::FrameRecord& record,
 inline LabelledFrame frame_of(std::uint32_t number,
                               const std::vector<points::LabelledPoint>& points) {
   return frame_of(record_of(number), points);
+}
+
+/// A sector of frame `number`: `points` begin at its return `first`.
+inline LabelledFrame sector_of(std::uint32_t number, std::uint32_t first,
+                               std::span<const points::LabelledPoint> points) {
+  const points::SectorRecord record{
+      .frame = number, .first_return = first, .first_packet_ns = 1 + first};
+  return {header_of(record, sensor::SensorModel::kHdl64e, false, points.size()), points};
 }
 
 /// Until `done()` says so, in vain after kTestPatience_ms.
@@ -122,6 +134,14 @@ class StreamTest : public test::InScratchFolder, public testing::WithParamInterf
   }
   [[nodiscard]] FrameStreamReader reader(int receive_buffer_bytes = 0) {
     return FrameStreamReader(join(receive_buffer_bytes));
+  }
+
+  /// Reads a message while the server goes on; so large ones come through.
+  Expected<bool> receive(FrameStreamReader& reader, ReceivedFrame& frame) {
+    auto result =
+        std::async(std::launch::async, [&] { return reader.next(frame, kTestPatience_ms); });
+    while (result.wait_for(std::chrono::seconds(0)) != std::future_status::ready) step();
+    return result.get();
   }
 
   /// As a sink's thread lives: waits for something to do, for a short time, and does it.

@@ -240,17 +240,12 @@ class Writers {
 
  private:
   [[nodiscard]] publish::Reopened<stream::FrameStreamServer>::Config stream_at(
-      const Options& options, live::LiveParts& parts) {
-    const std::size_t most_points = parts.turns.decoder().return_capacity();
-    stream::FrameStreamConfig config{
+      const Options& options, const live::LiveParts& parts) {
+    const stream::FrameStreamConfig config{
         .address = stream::parse_stream_address(options.stream).value(),
         .unix_mode = options.stream_mode,
-        .max_points = most_points};
-    if (options.stream_sectors) {
-      config.max_points = parts.thread.sectors()->most_returns();
-      // Up to a turn of them may wait for a reader.
-      config.send_buffer_bytes = most_points * sizeof(stream::WirePoint);
-    }
+        .max_points = parts.turns.decoder().return_capacity(),
+        .serves_sectors = options.stream_sectors};
     const auto open = [this, config]() -> Expected<stream::FrameStreamServer> {
       auto server = stream::FrameStreamServer::open(config, stream_memory_);
       if (!server) return server;

@@ -156,6 +156,10 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
                              {"stream_readers_refused", stream.refused},
                              {"stream_readers_stalled", stream.stalled},
                              {"stream_frames_while_closed", outlet_->frames_while_closed()}});
+    if (options_.stream_sectors) {
+      more.insert(more.end(), {{"stream_sectors_missed", stream.sectors_missed},
+                               {"stream_sectors_while_closed", outlet_->sectors_while_closed()}});
+    }
   }
   if (publisher_ != nullptr) std::ranges::move(publisher_->losses(over_), std::back_inserter(more));
   status::show_losses(more, figures);

@@ -243,7 +243,7 @@ constexpr std::array kSettings{
             .form = TextForm::kStream, .field = [](O& o) -> F { return &o.stream; }},
     Setting{.key = "output.stream_mode", .option = "--stream-mode", .commands = C::kLive, .help = "Rights of that socket's path: 600 its owner may read, 660 its group too, 666 all",
             .field = [](O& o) -> F { return choice(o.stream_mode, kStreamModeWords); }},
-    Setting{.key = "output.stream_sectors", .option = "--stream-sectors", .commands = C::kLive, .help = "They get sectors in place of frames, each as soon as its labels are known, some milliseconds after it was measured",
+    Setting{.key = "output.stream_sectors", .option = "--stream-sectors", .commands = C::kLive, .help = "Those that ask for it get sectors in place of frames, each as soon as its labels are known, some milliseconds after it was measured",
             .bare = "yes", .needs = "--stream", .field = [](O& o) -> F { return &o.stream_sectors; }},
     Setting{.key = "output.mcap", .option = "--mcap", .commands = kPublished, .help = "Recording for ROS 2, Foxglove, Lichtblick and Rerun: NAME.mcap is one file, else the folder of a bag for `ros2 bag` (docs/guide/mcap.md)",
             .field = [](O& o) -> F { return &o.output.mcap.path; }},

@@ -49,10 +49,12 @@ bool Publisher::finish(std::optional<std::chrono::milliseconds> patience) {
   for (const auto& worker : workers_) worker->begin_to_finish();
   constexpr std::chrono::hours kAsLongAsItTakes{24 * 365};
   return std::ranges::all_of(workers_, [&](const auto& worker) {
-    std::uint64_t waiting = worker->waiting();
+    const auto to_do = [&] { return worker->waiting() + worker->sectors_waiting(); };
+    std::uint64_t before = to_do();
     while (!worker->ends_within(patience.value_or(kAsLongAsItTakes))) {
-      if (worker->waiting() == waiting) return false;
-      waiting = worker->waiting();
+      const std::uint64_t now = to_do();
+      if (now == before) return false;
+      before = now;
     }
     return true;
   });

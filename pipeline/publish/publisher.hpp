@@ -41,8 +41,8 @@ class Publisher {
   void put_figures(const status::MonitorSnapshot& figures);
 
   /// Writes all that waits; call it after the last frame. `patience` is the longest time an output
-  /// may take for one frame or to end; without it there is no limit. Returns false if an output
-  /// does not answer; the process must then end without destroying this object.
+  /// may take for one frame or sector, or to end; without it there is no limit. Returns false if an
+  /// output does not answer; the process must then end without destroying this object.
   [[nodiscard]] bool finish(std::optional<std::chrono::milliseconds> patience);
 
   /// Returns the first error of any output. This and the next function may be called on any thread.

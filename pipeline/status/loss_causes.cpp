@@ -52,7 +52,7 @@ std::vector<NamedCount> causes_of(const net::ReceiveCounters& counters) {
 
 bool is_of_onlookers(std::string_view cause) noexcept {
   return cause.starts_with("view_") || cause.starts_with("foxglove_") ||
-         cause.starts_with("metrics_") || cause == "unviewed_frames";
+         cause.starts_with("metrics_") || cause.starts_with("unviewed_");
 }
 
 std::vector<NamedCount> outcomes_of(const net::DatagramAccount& account) {

@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "live_watch.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -25,11 +27,12 @@ void show_thread(status::MonitorSnapshot& figures, std::string_view name,
 
 /// Returns the name under which frames that the outlet did not take are counted. If only viewers
 /// get frames, the name is not that of a loss.
-std::string unpublished_name(const Options& options) {
+/// Returns the name of what no output took: of a loss, unless nobody but viewers gets frames.
+std::string unpublished_name(const Options& options, std::string_view what) {
   const OutputOptions& output = options.output;
   const bool are_kept =
       !options.stream.empty() || !output.mcap.path.empty() || output.dds.publishes;
-  return are_kept ? "unpublished_frames" : "unviewed_frames";
+  return fmt::format("{}_{}", are_kept ? "unpublished" : "unviewed", what);
 }
 
 }  // namespace
@@ -145,9 +148,9 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   if (parts_.thread.labels())
     more.push_back({"unwritten_label_frames", lost(parts_.thread.labels())});
   if (parts_.thread.points())
-    more.push_back({unpublished_name(options_), lost(parts_.thread.points())});
+    more.push_back({unpublished_name(options_, "frames"), lost(parts_.thread.points())});
   if (parts_.thread.sectors())
-    more.push_back({"unpublished_sectors", lost(parts_.thread.sectors())});
+    more.push_back({unpublished_name(options_, "sectors"), lost(parts_.thread.sectors())});
   if (outlet_ != nullptr && outlet_->has_stream()) {
     const stream::FrameStreamFigures& stream = outlet_->figures();
     more.insert(more.end(), {{"stream_frames_missed", stream.missed},

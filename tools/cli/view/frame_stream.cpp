@@ -23,8 +23,8 @@ constexpr std::string_view kHead =
 
 }  // namespace
 
-FrameStream::FrameStream(HttpStream stream, ViewSource& source)
-    : stream_(std::move(stream)), source_(source) {
+FrameStream::FrameStream(HttpStream stream, ViewSource& source, bool by_sectors)
+    : stream_(std::move(stream)), source_(source), by_sectors_(by_sectors) {
   ++source_.streams;
 }
 
@@ -38,33 +38,32 @@ void FrameStream::begin() {
                     [self = shared_from_this()](error_code error, std::size_t) {
                       if (error) return self->stream_.close();
                       self->is_sending_ = false;
-                      self->send_later();
+                      self->send_next();
                     });
   notice_end();
 }
 
-void FrameStream::send_later() {
+void FrameStream::send_next() {
   if (is_sending_) return;
-  ViewFrames::Later later = source_.frames.after(seen_);
-  if (later.kept.empty()) return;
-  seen_ = later.number;
-  source_.skipped += later.skipped;
-  missed_ += static_cast<std::uint32_t>(later.skipped);
-  kept_ = std::move(later.kept);
-  headers_.clear();
-  for (const auto& each : kept_) headers_.emplace_back(each->header).missed = missed_;
-  std::vector<asio::const_buffer> parts;
-  for (std::size_t i = 0; i < kept_.size(); ++i) {
-    parts.push_back(asio::buffer(&headers_[i], sizeof(headers_[i])));
-    parts.push_back(asio::buffer(kept_[i]->points));
-  }
+  const ViewFrames::Message next =
+      by_sectors_ ? source_.frames.sector_after(seen_) : source_.frames.newest();
+  if (next.number == seen_) return;
+  const std::uint64_t skipped = seen_ == 0 ? 0 : next.number - seen_ - 1;
+  (by_sectors_ ? source_.sectors_skipped : source_.skipped) += skipped;
+  seen_ = next.number;
+  kept_ = next.kept;
+  const std::uint32_t missed = header_.missed + static_cast<std::uint32_t>(skipped);
+  header_ = kept_->header;
+  header_.missed = missed;
   is_sending_ = true;
+  const std::array<asio::const_buffer, 2> parts{asio::buffer(&header_, sizeof(header_)),
+                                                asio::buffer(kept_->points)};
   asio::async_write(stream_, parts, [self = shared_from_this()](error_code error, std::size_t) {
     if (error) return self->stream_.close();
     self->is_sending_ = false;
-    self->source_.sent += self->kept_.size();
-    self->kept_.clear();
-    self->send_later();
+    self->kept_ = nullptr;
+    ++self->source_.sent;
+    self->send_next();
   });
 }
 

@@ -5,23 +5,23 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "tools/cli/http/http_connection.hpp"
 #include "view_routes.hpp"
 
 namespace terracut::cli {
 
-/// Streams labelled frames, or sectors, to one browser as the body of an answer, until either side
-/// ends. While it sends, no more waits than ViewFrames keeps.
+/// Streams labelled frames, or their sectors, to one browser as the body of an answer, until either
+/// side ends. While a frame is being sent, only the newest later one waits; of sectors
+/// ViewFrames::kSectorsKept.
 class FrameStream final : public HttpGuest, public std::enable_shared_from_this<FrameStream> {
  public:
-  FrameStream(HttpStream stream, ViewSource& source);
+  FrameStream(HttpStream stream, ViewSource& source, bool by_sectors);
   ~FrameStream() override;
 
   void begin();
-  /// Sends what the browser does not have yet, if it is ready.
-  void send_later();
+  /// Sends what the browser does not have yet, if it is ready: the newest frame or the next sector.
+  void send_next();
 
   [[nodiscard]] HttpStream& stream() noexcept override { return stream_; }
 
@@ -30,11 +30,10 @@ class FrameStream final : public HttpGuest, public std::enable_shared_from_this<
 
   HttpStream stream_;
   ViewSource& source_;
+  bool by_sectors_;
   std::uint64_t seen_ = 0;
-  std::uint32_t missed_ = 0;
-  // What is being sent:
-  std::vector<std::shared_ptr<const ViewFrames::Kept>> kept_;
-  std::vector<stream::FrameWireHeader> headers_;
+  stream::FrameWireHeader header_{};
+  std::shared_ptr<const ViewFrames::Kept> kept_;  ///< What is being sent.
   bool is_sending_ = false;
   std::array<char, 256> heard_{};
 };

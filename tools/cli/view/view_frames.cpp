@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "pipeline/status/loss_causes.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
@@ -19,31 +20,43 @@ double milliseconds(std::int64_t ns) {
 
 ViewFrames::ViewFrames(const publish::RunFacts& facts) : facts_(facts) {}
 
-template <class Record>
-void ViewFrames::keep(const Record& record, bool late,
-                      std::span<const points::LabelledPoint> points) {
-  const std::shared_ptr<Kept> room = rooms_.take();
-  room->points.resize(points.size());
-  std::ranges::transform(points, room->points.begin(), stream::wire_point);
-  room->header = stream::header_of(record, sensor::SensorModel::kUnknown, late, points.size());
-  const std::lock_guard lock(mutex_);
-  if (kept_.size() == (gives_sectors() ? kSectorsKept : 1)) kept_.pop_front();
-  kept_.push_back(room);
-  ++number_;
-}
-
-void ViewFrames::put_sector(const publish::LabelledSector& sector) {
-  const std::int64_t wait_ns = sector.record.labels_ns - sector.record.first_packet_ns;
-  keep(sector.record, wait_ns > facts_.deadline_ns, sector.points);
-}
-
 void ViewFrames::put(const publish::LabelledFrame& frame) {
+  const std::shared_ptr<Kept> room = rooms_.take();
   const Shown of_frame = shown(frame.record);
-  if (!gives_sectors()) keep(frame.record, of_frame.missed, frame.points);
+  room->points.resize(frame.points.size());
+  std::ranges::transform(frame.points, room->points.begin(), stream::wire_point);
+  room->header = stream::header_of(frame.record, sensor::SensorModel::kUnknown, of_frame.missed,
+                                   frame.points.size());
   const std::lock_guard lock(mutex_);
+  newest_ = room;
+  if (gives_sectors()) {
+    const std::shared_ptr<Kept> head = sector_rooms_.take();
+    head->header = stream::without_points(room->header);
+    head->points.clear();
+    keep_sector(head);
+  }
+  ++frames_put_;
   losses_ += frame.record.info.losses;
   shown_.push_back(of_frame);
   if (shown_.size() > kFramesShown) shown_.pop_front();
+}
+
+void ViewFrames::put_sector(const publish::LabelledSector& sector) {
+  const std::shared_ptr<Kept> room = sector_rooms_.take();
+  room->points.resize(sector.points.size());
+  std::ranges::transform(sector.points, room->points.begin(), stream::wire_point);
+  const points::SectorRecord& record = sector.record;
+  room->header = stream::header_of(record, sensor::SensorModel::kUnknown,
+                                   record.labels_ns - record.first_packet_ns > facts_.deadline_ns,
+                                   sector.points.size());
+  const std::lock_guard lock(mutex_);
+  keep_sector(room);
+}
+
+void ViewFrames::keep_sector(std::shared_ptr<const Kept> sector) {
+  sectors_.push_back(std::move(sector));
+  if (sectors_.size() > kSectorsKept) sectors_.pop_front();
+  ++sectors_put_;
 }
 
 void ViewFrames::put_figures(const status::MonitorSnapshot& figures) {
@@ -51,13 +64,17 @@ void ViewFrames::put_figures(const status::MonitorSnapshot& figures) {
   run_ = figures;
 }
 
-ViewFrames::Later ViewFrames::after(std::uint64_t number) const {
+ViewFrames::Message ViewFrames::newest() const {
   const std::lock_guard lock(mutex_);
-  const std::uint64_t came = number_ - number;
-  const std::size_t kept = std::min<std::uint64_t>(came, kept_.size());
-  return {number_,
-          {kept_.end() - static_cast<std::ptrdiff_t>(kept), kept_.end()},
-          number == 0 ? 0 : came - kept};
+  return {frames_put_, newest_};
+}
+
+ViewFrames::Message ViewFrames::sector_after(std::uint64_t seen) const {
+  const std::lock_guard lock(mutex_);
+  if (seen == sectors_put_) return {seen, nullptr};
+  const std::uint64_t before_oldest = sectors_put_ - sectors_.size();
+  const std::uint64_t number = std::max(seen, before_oldest) + 1;
+  return {number, sectors_[number - before_oldest - 1]};
 }
 
 ViewFrames::Shown ViewFrames::shown(const status::FrameRecord& record) const noexcept {

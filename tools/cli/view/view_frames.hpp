@@ -9,7 +9,6 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "pipeline/publish/labelled_frame.hpp"
@@ -20,8 +19,8 @@
 
 namespace terracut::cli {
 
-/// What browsers show, for any number of them: the newest frame, or the sectors of the last turn,
-/// and figures of the last 300 frames. A slow browser gets the newest when it is ready for it; no
+/// The newest frame for any number of browsers, the sectors of the last turns, and figures of the
+/// last 300 frames. A slow browser gets the newest frame, or sector, when it is ready for one; no
 /// thread waits for it. Any thread without a deadline.
 class ViewFrames {
  public:
@@ -29,25 +28,26 @@ class ViewFrames {
     stream::FrameWireHeader header;
     std::vector<stream::WirePoint> points;
   };
-  struct Later {
-    std::uint64_t number = 0;  ///< Sequence number of the last one, from 1; 0: none yet.
-    std::vector<std::shared_ptr<const Kept>> kept;
-    std::uint64_t skipped = 0;  ///< Number of those between that are not kept any more.
+  struct Message {
+    std::uint64_t number = 0;          ///< Sequence number, from 1; 0: none yet.
+    std::shared_ptr<const Kept> kept;  ///< Null: none yet.
   };
   static constexpr std::size_t kFramesShown = 300;
-  static constexpr std::size_t kSectorsKept = 128;  ///< More than a turn has.
+  static constexpr std::size_t kSectorsKept = 256;  ///< More than a turn has.
 
   explicit ViewFrames(const publish::RunFacts& facts);
 
-  /// Copies the frame; in a run that gives sectors, only its figures.
+  /// Copies the frame.
   void put(const publish::LabelledFrame& frame);
-  /// Copies the sector.
+  /// Copies the sector; those of a frame come before the frame.
   void put_sector(const publish::LabelledSector& sector);
   void put_figures(const status::MonitorSnapshot& figures);
 
   [[nodiscard]] bool gives_sectors() const noexcept { return facts_.gives_sectors; }
-  /// Returns what came after the one of this number, in order.
-  [[nodiscard]] Later after(std::uint64_t number) const;
+  [[nodiscard]] Message newest() const;
+  /// Returns the sector, or the head of a frame without its points, that follows number `seen`, or
+  /// the oldest one if that is not kept any more: a browser then has a whole turn soon.
+  [[nodiscard]] Message sector_after(std::uint64_t seen) const;
   /// Returns the figures for the page: sensor, rows, deadline_ms or null, frames[] as [ms, level,
   /// missed], losses[] and onlookers[] as [cause, count] (status::is_of_onlookers()); silent_s if
   /// the sensor is silent.
@@ -61,14 +61,16 @@ class ViewFrames {
   };
   [[nodiscard]] Shown shown(const status::FrameRecord& record) const noexcept;
 
+  void keep_sector(std::shared_ptr<const Kept> sector);
+
   publish::RunFacts facts_;
-  template <class Record>
-  void keep(const Record& record, bool late, std::span<const points::LabelledPoint> points);
-  /// Memory for what each browser gets, for the newest frame and for the next one.
-  memory::UsedAgain<Kept> rooms_;
+  /// Memory for one frame per browser, for the newest frame and for the next one; likewise for
+  /// sectors.
+  memory::UsedAgain<Kept> rooms_, sector_rooms_;
   mutable std::mutex mutex_;
-  std::deque<std::shared_ptr<const Kept>> kept_;  ///< Guarded by mutex_, as are the next members.
-  std::uint64_t number_ = 0;                      ///< Of the last one kept.
+  std::shared_ptr<const Kept> newest_;  ///< Guarded by mutex_, as are the next members.
+  std::deque<std::shared_ptr<const Kept>> sectors_;
+  std::uint64_t frames_put_ = 0, sectors_put_ = 0;
   std::deque<Shown> shown_;
   frame::LossCounters losses_;
   std::optional<status::MonitorSnapshot> run_;

@@ -19,7 +19,8 @@ HttpAnswer figures_of(const ViewSource& source) {
   nlohmann::ordered_json json = source.frames.figures();
   json["browsers"] = {{"looking", source.streams.load()},
                       {"sent", source.sent.load()},
-                      {"skipped", source.skipped.load()}};
+                      {"skipped", source.skipped.load()},
+                      {"sectors_skipped", source.sectors_skipped.load()}};
   json["capture"] = nullptr;
   if (source.capture != nullptr) {
     const PlayerState state = source.capture->state();
@@ -40,12 +41,12 @@ HttpAnswer answer_control(ViewSource& source, std::string_view body) {
   return figures_of(source);
 }
 
-HttpReply answer_frames(ViewSource& source, const HttpRequest& asked) {
+HttpReply answer_frames(ViewSource& source, const HttpRequest& asked, bool by_sectors) {
   if (!is_asked_by_own_page_or_program(asked)) {
     return http_refusal(403, "browsers get frames by way of the page");
   }
-  return HttpTakeover([&source](HttpConnection&& connection) {
-    auto stream = std::make_shared<FrameStream>(std::move(connection.stream), source);
+  return HttpTakeover([&source, by_sectors](HttpConnection&& connection) {
+    auto stream = std::make_shared<FrameStream>(std::move(connection.stream), source, by_sectors);
     stream->begin();
     return stream;
   });
@@ -60,7 +61,8 @@ HttpReply answer_view(ViewSource& source, const HttpRequest& asked) {
     return answer_control(source, asked.body);
   }
   if (asked.method != "GET") return http_refusal(405, "expected GET");
-  if (asked.path == "/frames") return answer_frames(source, asked);
+  if (asked.path == "/frames") return answer_frames(source, asked, false);
+  if (asked.path == "/sectors") return answer_frames(source, asked, source.frames.gives_sectors());
   if (asked.path == "/figures") return figures_of(source);
   const auto& page = view_page();
   const auto file = std::ranges::find(page, asked.path, &PageFile::path);

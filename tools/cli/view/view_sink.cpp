@@ -33,18 +33,18 @@ Expected<std::unique_ptr<ViewSink>> ViewSink::open(const std::string& endpoint,
 
 Status ViewSink::put(const publish::LabelledFrame& frame) {
   frames_.put(frame);
-  tell_browsers();
+  send_next();
   return {};
 }
 
 Status ViewSink::put_sector(const publish::LabelledSector& sector) {
   frames_.put_sector(sector);
-  tell_browsers();
+  send_next();
   return {};
 }
 
-void ViewSink::tell_browsers() {
-  server_->for_each_guest([](HttpGuest& guest) { static_cast<FrameStream&>(guest).send_later(); });
+void ViewSink::send_next() {
+  server_->for_each_guest([](HttpGuest& guest) { static_cast<FrameStream&>(guest).send_next(); });
 }
 
 Status ViewSink::put_figures(const status::MonitorSnapshot& figures) {
@@ -53,11 +53,10 @@ Status ViewSink::put_figures(const status::MonitorSnapshot& figures) {
 }
 
 std::vector<status::NamedCount> ViewSink::losses() const {
-  const bool are_sectors = frames_.gives_sectors();
-  return {{are_sectors ? "view_sectors_skipped_by_browsers" : "view_frames_skipped_by_browsers",
-           source_.skipped},
+  return {{"view_frames_skipped_by_browsers", source_.skipped},
           {"view_requests_refused", server_->figures().refused},
-          {"view_browsers_stalled", server_->figures().stalled}};
+          {"view_browsers_stalled", server_->figures().stalled},
+          {"view_sectors_skipped_by_browsers", source_.sectors_skipped}};
 }
 
 }  // namespace terracut::cli

@@ -16,10 +16,9 @@
 
 namespace terracut::cli {
 
-/// An output of a run that shows frames, in a live run sectors as they come, in a browser
-/// (view_routes.hpp), within HttpBounds: each slow browser holds a frame of its own. All that a run
-/// notices of browsers is the count of frames that they skipped, in losses(). Listen on loopback
-/// unless the network is trusted.
+/// An output of a run that shows frames in a browser (view_routes.hpp), within HttpBounds: each
+/// slow browser holds a frame of its own. All that a run notices of browsers is the count of frames
+/// and sectors that they skipped, in losses(). Listen on loopback unless the network is trusted.
 class ViewSink : public publish::FrameSink {
  public:
   /// `endpoint` is like "127.0.0.1:8480". `capture` is its player, which outlives this object; null
@@ -41,7 +40,7 @@ class ViewSink : public publish::FrameSink {
 
  private:
   ViewSink(const publish::RunFacts& facts, ViewedCapture* capture);
-  void tell_browsers();
+  void send_next();
 
   ViewFrames frames_;
   ViewSource source_;

@@ -34,6 +34,15 @@ publish::LabelledFrame frame_of(std::uint32_t number, std::size_t points = 1000)
   return frame;
 }
 
+publish::LabelledSector sector_of(std::uint32_t frame, std::uint32_t first,
+                                  std::size_t points = 100) {
+  publish::LabelledSector sector{
+      .record = {.frame = frame, .first_return = first, .first_packet_ns = 1, .labels_ns = 2},
+      .points = {}};
+  sector.points.assign(points, {.x_m = 1, .label = frame::Label::kGround});
+  return sector;
+}
+
 /// A capture that only notes what it is told.
 class NotedCapture : public ViewedCapture {
  public:
@@ -63,9 +72,10 @@ class Page : public testing::Test {
   }
   [[nodiscard]] json figures() const { return json::parse(get("/figures").body); }
   /// Its next bytes are those of the first frame.
-  [[nodiscard]] std::unique_ptr<test::HttpClient> browser(int receive_buffer_bytes = 0) const {
+  [[nodiscard]] std::unique_ptr<test::HttpClient> browser(
+      int receive_buffer_bytes = 0, const std::string& path = "/frames") const {
     auto client = std::make_unique<test::HttpClient>(port_, receive_buffer_bytes);
-    client->send("GET /frames HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+    client->send("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
     EXPECT_THAT(client->read_until("\r\n\r\n"), HasSubstr("HTTP/1.1 200"));
     return client;
   }
@@ -74,15 +84,9 @@ class Page : public testing::Test {
   std::uint16_t port_ = 0;
 };
 
-class PageOfSectors : public Page {
+class PageBySectors : public Page {
  protected:
-  PageOfSectors() : Page(nullptr, true) {}
-  void put_sector(std::uint32_t frame, std::uint32_t first_return, std::size_t points = 100) {
-    publish::LabelledSector sector;
-    sector.record = {.frame = frame, .first_return = first_return};
-    sector.points.assign(points, {.x_m = 1, .label = frame::Label::kGround});
-    ASSERT_TRUE(sink_->put_sector(sector));
-  }
+  PageBySectors() : Page(nullptr, true) {}
 };
 
 class PageOfACapture : public Page {
@@ -114,8 +118,8 @@ TEST_F(Page, IsCompleteInItself) {
   EXPECT_EQ(page.status, 200);
   EXPECT_THAT(page.body, HasSubstr("<canvas id=\"scene\""));
   EXPECT_THAT(page.head, HasSubstr("Content-Security-Policy: default-src 'self'"));
-  for (const char* file : {"/view.js", "/scene.js", "/camera.js", "/colours.js", "/frames.js",
-                           "/strip.js", "/turn.js"}) {
+  for (const char* file :
+       {"/view.js", "/scene.js", "/camera.js", "/colours.js", "/frames.js", "/strip.js"}) {
     const auto module = get(file);
     EXPECT_EQ(module.status, 200) << file;
     EXPECT_THAT(module.head, HasSubstr("Content-Type: text/javascript")) << file;
@@ -199,44 +203,56 @@ TEST_F(Page, SlowBrowsersLeaveFramesOutWhichAreCounted) {
   EXPECT_EQ(sink_->losses().front().count, 4U);
 }
 
-TEST_F(PageOfSectors, SendsEachSectorAndNoFrameBesides) {
-  ASSERT_TRUE(sink_->wants_sectors());
-  const auto looking = browser();
-  for (std::uint32_t frame = 7; frame < 9; ++frame) {
-    for (std::uint32_t first = 0; first < 500; first += 100) put_sector(frame, first);
-    ASSERT_TRUE(sink_->put(frame_of(frame, 500)));
-    for (std::uint32_t first = 0; first < 500; first += 100) {
-      const stream::FrameWireHeader header = next_frame(*looking);
-      EXPECT_EQ(header.flags & stream::kFrameSector, stream::kFrameSector);
-      EXPECT_EQ(header.number, frame);
-      EXPECT_EQ(header.first_return, first);
-    }
+TEST_F(PageBySectors, SendsSectorsAsTheyComeAndThenTheHeadOfTheirFrame) {
+  EXPECT_TRUE(sink_->wants_sectors());
+  const auto looking = browser(0, "/sectors");
+  for (const std::uint32_t first : {0U, 100U}) {
+    ASSERT_TRUE(sink_->put_sector(sector_of(7, first)));
+    const stream::FrameWireHeader sector = next_frame(*looking);
+    EXPECT_EQ(sector.number, 7U);
+    EXPECT_EQ(sector.flags, stream::kFrameSector);
+    EXPECT_EQ(sector.first_return, first);
+    EXPECT_EQ(sector.points, 100U);
   }
-  EXPECT_EQ(figures().at("frames").size(), 2U);
+  ASSERT_TRUE(sink_->put(frame_of(7, 200)));
+  const stream::FrameWireHeader head = next_frame(*looking);
+  EXPECT_EQ(head.flags & stream::kFrameSector, 0U);
+  EXPECT_EQ(head.first_return, 200U);
+  EXPECT_EQ(head.points, 0U);
+  const auto of_frames = browser();
+  EXPECT_EQ(next_frame(*of_frames).points, 200U) << "/frames has whole frames";
 }
 
-TEST_F(PageOfSectors, ABrowserThatComesLaterGetsTheTurnSoFar) {
-  for (std::uint32_t first = 0; first < 20'000; first += 100) put_sector(3, first);
-  const auto late = browser();
-  constexpr std::uint32_t kFirstKept = 20'000 - 100 * ViewFrames::kSectorsKept;
-  for (std::uint32_t first = kFirstKept; first < 20'000; first += 100) {
-    ASSERT_EQ(next_frame(*late).first_return, first);
+TEST_F(PageBySectors, ABrowserThatComesLateGetsTheLastTurnAtOnce) {
+  for (std::uint32_t first = 0; first < 90'000; first += 100) {
+    ASSERT_TRUE(sink_->put_sector(sector_of(1, first)));
   }
+  const auto looking = browser(0, "/sectors");
+  const std::uint32_t kept = ViewFrames::kSectorsKept;
+  EXPECT_EQ(next_frame(*looking).first_return, 90'000 - 100 * kept);
+  EXPECT_EQ(next_frame(*looking).first_return, 90'000 - 100 * (kept - 1));
 }
 
-TEST_F(PageOfSectors, SlowBrowsersLeaveSectorsOutWhichAreCounted) {
-  put_sector(1, 0, kMany);
-  const auto slow = browser(4096);
-  EXPECT_EQ(next_header(*slow).number, 1U);
-  // It is busy, while more come than are kept.
-  const auto more = static_cast<std::uint32_t>(ViewFrames::kSectorsKept) + 5;
-  for (std::uint32_t number = 2; number < 2 + more; ++number) put_sector(number, 0);
+TEST_F(PageBySectors, ABrowserThatIsTooSlowGoesOnWithTheLastTurnsAndTheRestIsCounted) {
+  ASSERT_TRUE(sink_->put_sector(sector_of(1, 0, kMany)));
+  const auto slow = browser(4096, "/sectors");
+  EXPECT_EQ(next_header(*slow).first_return, 0U);
+  for (std::uint32_t first = 1; first <= 1000; ++first) {
+    ASSERT_TRUE(sink_->put_sector(sector_of(1, first)));
+  }
   (void)slow->read(kMany * sizeof(stream::WirePoint));
   const stream::FrameWireHeader next = next_frame(*slow);
-  EXPECT_EQ(next.number, 7U);
-  EXPECT_EQ(next.missed, 5U);
-  EXPECT_EQ(sink_->losses().front().name.view(), "view_sectors_skipped_by_browsers");
-  EXPECT_EQ(sink_->losses().front().count, 5U);
+  constexpr std::uint32_t kSkipped = 1000 - ViewFrames::kSectorsKept;
+  EXPECT_EQ(next.first_return, kSkipped + 1);
+  EXPECT_EQ(next.missed, kSkipped);
+  EXPECT_EQ(figures().at("browsers").at("sectors_skipped"), kSkipped);
+  EXPECT_EQ(sink_->losses().back().count, kSkipped);
+}
+
+TEST_F(Page, WithoutSectorsSendsWholeFramesInTheirPlace) {
+  EXPECT_FALSE(sink_->wants_sectors());
+  ASSERT_TRUE(sink_->put(frame_of(7)));
+  EXPECT_EQ(next_frame(*browser(0, "/sectors")).points, 1000U);
 }
 
 TEST_F(Page, ABrowserThatLeavesIsNoticedThoughNoFrameComes) {

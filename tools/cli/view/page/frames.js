@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 
-// The labelled stream (docs/reference/labelled_stream.md) out of a fetch: whole frames, one after the other, or sectors.
+// The labelled stream (docs/reference/labelled_stream.md) out of a fetch: whole frames, one after the other, or their sectors.
 
 const MAGIC = 0x544c4354; // "TCLT", little-endian
 const HEADER_START = 8;   // up to and with header_bytes
 const MOST_POINTS = 4194304;
-const IS_SECTOR = 1 << 4;
+const SECTOR = 16; // in flags: a sector
 
 export const LEVELS = ["full", "cut stopped", "coarse", "skipped"];
 
@@ -20,7 +20,7 @@ function parseHeader(bytes) {
     labelsNs: view.getBigInt64(32, true),
     pointBytes: view.getUint16(40, true),
     level: view.getUint8(43),
-    isSector: (view.getUint32(44, true) & IS_SECTOR) !== 0,
+    isSector: (view.getUint32(44, true) & SECTOR) !== 0,
     missed: view.getUint32(48, true),
     firstReturn: view.getUint32(52, true),
   };
@@ -51,7 +51,7 @@ class Pieces {
   }
 }
 
-// Yields {header, points}; `points` are the bytes as they lie, good until the frame after the next.
+// Yields {header, points} of each frame or sector; `points` are the bytes as they lie, good until the one after the next.
 export async function* readFrames(url) {
   // No page elsewhere can send this header, so none can hold a place among those that look.
   const response = await fetch(url, { cache: "no-store", headers: { "X-Terracut-Page": "1" } });

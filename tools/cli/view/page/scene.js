@@ -48,6 +48,8 @@ in vec3 colour;
 out vec4 painted;
 void main() { painted = vec4(colour, 1); }`;
 
+const ROOM = 1 << 20; // for points of sectors: more than two turns of any sensor
+
 const CIRCLES_M = [10, 20, 30, 40, 50, 60, 70, 80, 90, 100];
 const VEHICLE = { front: 2.6, rear: -2.2, half: 0.95 };
 const COLOURS = ["label", "height", "intensity", "ring"];
@@ -97,7 +99,8 @@ export class Scene {
     this.lines = program(gl, LINES);
     this.pointBuffer = gl.createBuffer();
     this.pointLayout = gl.createVertexArray();
-    this.count = 0;
+    this.pieces = []; // of the buffer: {first, count}, and of sectors when they began
+    this.next = null; // where the next sector goes; null: the buffer holds a whole frame
     const places = lineSegments();
     this.lineVertices = places.length / 4;
     this.lineLayout = gl.createVertexArray();
@@ -111,8 +114,31 @@ export class Scene {
   }
 
   setPoints(bytes, count, pointBytes) {
+    this.pieces = [{ first: 0, count }];
+    this.next = null;
+    this.fill(bytes, pointBytes);
+  }
+
+  // Adds a part of a turn. `began` and `turn` are times of one unit: what began a turn or more before is forgotten.
+  addSector(bytes, count, pointBytes, began, turn) {
     const gl = this.gl;
-    this.count = count;
+    if (this.next === null) {
+      this.fill(ROOM * pointBytes, pointBytes);
+      this.pieces = [];
+      this.next = 0;
+    }
+    const first = this.next + count > ROOM ? 0 : this.next;
+    this.next = first + count;
+    const stays = (piece) => Math.abs(began - piece.began) < turn && (piece.first >= this.next || piece.first + piece.count <= first);
+    this.pieces = this.pieces.filter(stays);
+    this.pieces.push({ first, count, began });
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.pointBuffer);
+    gl.bufferSubData(gl.ARRAY_BUFFER, first * pointBytes, bytes);
+  }
+
+  // Makes the buffer anew, of bytes or of so many.
+  fill(bytes, pointBytes) {
+    const gl = this.gl;
     gl.bindVertexArray(this.pointLayout);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.pointBuffer);
     gl.bufferData(gl.ARRAY_BUFFER, bytes, gl.STREAM_DRAW);
@@ -138,7 +164,7 @@ export class Scene {
     gl.uniformMatrix4fv(this.lines.uniform("view"), false, view);
     gl.bindVertexArray(this.lineLayout);
     gl.drawArrays(gl.LINES, 0, this.lineVertices);
-    if (this.count === 0) return;
+    if (this.pieces.length === 0) return;
 
     const { made, uniform } = this.points;
     gl.useProgram(made);
@@ -154,6 +180,10 @@ export class Scene {
     const least = 1.25 * ratio * look.pointSize;
     gl.uniform3f(uniform("size"), camera.isFlat ? least : 50 * ratio * look.pointSize, least, 3 * least);
     gl.bindVertexArray(this.pointLayout);
-    gl.drawArrays(gl.POINTS, 0, this.count);
+    for (let i = 0; i < this.pieces.length; ) {
+      let { first, count } = this.pieces[i];
+      while (this.pieces[++i]?.first === first + count) count += this.pieces[i].count;
+      gl.drawArrays(gl.POINTS, first, count);
+    }
   }
 }

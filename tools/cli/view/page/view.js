@@ -6,7 +6,6 @@ import { KINDS, css, ramp, rangeText, RANGES } from "./colours.js";
 import { readFrames } from "./frames.js";
 import { Scene } from "./scene.js";
 import { degradedText, drawStrip, figuresText } from "./strip.js";
-import { Turn } from "./turn.js";
 
 const at = (id) => document.getElementById(id);
 const canvas = at("scene");
@@ -17,6 +16,9 @@ const MARKED_M = [20, 40, 60, 80, 100];
 let scene;
 let newest = null; // of the stream: {header, points}
 let isDirty = true;
+let isFresh = false; // points came since the last picture
+let head = null; // of the last frame that came by sectors
+const turns = []; // how long the last ones took, milliseconds; some are cut short, or were waited for
 const drawn = []; // when pictures with a new frame were drawn, milliseconds
 
 function say(trouble) {
@@ -46,15 +48,10 @@ function draw(now) {
   requestAnimationFrame(draw);
   if (!isDirty) return;
   isDirty = false;
-  const fresh = newest;
+  if (newest) scene.setPoints(newest.points, newest.header.points, newest.header.pointBytes);
   newest = null;
-  if (fresh) {
-    scene.setPoints(fresh.points, fresh.header.points, fresh.header.pointBytes);
-    drawn.push(now);
-    at("frame").textContent = `frame ${fresh.header.number} · ${fresh.header.points.toLocaleString("en")} returns`;
-    at("frame").dataset.number = fresh.header.number;
-    noteLabels(fresh);
-  }
+  if (isFresh) drawn.push(now);
+  isFresh = false;
   scene.draw(camera, look);
   showDistances();
 }
@@ -70,16 +67,38 @@ function noteLabels({ header, points }) {
   }
 }
 
+const milliseconds = (ns) => Number(ns / 1000n) / 1000;
+
+function take(message) {
+  const { header, points } = message;
+  isDirty = isFresh = true;
+  noteLabels(message);
+  if (header.isSector) {
+    const turn = [...turns].sort((a, b) => a - b)[turns.length >> 1] ?? Infinity;
+    scene.addSector(points, header.points, header.pointBytes, milliseconds(header.firstPacketNs), turn);
+    return;
+  }
+  // A whole frame, or the head of one that came by sectors.
+  const returns = header.points + header.firstReturn;
+  at("frame").textContent = `frame ${header.number} · ${returns.toLocaleString("en")} returns`;
+  at("frame").dataset.number = header.number;
+  if (header.firstReturn === 0) {
+    newest = message;
+    return;
+  }
+  if (head && header.number === head.number + 1) turns.push(milliseconds(header.firstPacketNs - head.firstPacketNs));
+  if (turns.length > 9) turns.shift();
+  head = header;
+}
+
 async function follow() {
   for (;;) {
-    const turn = new Turn();
     try {
-      for await (const frame of readFrames("frames")) {
-        newest = frame.header.isSector ? turn.take(frame) : frame;
-        isDirty = true;
+      for await (const message of readFrames("sectors")) {
+        take(message);
         say("");
         // The next frame only when this one was drawn: what comes meanwhile is left out by the sender.
-        if (!frame.header.isSector) await new Promise(requestAnimationFrame);
+        if (!message.header.isSector) await new Promise(requestAnimationFrame);
       }
     } catch (error) {
       console.warn(error);

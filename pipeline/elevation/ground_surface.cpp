@@ -115,7 +115,7 @@ GroundSurface::GroundSurface(const Config& config, float obstacle_height_m, cons
     : config_(config),
       foot_rise_m_(obstacle_height_m),
       deep_m_(grid.deepest_band_m()),
-      behind_(std::min(config.interpolate_sectors, (grid.sectors() - 1) / 2)),
+      behind_(std::min({config.interpolate_sectors, kMostSectorsBehind, (grid.sectors() - 1) / 2})),
       ahead_(std::min({config.sectors_ahead, config.interpolate_sectors, behind_})),
       traced_m_(memory.take<float>("ground surface", grid.cells() + kEight)),
       heights_(memory.take<EdgeHeights>("ground surface", grid.cells() + 1)),

@@ -106,31 +106,31 @@ bool LiveFrames::is_over() const {
                                       std::chrono::duration<double>(*duration_s_));
 }
 
-void LiveFrames::keep(const Frame& frame) {
+template <class Labelled>
+std::shared_ptr<FrameData> LiveFrames::copied(const Labelled& from, std::uint32_t number) {
   std::shared_ptr<FrameData> data = buffers_.take();
   data->record.reset();
   data->info = {};
-  data->info.number = frame.number;
-  data->info.first_packet_ns = frame.first_packet_ns;
-  data->info.last_packet_ns = frame.last_packet_ns;
+  data->info.number = number;
+  data->info.first_packet_ns = from.first_packet_ns;
+  data->info.last_packet_ns = from.last_packet_ns;
+  data->info.returns = static_cast<std::uint32_t>(from.points.size());
+  data->first_return = 0;
+  copy_points(from, *data);
+  return data;
+}
+
+void LiveFrames::keep(const Frame& frame) {
+  std::shared_ptr<FrameData> data = copied(frame, frame.number);
   data->info.complete = frame.complete;
-  data->info.returns = static_cast<std::uint32_t>(frame.points.size());
   if (frame.deskewed) data->info.deskew.state = frame::DeskewState::kDone;
-  copy_points(frame, *data);
   for (std::size_t i = 0; i < frame.points.size(); ++i) data->points[i].time_s = frame.time_s[i];
   keep(std::move(data));
 }
 
 void LiveFrames::keep(const Sector& sector) {
-  std::shared_ptr<FrameData> data = buffers_.take();
-  data->record.reset();
-  data->info = {};
-  data->info.number = sector.frame;
-  data->info.first_packet_ns = sector.first_packet_ns;
-  data->info.last_packet_ns = sector.last_packet_ns;
-  data->info.returns = static_cast<std::uint32_t>(sector.points.size());
+  std::shared_ptr<FrameData> data = copied(sector, sector.frame);
   data->first_return = static_cast<std::uint32_t>(sector.first_return);
-  copy_points(sector, *data);
   keep(std::move(data));
 }
 

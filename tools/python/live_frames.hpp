@@ -41,6 +41,9 @@ class LiveFrames {
 
   [[nodiscard]] Status open(const std::vector<std::string>& words);
   [[nodiscard]] bool is_over() const;
+  /// Copies what frames and sectors have in common.
+  template <class Labelled>
+  [[nodiscard]] std::shared_ptr<FrameData> copied(const Labelled& from, std::uint32_t number);
   void keep(const Frame& frame);
   void keep(const Sector& sector);
   void keep(std::shared_ptr<FrameData> data);

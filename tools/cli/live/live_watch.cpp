@@ -25,8 +25,6 @@ void show_thread(status::MonitorSnapshot& figures, std::string_view name,
   shown.major_faults = static_cast<std::uint64_t>(state.major_faults.load());
 }
 
-/// Returns the name under which frames that the outlet did not take are counted. If only viewers
-/// get frames, the name is not that of a loss.
 /// Returns the name of what no output took: of a loss, unless nobody but viewers gets frames.
 std::string unpublished_name(const Options& options, std::string_view what) {
   const OutputOptions& output = options.output;

@@ -21,6 +21,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from chosen_names import names_of
 from tables import filled
 from trial import machine
 from trial.program import TrialError
@@ -34,19 +35,11 @@ REPOSITORY = Path(__file__).resolve().parents[3]
 RESULTS = REPOSITORY / "docs/reference/benchmark"
 
 
-def part_names(text):
-    names = text.split(",") if text else []
-    unknown = set(names) - {part.name for part in PARTS}
-    if unknown:
-        raise argparse.ArgumentTypeError(f"there is no part {sorted(unknown)[0]}")
-    return names
-
-
 def arguments(given):
     parser = argparse.ArgumentParser(prog="benchmark", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
-    names = ",".join(part.name for part in PARTS)
-    parser.add_argument("--only", type=part_names, default=names, metavar="PART,...", help=f"of {names}")
+    names = [part.name for part in PARTS]
+    parser.add_argument("--only", type=names_of("part", names), default=names, metavar="PART,...", help=f"of {','.join(names)}")
     parser.add_argument("--beside", type=Path, metavar="PROGRAM", help="another terracut, measured in turn (sensors)")
     parser.add_argument("--quick", action="store_true", help="few rounds, short runs: a try")
     parser.add_argument("--anew", action="store_true", help="what was measured before is dropped")

@@ -29,6 +29,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from chosen_names import names_of
 from peers.drives import recorded, roles, simulated
 from peers.hazards import Found, disturbance_rows, hazard_rows, written
 from peers.programs import FROM_PACKETS, Peer, Terracut
@@ -92,21 +93,13 @@ def available_peers(options):
     return peers
 
 
-def names_of_peers(text):
-    names = text.split(",") if text else []
-    unknown = [name for name in names if name not in {peer.name for peer in PEERS}]
-    if unknown:
-        raise argparse.ArgumentTypeError(f"there is no peer {unknown[0]}")
-    return names
-
-
 def arguments(given):
     parser = argparse.ArgumentParser(prog="beside_peer", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
     parser.add_argument("roots", nargs="*", type=Path, metavar="DATASET_ROOT", help="of recorded sequences")
     parser.add_argument("--peers", type=Path, default=Path("../peers"), metavar="FOLDER",
                         help="where they are fetched to and built (default: ../peers)")  # fmt: skip
-    parser.add_argument("--only", type=names_of_peers, metavar="NAME,...",
+    parser.add_argument("--only", type=names_of("peer", [peer.name for peer in PEERS]), metavar="NAME,...",
                         help="of " + ", ".join(peer.name for peer in PEERS) + "; '' is none")  # fmt: skip
     parser.add_argument("--peer", action="append", default=[], metavar="NAME=PROGRAM", help="one more")
     parser.add_argument("--scenes", type=lambda text: text.split(",") if text else [], default=SCENES, metavar="SCENE,...",

@@ -185,6 +185,7 @@ struct SendOptions {
 /// A simulated drive.
 struct SimulateOptions {
   std::string scene = "street";
+  std::string pattern;  ///< Of simulator::shot_patterns(); empty: a sensor with rows.
   std::uint64_t seed = 1;
   double duration_s = 3;
   double spin_hz = 10;

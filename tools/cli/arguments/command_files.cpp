@@ -54,6 +54,11 @@ void add_drive_of(RunFiles& files, const Options& options) {
 
 RunFiles drive_of(const Options& options) {
   RunFiles files;
+  if (!options.simulate.pattern.empty()) {
+    files.write("the scans of --output", options.written / "velodyne", Kind::kFrames, ".bin");
+    files.write("the truth of --output", options.written / "labels", Kind::kFrames, ".label");
+    return files;
+  }
   packets::with_encoder_traits(
       options.capture.sensor.value_or(sensor::SensorModel::kHdl64e),
       [&](auto traits) { add_drive_of<decltype(traits)>(files, options); });

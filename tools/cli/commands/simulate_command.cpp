@@ -11,7 +11,10 @@
 #include <thread>
 
 #include "calib/beams/angle.hpp"
+#include "firmware_io/scan/label_file.hpp"
+#include "pipeline/output/frame_folder.hpp"
 #include "repeated_send.hpp"
+#include "rt/files/whole_file.hpp"
 #include "tools/cli/arguments/command_files.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
@@ -21,6 +24,7 @@
 #include "tools/cli/stop_signal.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
+#include "tools/lab/simulator/cloud_drive.hpp"
 #include "tools/lab/simulator/drive.hpp"
 
 namespace terracut::cli {
@@ -94,6 +98,48 @@ Expected<drive::DriveSummary> simulate(const Options& options,
   return written;
 }
 
+/// Writes the clouds of a sensor without rows as a SemanticKITTI sequence.
+ExitCode simulate_clouds(const Options& options) {
+  simulator::CloudDriveConfig config{.scene = options.simulate.scene,
+                                     .seed = options.simulate.seed,
+                                     .duration_s = options.simulate.duration_s,
+                                     .clouds_hz = options.simulate.spin_hz,
+                                     .speed_mps = options.simulate.speed_mps};
+  config.effects.range_noise_m = options.simulate.noise_m;
+  const auto mount = mount_of(options.mount);
+  if (!mount) return refuse_work(mount.error());
+  config.mount = *mount;
+  const auto folder = [&](const char* name, const char* ending) {
+    return output::FrameFolder({.folder = options.written / name,
+                                .ending = ending,
+                                .replaces_others = options.output.overwrite});
+  };
+  output::FrameFolder scans = folder("velodyne", ".bin"), truth = folder("labels", ".label");
+  Progress progress("simulating", "s", config.duration_s);
+  std::size_t clouds = 0, points = 0;
+  const Status simulated = simulator::simulate_clouds(
+      config, *simulator::shot_pattern(options.simulate.pattern),
+      [&](const simulator::SimulatedCloud& cloud) -> Status {
+        if (Status status = go_on(); !status) return status;
+        const std::string name = fmt::format("{:06}", clouds);
+        const auto scan_path = scans.place(name + ".bin");
+        if (!scan_path) return tl::unexpected(scan_path.error());
+        const auto truth_path = truth.place(name + ".label");
+        if (!truth_path) return tl::unexpected(truth_path.error());
+        Status written = files::write_whole_file(*scan_path, std::as_bytes(cloud.points));
+        if (written) written = scan::write_label_ids(*truth_path, cloud.truth);
+        points += cloud.points.size();
+        progress.update(static_cast<double>(++clouds) / config.clouds_hz);
+        return written;
+      });
+  if (!simulated) return refuse_work(simulated.error());
+  print_out("scene     {}, seed {}\n", config.scene, config.seed);
+  print_text(wrote_drive(options));
+  print_out("clouds    {}\npoints    {}\n", clouds, points);
+  static_cast<void>(flush_output());
+  return kOk;
+}
+
 Expected<drive::DriveSummary> simulate_to(const Options& options,
                                           const std::filesystem::path& output) {
   return packets::with_encoder_traits(
@@ -150,6 +196,7 @@ ExitCode simulate_sending_the_beginning(const Options& options, const std::files
 
 ExitCode run_simulate(const Options& options) {
   catch_stop_signals();
+  if (!options.simulate.pattern.empty()) return simulate_clouds(options);
   if (options.send.to.empty()) {
     if (options.written.empty()) {
       return refuse(kUsage, "nothing to do: -o FILE writes the drive, --udp ADDRESS:PORT sends it");

@@ -6,6 +6,7 @@
 
 #include "setting.hpp"
 #include "tools/lab/scenes/scene_names.hpp"
+#include "tools/lab/simulator/shot_pattern.hpp"
 #include "tools/research/baselines/method_config.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
 #include "words.hpp"
@@ -59,6 +60,12 @@ ChoiceField method_choice(std::string& method) {
   return name_choice(method, names);
 }
 
+ChoiceField pattern_choice(std::string& pattern) {
+  std::vector<std::string_view> names;
+  for (const auto& known : simulator::shot_patterns()) names.push_back(known.name);
+  return name_choice(pattern, names);
+}
+
 ChoiceField dataset_choice(std::string& dataset) {
   std::vector<std::string_view> names;
   for (const auto& table : datasets::built_in_tables()) names.push_back(table.dataset);
@@ -83,7 +90,7 @@ constexpr std::array kSettings{
             .form = TextForm::kList, .field = [](O& o) -> F { return &o.eval.more_roots; }},
     Setting{.option = "NAME", .commands = C::kDump | C::kTop, .help = "Name of the process (default: the only one that runs)",
             .form = TextForm::kName, .field = [](O& o) -> F { return &o.watched; }},
-    Setting{.option = "-o,--output", .commands = C::kSimulate | C::kEncode, .required_by = C::kEncode, .help = "Capture to write; its table and truth go beside it",
+    Setting{.option = "-o,--output", .commands = C::kSimulate | C::kEncode, .required_by = C::kEncode, .help = "Capture to write; its table and truth go beside it; with --pattern a folder",
             .field = [](O& o) -> F { return &o.written; }},
     Setting{.option = "-o,--output", .commands = C::kCalibrate, .required_by = C::kCalibrate, .help = "Setup file to write, for --setup",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.written; }},
@@ -336,6 +343,8 @@ constexpr std::array kSettings{
 
     Setting{.key = "simulate.scene", .option = "--scene", .commands = C::kSimulate, .help = "What is driven through",
             .field = [](O& o) -> F { return name_choice(o.simulate.scene, {scenes::scene_names().begin(), scenes::scene_names().end()}); }},
+    Setting{.option = "--pattern", .commands = C::kSimulate, .help = "Clouds of a sensor without rows instead of packets: a folder with scans and truth, as SemanticKITTI's",
+            .needs = "--output", .excludes = "--sensor", .field = [](O& o) -> F { return pattern_choice(o.simulate.pattern); }},
     Setting{.key = "simulate.seed", .option = "--seed", .commands = kDrives, .help = "The same seed gives the same drive",
             .least = 0, .most = kMostSeed, .field = [](O& o) -> F { return &o.simulate.seed; }},
     Setting{.key = "simulate.duration_s", .option = "--duration", .commands = kDrives, .unit = "s", .help = "How long to drive",

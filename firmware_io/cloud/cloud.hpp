@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "firmware_io/scan/kitti_scan.hpp"
+#include "rt/error.hpp"
 
 namespace terracut::cloud {
 
@@ -27,7 +28,7 @@ inline constexpr std::string_view kLaserFields[] = {
     "ringindex",   "ringnumber",   "beamindex",     "beamnumber"};
 inline constexpr std::string_view kIntensityFields[] = {"intensity", "remission", "reflectivity"};
 
-/// A view of one frame of any spinning LiDAR, in the sensor frame (x ahead, y left, z up, metres);
+/// A view of one frame of any LiDAR, in the sensor frame (x ahead, y left, z up, metres);
 /// its points may be in any order. Does not own its data.
 struct CloudView {
   std::span<const scan::ScanPoint> points;
@@ -46,6 +47,11 @@ struct CloudView {
 [[nodiscard]] inline bool has_places(std::span<const scan::ScanPoint> points) noexcept {
   return std::ranges::any_of(points, scan::is_place);
 }
+
+/// Checks that coordinates are metres from the sensor. Fails with kMalformed if most points (of
+/// those finite and not null) are farther away than a sensor sees. The message says how far, and
+/// the likely cause: millimetres, centimetres, map coordinates, another file layout.
+[[nodiscard]] Status check_reach(std::span<const scan::ScanPoint> points);
 
 /// Returns the laser of a point of an organised cloud. Most drivers write one row per laser, some
 /// one column; a sensor has fewer lasers than azimuths, so the shorter side counts the lasers.

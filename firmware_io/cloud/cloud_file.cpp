@@ -14,7 +14,6 @@
 #include <system_error>
 
 #include "firmware_io/cloud/cloud_bytes.hpp"
-#include "firmware_io/cloud/cloud_reach.hpp"
 #include "firmware_io/cloud/field_table.hpp"
 #include "firmware_io/cloud/pcd_file.hpp"
 #include "firmware_io/cloud/ply_file.hpp"

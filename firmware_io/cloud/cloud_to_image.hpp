@@ -28,8 +28,11 @@ namespace terracut::cloud {
 /// given, and where RowFinder allocates.
 class CloudToImage {
  public:
+  /// `mount` is that of the place from which rows are seen (SensorRows::viewpoint_above_m).
   CloudToImage(const SensorRows& rows, const mount::Mount& mount, memory::FixedMemory& memory)
-      : finder_(rows), image_(rows.shape(), rows.shape().cells(), memory), to_image_(mount) {}
+      : finder_(rows),
+        image_(rows.shape(), rows.shape().cells(), memory),
+        to_image_(mount_of_origin(rows, mount)) {}
 
   /// Takes memory for clouds of `points` points.
   void reserve(std::size_t points) {
@@ -58,6 +61,11 @@ class CloudToImage {
   }
 
  private:
+  [[nodiscard]] static mount::Mount mount_of_origin(const SensorRows& rows, mount::Mount mount) {
+    mount.height_m -= rows.viewpoint_above_m;
+    return mount;
+  }
+
   RowFinder finder_;
   frame::RangeImage image_;
   scan::ScanToImage to_image_;

@@ -12,7 +12,6 @@
 
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "firmware_io/cloud/azimuth_step.hpp"
-#include "firmware_io/cloud/cloud_reach.hpp"
 #include "firmware_io/cloud/elevation_comb.hpp"
 #include "firmware_io/scan/ring_fit_of_scans.hpp"
 
@@ -226,6 +225,8 @@ std::string_view description_of(RowSource source) noexcept {
       return "the order of the points";
     case RowSource::kElevations:
       return "the elevations of the points";
+    case RowSource::kElevationBins:
+      return "bins of elevation";
   }
   return "";
 }
@@ -328,7 +329,12 @@ Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read_any) {
 }
 
 RowFinder::RowFinder(SensorRows rows) : rows_(std::move(rows)) {
-  if (rows_.source == RowSource::kElevations) nearest_.emplace(rows_.rings.table);
+  const bool by_place =
+      rows_.source == RowSource::kElevations || rows_.source == RowSource::kElevationBins;
+  if (!by_place) return;
+  RingTable seen_from_origin = rows_.rings.table;
+  for (scan::RingLine& ring : seen_from_origin) ring.vert_offset_m += rows_.viewpoint_above_m;
+  nearest_.emplace(seen_from_origin);
 }
 
 Status RowFinder::find(const CloudView& cloud, RingRecovery& found) const {
@@ -369,6 +375,7 @@ Status RowFinder::find(const CloudView& cloud, RingRecovery& found) const {
       break;
     }
     case RowSource::kElevations:
+    case RowSource::kElevationBins:
       find_by_place(*nearest_, cloud.points, found.ring_of_point);
       break;
     case RowSource::kKittiOrder:

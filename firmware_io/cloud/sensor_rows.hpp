@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "firmware_io/cloud/cloud.hpp"
@@ -21,10 +22,11 @@ namespace terracut::cloud {
 
 /// How the laser of a point is found; the sources are tried in this order.
 enum class RowSource : std::uint8_t {
-  kLaserNumbers,  ///< Each point has a laser number.
-  kOrganisation,  ///< The cloud is organised in rows.
-  kKittiOrder,    ///< Points come ring after ring from the top, as in KITTI's files; 64 rings.
-  kElevations,    ///< The points form rows by elevation.
+  kLaserNumbers,   ///< Each point has a laser number.
+  kOrganisation,   ///< The cloud is organised in rows.
+  kKittiOrder,     ///< Points come ring after ring from the top, as in KITTI's files; 64 rings.
+  kElevations,     ///< The points form rows by elevation.
+  kElevationBins,  ///< Nothing tells lasers; a row is a bin of elevation (elevation_bins.hpp).
 };
 
 /// Returns the source in words, such as "the field of the laser's number".
@@ -33,9 +35,13 @@ enum class RowSource : std::uint8_t {
 /// What was learnt about a sensor from its first clouds.
 struct SensorRows {
   RowSource source = RowSource::kKittiOrder;
-  scan::FittedRings rings;    ///< One ring per laser.
-  RingOfLaser ring_of_laser;  ///< Empty unless kLaserNumbers or kOrganisation.
-  int columns = 0;            ///< Firings in one revolution.
+  scan::FittedRings rings{};    ///< One ring per laser, or per bin.
+  RingOfLaser ring_of_laser{};  ///< Empty unless kLaserNumbers or kOrganisation.
+  int columns = 0;              ///< Firings in one revolution, or cells of a row of bins.
+  /// The place from which the rows are seen, this far above the points' origin; the sensor's mount
+  /// is that of this place. 0 unless kElevationBins.
+  double viewpoint_above_m = 0;
+  std::string no_lasers{};  ///< With kElevationBins: why there are no lasers' rows, for people.
 
   [[nodiscard]] frame::ImageShape shape() const noexcept {
     return {static_cast<int>(rings.table.size()), columns};

@@ -8,18 +8,19 @@
 #include <optional>
 #include <utility>
 
+#include "calib/api/calibration_table.hpp"
 #include "calib/mount/mount_finder.hpp"
 #include "calib/mount/ring_profile.hpp"
-#include "calib/api/calibration_table.hpp"
-#include "firmware_io/cloud/cloud_to_image.hpp"
-#include "firmware_io/cloud/sensor_rows.hpp"
 #include "firmware_io/api/points.hpp"
+#include "firmware_io/cloud/cloud_to_image.hpp"
+#include "firmware_io/cloud/elevation_bins.hpp"
+#include "firmware_io/cloud/sensor_rows.hpp"
+#include "pipeline/api/point_buffer.hpp"
+#include "pipeline/api/profile.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
-#include "pipeline/api/point_buffer.hpp"
-#include "pipeline/api/profile.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut {
@@ -113,8 +114,8 @@ struct Segmenter::Engine {
   }
 
   Status learn(const cloud::CloudView& view) {
-    auto learnt =
-        cloud::learn_rows(1, [&](std::size_t) -> Expected<cloud::CloudView> { return view; });
+    auto learnt = cloud::learn_rows_or_bins(
+        1, [&](std::size_t) -> Expected<cloud::CloudView> { return view; });
     if (!learnt) return tl::unexpected(learnt.error());
     rows = *std::move(learnt);
     most_points = 2 * view.points.size();

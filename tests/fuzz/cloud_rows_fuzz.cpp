@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware_io/cloud/elevation_bins.hpp"
 #include "firmware_io/cloud/row_doubt.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
 #include "input.hpp"
@@ -93,7 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     bend(input, clouds.back());
     if (input.below(4) == 0) clouds.push_back(clouds.front());
   }
-  const auto rows = cloud::learn_rows(
+  const auto rows = cloud::learn_rows_or_bins(
       clouds.size(), [&](std::size_t i) -> Expected<cloud::CloudView> { return clouds[i].view(); });
   if (!rows) {
     fuzz::require(!rows.error().message.empty(), "an error without words");

@@ -44,7 +44,7 @@ struct CommandText {
 inline constexpr std::array kCommands{
     CommandText{"replay", "Label every return of a capture, frame by frame"},
     CommandText{"view", "Show labelled frames in a browser, to play, step and seek"},
-    CommandText{"segment", "Label clouds of any spinning LiDAR: .bin, .pcd.bin, .pcd, .ply"},
+    CommandText{"segment", "Label clouds of any LiDAR: .bin, .pcd.bin, .pcd, .ply"},
     CommandText{"manifest", "List a fleet's recordings, with what goes with each, for relabel"},
     CommandText{"relabel",
                 "Label a fleet's recordings, one shard of them; what is there already\n"

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "firmware_io/cloud/cloud_reach.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace terracut::cloud {

@@ -101,7 +101,7 @@ TEST_F(CliClouds, OfOneFolderNeverTakeAwayTheLabelsOfAnother) {
   EXPECT_EQ(files_in(folder_ / "labels", ".label"), 1u);
 }
 
-TEST_F(CliClouds, OfTwoSensorsInOneAreLabelledWithOneWarningForTheFolder) {
+TEST_F(CliClouds, OfTwoSensorsInOneAreLabelledWithoutRowsWhichIsSaidOnce) {
   const auto two_places = [](int point, const Place& place) {
     const double apart_m = point % 2 == 0 ? 1.5 : -1.5;
     return Place{place.x_m + apart_m, place.y_m, place.z_m};
@@ -111,10 +111,9 @@ TEST_F(CliClouds, OfTwoSensorsInOneAreLabelledWithOneWarningForTheFolder) {
   }
   const Outcome outcome = run("segment merged --labels labels --json report.json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string warning = "warning: merged: the points of a laser lie up to ";
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr(warning), HasSubstr("several sensors")));
-  EXPECT_EQ(outcome.err.find(warning), outcome.err.rfind(warning));
-  EXPECT_THAT(json("report.json")["sensor_warning"], HasSubstr("several sensors"));
+  const std::string reason = "no lasers show: the points of a laser lie up to ";
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr(" by bins of elevation"), HasSubstr(reason)));
+  EXPECT_EQ(outcome.err.find(reason), outcome.err.rfind(reason));
   write_clouds("single", 1);
   expect_done("segment single --json report.json");
   EXPECT_FALSE(json("report.json").contains("sensor_warning"));
@@ -178,14 +177,15 @@ TEST_F(CliClouds, OfATiltedSensorInALevelledFrameGetTheLabelsOfItsOwn) {
                ids_of(folder_ / "levelled_labels/000000.label"));
 }
 
-TEST_F(CliClouds, ThatTellNoLaserAreRefusedWithTheirFieldsAndTheirName) {
+TEST_F(CliClouds, ThatTellNoLaserSayWhichOfTheirFieldsDoNotAndAreRefusedWithoutAGround) {
   const auto scattered = [](int point, const Place& place) {
     return Place{place.x_m, place.y_m, place.z_m + (point * 7919 % 1000) * 0.003};
   };
   write_cloud(folder_ / "zero.pcd", scattered, [](int) { return 0; });
-  Outcome outcome = run("segment zero.pcd");
-  EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("error: zero.pcd: nothing tells which laser"),
+  const Outcome outcome = run("segment zero.pcd");
+  EXPECT_EQ(outcome.exit_code, 10);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr(" by bins of elevation"),
+                                 HasSubstr("no lasers show: nothing tells which laser"),
                                  HasSubstr("field ring has only 1 different number, ")));
   write_cloud(folder_ / "one.pcd", scattered, [](int) { return 77; });
   EXPECT_THAT(run("segment one.pcd").err, HasSubstr("field ring has only 1 different number, "));
@@ -194,6 +194,17 @@ TEST_F(CliClouds, ThatTellNoLaserAreRefusedWithTheirFieldsAndTheirName) {
   write_cloud(folder_ / "odd.pcd", scattered, [](int point) { return point + 300; });
   EXPECT_THAT(run("segment odd.pcd").err,
               HasSubstr("no field with its number (ring of point 0 is 300, expected a whole"));
+}
+
+TEST_F(CliClouds, OfASensorWithoutRowsAreSimulatedWithTheirTruthAndLabelled) {
+  expect_done("simulate --pattern avia --duration 0.2 -o made");
+  EXPECT_EQ(ids_of(folder_ / "made/labels/000001.label").size(),
+            fs::file_size(folder_ / "made/velodyne/000001.bin") / 16);
+  const Outcome outcome = run("segment made --labels labels --json report.json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(" by bins of elevation"));
+  EXPECT_GT(json("report.json")["summary"]["iou_g"], 0.9);
+  EXPECT_EQ(run("simulate --pattern avia --sensor vlp16 -o made").exit_code, 2);
 }
 
 TEST_F(CliClouds, ThatAreDamagedAreNamedAndTheOthersOfTheFolderLabelled) {

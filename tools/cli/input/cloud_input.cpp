@@ -12,6 +12,7 @@
 #include "calib/beams/angle.hpp"
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/mount/mount_pose.hpp"
+#include "firmware_io/cloud/elevation_bins.hpp"
 #include "firmware_io/cloud/row_doubt.hpp"
 #include "firmware_io/cloud/sensor_pose.hpp"
 #include "firmware_io/scan/label_file.hpp"
@@ -38,9 +39,9 @@ Expected<cloud::SensorRows> learn_rows(CloudReader& clouds) {
     }
     clouds.take_sensor_at(cloud::SensorPlace::kOrigin);
   }
-  const auto pose =
-      cloud::find_sensor_pose(clouds.size(), [&](std::size_t index) { return clouds.read(index); });
-  if (!pose) return rows;
+  const cloud::ReadCloud read = [&](std::size_t index) { return clouds.read(index); };
+  const auto pose = cloud::find_sensor_pose(clouds.size(), read);
+  if (!pose) return cloud::learn_rows_or_bins(clouds.size(), read);
   clouds.take_sensor_at(*pose);
   // If points lie farther than this from the cones, the cloud may be of two sensors, and only one
   // has these cones.
@@ -56,7 +57,7 @@ Expected<cloud::SensorRows> learn_rows(CloudReader& clouds) {
     return by_pose;
   }
   clouds.take_sensor_at(cloud::SensorPlace::kOrigin);
-  return rows;
+  return cloud::learn_rows_or_bins(clouds.size(), read);
 }
 
 }  // namespace
@@ -117,6 +118,15 @@ Expected<cloud::SensorRows> rows_of(CloudReader& clouds, const std::filesystem::
                   beams::rad_to_deg(table.back().elevation_rad),
                   beams::rad_to_deg(table.front().elevation_rad), rows->columns,
                   description_of(rows->source)));
+  if (rows->source == cloud::RowSource::kElevationBins) {
+    say("        no lasers show: " + rows->no_lasers);
+    if (rows->viewpoint_above_m != 0) {
+      say(fmt::format(
+          "        the origin of the points lies on the ground; they are seen from {:.2f} m "
+          "above it, and so is the mount",
+          rows->viewpoint_above_m));
+    }
+  }
   if (rows->rings.residual.points > 0) {
     say(fmt::format("        points lie within {:.1f} cm of their row's line (95 %)",
                     100 * rows->rings.residual.p95_m));

@@ -8,6 +8,7 @@
 
 #include "calib/beams/angle.hpp"
 #include "firmware_io/cloud/cloud_to_image.hpp"
+#include "firmware_io/cloud/elevation_bins.hpp"
 #include "firmware_io/cloud/row_doubt.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "tools/cli/console.hpp"
@@ -36,7 +37,7 @@ bool NodeLabeller::learn_from_cloud() {
 
 Status NodeLabeller::set_up() {
   const std::vector<cloud::Cloud> clouds = std::exchange(kept_, {});
-  const auto rows = cloud::learn_rows(
+  const auto rows = cloud::learn_rows_or_bins(
       clouds.size(), [&](std::size_t i) -> Expected<cloud::CloudView> { return clouds[i].view(); });
   if (!rows) return tl::unexpected(rows.error());
   const scan::RingTable& table = rows->rings.table;

@@ -131,7 +131,7 @@ def live(
 
 
 class Segmenter:
-    """Labels clouds of one sensor, any spinning LiDAR with 8 to 256 lasers.
+    """Labels clouds of one sensor, any LiDAR, with 8 to 256 lasers or without rows.
 
     The first cloud decides how points are assigned to lasers: by `laser`, a field `ring` of records, the rows of an
     organised cloud, the order of KITTI's files, or elevations (docs/guide/clouds.md). `parameters` are those of --set.

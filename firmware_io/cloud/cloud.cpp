@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/cloud/cloud_reach.hpp"
+#include "firmware_io/cloud/cloud.hpp"
 
 #include <fmt/format.h>
 

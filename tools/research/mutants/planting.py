@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Plants chosen mistakes in a copy of the tree: all in one program, and a number in its environment says which is made."""
+
+import random
+import shutil
+import subprocess
+from collections import defaultdict
+from pathlib import Path
+
+# A mistake that is reached leaves its mark in a file, so that only suites that reach it are run for it.
+HEADER = """#pragma once
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <type_traits>
+
+namespace terracut::mutants {
+inline constexpr int kMost = 65536;
+inline unsigned char unmarked[kMost];
+inline unsigned char* marks_of_file() noexcept {
+  const char* path = std::getenv("TERRACUT_MUTANTS_REACHED");
+  if (path == nullptr) return unmarked;
+  const int file = ::open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0 || ::ftruncate(file, kMost) != 0) return unmarked;
+  void* marks = ::mmap(nullptr, kMost, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  ::close(file);
+  return marks == MAP_FAILED ? unmarked : static_cast<unsigned char*>(marks);
+}
+inline int chosen_by_environment() noexcept {
+  const char* number = std::getenv("TERRACUT_MUTANT");
+  return number == nullptr ? 0 : std::atoi(number);
+}
+inline unsigned char* const marks = marks_of_file();
+inline const int chosen = chosen_by_environment();
+inline bool reach(int number) noexcept {
+  if (marks != nullptr) marks[number] = 1;
+  return chosen == number;
+}
+constexpr bool planted(int number) noexcept {
+  if (std::is_constant_evaluated()) return false;
+  return reach(number);
+}
+}  // namespace terracut::mutants
+"""
+
+
+def sample(sites, count, seed):
+    """Draws sites that do not overlap; the same seed draws the same ones."""
+    drawn, taken = [], defaultdict(list)
+    order = sorted(sites, key=lambda site: site.key())
+    random.Random(seed).shuffle(order)
+    for site in order:
+        if len(drawn) == count:
+            break
+        if all(site.end < begin or end < site.begin for begin, end in taken[site.file]):
+            taken[site.file].append((site.begin, site.end))
+            drawn.append(site)
+    return drawn
+
+
+def copy_tree(repository, tree):
+    """Copies what git knows of the working tree, and removes what is gone; files that are the same keep their times."""
+    listed = subprocess.run(["git", "-C", repository, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+                            check=True, capture_output=True, text=True).stdout  # fmt: skip
+    names = {name for name in listed.split("\0") if name and (repository / name).exists()}
+    for name in names:
+        put(tree / name, (repository / name).read_bytes(), repository / name)
+    for old in tree.rglob("*"):
+        if old.is_file() and "build" not in old.relative_to(tree).parts and str(old.relative_to(tree)) not in names:
+            old.unlink()
+
+
+def put(path, content, mode_of=None):
+    if path.is_file() and path.read_bytes() == content:
+        return
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content)
+    if mode_of is not None:
+        shutil.copymode(mode_of, path)
+
+
+def plant(repository, tree, numbered):
+    """Writes the sources with the mistakes {number: site} into the tree, the others as they are."""
+    by_file = defaultdict(list)
+    for number, site in numbered.items():
+        by_file[site.file].append((site.begin, site.end, site.shape.format(id=number)))
+    for name, places in by_file.items():
+        content = (repository / name).read_bytes()
+        for begin, end, text in sorted(places, reverse=True):
+            content = content[:begin] + text.encode() + content[end:]
+        put(tree / name, content)
+    put(tree / "build/planted.hpp", HEADER.encode())
+
+
+def files_with(sites):
+    return {site.file for site in sites}
+
+
+def restore(repository, tree, names):
+    for name in names:
+        put(tree / name, Path(repository / name).read_bytes())

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Builds the tree with the mistakes in it, and runs the suites that reach one."""
+
+import json
+import os
+import re
+import subprocess
+import time
+
+LEFT_OUT = re.compile("slow|install|documents")
+
+
+class Failed(Exception):
+    """The tree could not be built or its suites fail without a mistake."""
+
+
+class Suites:
+    def __init__(self, tree, jobs):
+        self.tree, self.jobs = tree, jobs
+        self.folder = tree / "build/release"
+
+    def configure(self):
+        flags = f"-w -include {self.tree / 'build/planted.hpp'}"
+        subprocess.run(["cmake", "--preset", "release", f"-DCMAKE_CXX_FLAGS={flags}"], cwd=self.tree, check=True, stdout=subprocess.DEVNULL)
+
+    def build(self):
+        """Builds all. Returns the numbers of mistakes that do not compile; raises Failed for anything else."""
+        built = subprocess.run(["ninja", "-C", self.folder, "-k0", f"-j{self.jobs}"], capture_output=True, text=True)
+        if built.returncode == 0:
+            return set()
+        errors = [part for part in built.stdout.split("FAILED: ")[1:] if "error:" in part]
+        numbers = {int(number) for part in errors for number in _planted_beside_errors(part)}
+        if not numbers:
+            raise Failed(f"the tree does not build:\n{built.stdout[-3000:]}")
+        return numbers
+
+    def names(self):
+        """The suites that may be run for a mistake, in ctest's order."""
+        listed = json.loads(self._ctest("--show-only=json-v1").stdout)
+        names = []
+        for test in listed["tests"]:
+            facts = {fact["name"]: fact["value"] for fact in test.get("properties", [])}
+            labels = facts.get("LABELS", [])
+            if test.get("command") and not any(map(LEFT_OUT.search, labels)) and "FIXTURES_SETUP" not in facts:
+                names.append(test["name"])
+        return names
+
+    def make_fixtures(self):
+        self._ctest("-L", "unit", "-R", "ForTheOtherTests")
+
+    def run(self, names, number=0, limit_s=600, reached=None):
+        """Runs suites, stopping at the first that fails. Returns its name; None if all pass."""
+        environment = dict(os.environ, TERRACUT_MUTANT=str(number), TERRACUT_SHARED=str(self.shared()))
+        if reached is not None:
+            environment["TERRACUT_MUTANTS_REACHED"] = str(reached)
+        pattern = "^(" + "|".join(map(re.escape, names)) + ")$"
+        done = self._ctest("-R", pattern, "-FA", ".*", "-j", str(self.jobs), "--stop-on-failure", "--timeout", str(int(limit_s)),
+                           environment=environment)  # fmt: skip
+        if done.returncode == 0:
+            return None
+        failed = re.findall(r"Test +#\d+: (\S+) \.*\*\*\*", done.stdout)
+        return failed[0] if failed else names[0]
+
+    def timed(self, name, reached):
+        begun = time.monotonic()
+        failed = self.run([name], reached=reached)
+        if failed:
+            raise Failed(f"{name} fails without a mistake in the tree")
+        return time.monotonic() - begun
+
+    def shared(self):
+        given = os.environ.get("TERRACUT_SHARED")
+        return given or self.tree.parents[2] / "../shared"
+
+    def _ctest(self, *options, environment=None):
+        return subprocess.run(["ctest", "--test-dir", self.folder, *options], capture_output=True, text=True, env=environment)
+
+
+def _planted_beside_errors(text):
+    """Numbers of mistakes in the source lines that GCC shows below its errors."""
+    for part in text.split("error:")[1:]:
+        yield from re.findall(r"planted\((\d+)\)", part)

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// A few seeds of ./tools/simulate_live, which runs for as long as one likes.
+#include <gtest/gtest.h>
+
+#include "tests/simulation/simulated_run.hpp"
+
+namespace terracut::simulation {
+namespace {
+
+TEST(Simulation, HoldsForTheFirstSeeds) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Plan plan = plan_of(seed);
+    plan.has_real_method = plan.has_real_method && seed <= 16;
+    const Outcome outcome = simulate(plan);
+    ASSERT_FALSE(outcome.broken) << "seed " << seed << ", " << *outcome.broken << "\n"
+                                 << to_string(plan.faults);
+    EXPECT_GT(outcome.frames_compared, 5U) << seed;
+  }
+}
+
+TEST(Simulation, IsTheSameEachTime) {
+  for (const std::uint64_t seed : {3, 4, 5}) {
+    const Outcome first = simulate(plan_of(seed)), again = simulate(plan_of(seed));
+    EXPECT_EQ(first.digest, again.digest) << seed;
+    EXPECT_EQ(first.frames, again.frames) << seed;
+  }
+}
+
+TEST(Simulation, FaultsAreReadAsTheyAreWritten) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const Faults faults = faults_of(seed);
+    const auto read = parse_faults(to_string(faults));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(*read, faults);
+  }
+  EXPECT_FALSE(parse_faults("stolen_core@2000+250"));
+  EXPECT_FALSE(parse_faults("earthquake@2000+250*0"));
+}
+
+}  // namespace
+}  // namespace terracut::simulation

@@ -33,6 +33,7 @@ constexpr std::array<Sizes, kKinds> kSizes{{
     {"cable_pulled", 2'000, 0},
     {"sensor_restart", 3'000, 999},
     {"device_clock", 0, kHour_ms, true},
+    {"device_clock_slow", 1'500, 4'000},
     {"head_stands", 2'000, 0},
     {"other_sender", 1'000, 20'000},
     {"twin", 1'500, 0},

@@ -22,6 +22,7 @@ enum class FaultKind : std::uint8_t {
   kCablePulled,     ///< The interface is down.
   kSensorRestart,   ///< No packets; then head and clock begin anew, the head at turn `amount`/1000.
   kDeviceClock,     ///< The sensor's clock is set by `amount` ms.
+  kDeviceClockSlow, ///< The sensor's clock runs at 1/`amount` of its pace.
   kHeadStands,      ///< The head does not rotate.
   kOtherSender,     ///< `amount` datagrams a second come from another address.
   kTwin,            ///< Another sensor of that model sends as well, from the sensor's address.

@@ -93,11 +93,17 @@ void Network::deliver_to(std::int64_t at_ns) {
   while (next_arrival_ns(at_ns + 1) <= at_ns) {
     Sent sent = under_way_.top();
     under_way_.pop();
+    const bool is_of_sensor = sent.kind == Kind::kData || sent.kind == Kind::kTruncated;
     if (buffer_.size() >= room_packets_) {
-      ++dropped_;
+      ++truth_.dropped;
+      if (is_of_sensor && !sent.is_again) ++truth_.packets_lost;
       continue;
     }
-    ++taken_;
+    ++truth_.taken;
+    if (sent.kind == Kind::kForeign) ++truth_.foreign;
+    if (sent.kind == Kind::kGarbage || sent.kind == Kind::kTruncated) ++truth_.of_wrong_size;
+    if (sent.kind == Kind::kTruncated && !sent.is_again) ++truth_.packets_lost;
+    if (sent.kind == Kind::kData && sent.is_again) ++truth_.repeated;
     sent.stamp_ns = machine_.time_of_day_ns(sent.arrival_ns);
     if (sent.kind == Kind::kData) {
       came_[next_came_++ % came_.size()] = {sent.stamp_ns, sent.arrival_ns, sent.place};
@@ -127,6 +133,11 @@ std::int64_t Network::device_us(std::int64_t at_ns) const noexcept {
     const bool is_set = fault.kind == FaultKind::kDeviceClock && fault.at_ns() >= booted_ns_ &&
                         fault.at_ns() <= at_ns;
     if (is_set) time_us += fault.amount * 1000;
+    if (fault.kind == FaultKind::kDeviceClockSlow && fault.at_ns() >= booted_ns_) {
+      const std::int64_t slow_us =
+          std::clamp<std::int64_t>(at_ns - fault.at_ns(), 0, fault.span_ms * kMs) / 1000;
+      time_us -= slow_us - slow_us / std::max<std::int64_t>(1, fault.amount);
+    }
   }
   return time_us;
 }
@@ -228,8 +239,12 @@ void Network::send_packet(std::int64_t at_ns) {
   sent.place = sensor_place_;
   sent.device_us = device_us(at_ns);
   if (sent.kind != Kind::kStanding) sensor_place_ = (sensor_place_ + 1) % loop_.packets.size();
-  if (is_lost) return;
+  if (is_lost) {
+    ++truth_.packets_lost;
+    return;
+  }
   put(sent);
+  sent.is_again = true;
   if (comes_twice) put(sent);
 }
 

@@ -31,15 +31,19 @@ class Network {
 
   [[nodiscard]] std::span<const packet::Datagram> receive(std::int64_t timeout_ns) noexcept;
   void wake() const noexcept {}
-  void refresh_drops() noexcept { counters_.kernel_drops = dropped_; }
+  void refresh_drops() noexcept { counters_.kernel_drops = truth_.dropped; }
   [[nodiscard]] const net::ReceiveCounters& counters() const noexcept { return counters_; }
   [[nodiscard]] net::LinkState link() const noexcept { return link_; }
   [[nodiscard]] std::size_t room_packets() const noexcept { return room_packets_; }
 
-  // The truth, to judge by:
-  /// Returns how many datagrams the kernel's buffer took, and how many it had no room for.
-  [[nodiscard]] std::uint64_t taken() const noexcept { return taken_; }
-  [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_; }
+  /// The truth, to judge by: what became of datagrams on their way.
+  struct Truth {
+    std::uint64_t taken = 0;    ///< By the kernel's buffer.
+    std::uint64_t dropped = 0;  ///< By the kernel, for want of room.
+    std::uint64_t foreign = 0, of_wrong_size = 0, repeated = 0;  ///< Of those taken.
+    std::uint64_t packets_lost = 0;  ///< The sensor's: lost, dropped, or of wrong size.
+  };
+  [[nodiscard]] const Truth& truth() const noexcept { return truth_; }
   [[nodiscard]] std::size_t waiting() const noexcept { return buffer_.size(); }
   struct Came {
     std::int64_t stamp_ns = 0, arrival_ns = 0;
@@ -57,6 +61,7 @@ class Network {
     std::size_t place = 0;  ///< In the loop.
     std::int64_t device_us = 0;
     std::int64_t stamp_ns = 0;  ///< The kernel's.
+    bool is_again = false;      ///< Sent before.
     [[nodiscard]] bool operator>(const Sent& other) const noexcept {
       return arrival_ns != other.arrival_ns ? arrival_ns > other.arrival_ns
                                             : number > other.number;
@@ -97,7 +102,7 @@ class Network {
   std::priority_queue<Sent, std::vector<Sent>, std::greater<>> under_way_;
 
   std::deque<Sent> buffer_;
-  std::uint64_t taken_ = 0, dropped_ = 0;
+  Truth truth_;
   std::int64_t quiet_since_ns_ = 0;
   net::ReceiveCounters counters_;
   net::LinkState link_ = net::LinkState::kUp;

@@ -19,7 +19,7 @@
 namespace terracut::simulation {
 namespace {
 
-constexpr std::size_t kTurns = 6;
+constexpr std::size_t kTurns = 4;
 constexpr std::size_t kPacketBytes = SensorLoop::kMostPacketBytes;
 constexpr std::size_t kBlockBytes = 100, kBlocks = 12, kAzimuthAt = 2, kStampAt = 1200;
 constexpr std::int64_t kDeviceHour_us = 3'600'000'000;

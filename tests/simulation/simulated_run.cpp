@@ -59,7 +59,7 @@ Outcome simulate(const Plan& plan) {
 
   std::int64_t faults_end_ns = 0;
   for (const Fault& fault : plan.faults) {
-    faults_end_ns = std::max(faults_end_ns, Watch::end_ns(fault, loop));
+    faults_end_ns = std::max(faults_end_ns, Watch::end_ns(fault, plan.faults, loop));
   }
   const auto run_to = [&](std::int64_t end_ns) {
     while (machine.now_ns() < end_ns && !watch.broken()) {

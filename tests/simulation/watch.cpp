@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "pipeline/status/loss_causes.hpp"
 
 namespace terracut::simulation {
 namespace {
 
+/// Packets lost in an outage of a second or more are counted by the host's clock, not exactly.
+constexpr std::uint64_t kMostLostTold = 500;
 constexpr std::uint64_t kPrime = 0x100000001B3;
 
 /// True if a fault can make a frame worse than it is without.
@@ -68,6 +71,12 @@ Watch::Watch(const SensorLoop& loop, const Faults& faults, std::span<const std::
       memory_bytes_(chain.memory.total_bytes()),
       stamps_are_comparable_(!has(FaultKind::kHostClock)) {}
 
+bool Watch::has_only(std::initializer_list<FaultKind> kinds) const noexcept {
+  return std::ranges::all_of(faults_, [&](const Fault& fault) {
+    return std::ranges::find(kinds, fault.kind) != kinds.end() || !befalls_frames(fault.kind);
+  });
+}
+
 bool Watch::has(FaultKind kind) const noexcept {
   return std::ranges::find(faults_, kind, &Fault::kind) != faults_.end();
 }
@@ -90,16 +99,19 @@ Watch::Counts Watch::counts() {
           .dropped_records = chain_.records.dropped()};
 }
 
-std::int64_t Watch::end_ns(const Fault& fault, const SensorLoop& loop) noexcept {
-  switch (fault.kind) {
-    case FaultKind::kLoss:
-    case FaultKind::kReorder:
-    case FaultKind::kDuplicate:
-    case FaultKind::kTruncated:
-      return fault.at_ns() + (fault.amount + 2) * loop.period_ns;
-    default:
-      return fault.end_ns();
+std::int64_t Watch::end_ns(const Fault& fault, const Faults& faults,
+                           const SensorLoop& loop) noexcept {
+  const bool befalls_packets =
+      fault.kind == FaultKind::kLoss || fault.kind == FaultKind::kReorder ||
+      fault.kind == FaultKind::kDuplicate || fault.kind == FaultKind::kTruncated;
+  if (!befalls_packets) return fault.end_ns();
+  const std::int64_t packets_ns = (fault.amount + 2) * loop.period_ns;
+  std::int64_t end_ns = fault.at_ns() + packets_ns;
+  for (const Fault& off : faults) {  // while the sensor is off, none comes that could be befallen
+    const bool delays = off.kind == FaultKind::kSensorRestart && off.end_ns() > fault.at_ns();
+    if (delays) end_ns = std::max(end_ns, off.end_ns() + packets_ns);
   }
+  return end_ns;
 }
 
 bool Watch::must_be_perfect(const frame::FrameInfo& info) const {
@@ -110,7 +122,7 @@ bool Watch::must_be_perfect(const frame::FrameInfo& info) const {
   if (first->arrival_ns < recovery_ns) return false;  // the run has just begun
   return std::ranges::none_of(faults_, [&](const Fault& fault) {
     return befalls_frames(fault.kind) && fault.at_ns() < last->arrival_ns + loop_.turn_ns() &&
-           end_ns(fault, loop_) + recovery_ns > first->arrival_ns;
+           end_ns(fault, faults_, loop_) + recovery_ns > first->arrival_ns;
   });
 }
 
@@ -124,9 +136,9 @@ void Watch::look_after_round(std::uint64_t allocations) {
   std::uint64_t sum = account.in_doubt;
   for (const status::NamedCount& outcome : status::outcomes_of(account)) sum += outcome.count;
   require(sum == account.source.received, "the outcomes told do not add up");
-  require(account.source.received + network_.waiting() == network_.taken(),
+  require(account.source.received + network_.waiting() == network_.truth().taken,
           "a datagram that the kernel handed over is not in the account");
-  require(account.source.kernel_drops <= network_.dropped(), "more drops are told than there were");
+  require(account.source.kernel_drops <= network_.truth().dropped, "more drops are told than there were");
   require(chain_.memory.total_bytes() == memory_bytes_, "memory was taken after the start");
   require(allocations == 0 || !test::allocations_are_counted(),
           "the thread with a deadline allocated memory");
@@ -174,6 +186,15 @@ void Watch::look_at_record(const status::FrameRecord& record) {
                 longest_ns(record.firing_to_label) > deadline_ns - loop_.turn_ns() / 8,
             "a cut was stopped although there was time");
   }
+  using enum FaultKind;
+  if (info.complete && has_only({kLoss, kDuplicate, kTruncated, kCablePulled, kSensorRestart,
+                                 kDeviceClock, kMotionStops, kHeadStands})) {
+    require(!record.missed, "a frame is late that nothing held up but the sensor's silence");
+  }
+  if (has_only({kDuplicate, kGarbage, kStolenCore, kMotionStops})) {
+    require(lag_ns <= LiveChain::kDeadline_ns + 2 * loop_.turn_ns() + stolen_since(info),
+            "a frame is older than any that is worth its label");
+  }
   if (!must_be_perfect(info)) return;
   ++perfect_;
   const frame::LossCounters& losses = info.losses;
@@ -188,6 +209,17 @@ void Watch::look_at_record(const status::FrameRecord& record) {
   require(report.late == 0, "returns came late, three turns after all faults");
   require(info.deskew.state == frame::DeskewState::kDone,
           "a frame is not deskewed, three turns after all faults");
+}
+
+std::int64_t Watch::stolen_since(const frame::FrameInfo& info) const noexcept {
+  const auto last = network_.packet_of(info.last_packet_ns);
+  std::int64_t stolen_ns = 0;
+  for (const Fault& fault : faults_) {
+    if (fault.kind != FaultKind::kStolenCore || !last) continue;
+    const std::int64_t from_ns = std::max(fault.at_ns(), last->arrival_ns);
+    stolen_ns += std::max<std::int64_t>(0, fault.end_ns() - from_ns);
+  }
+  return stolen_ns;
 }
 
 void Watch::take_labels() {
@@ -263,6 +295,34 @@ void Watch::begin_of_quiet() {
   perfect_before_quiet_ = perfect_;
 }
 
+void Watch::look_at_truth(const net::DatagramAccount& account) {
+  using enum FaultKind;
+  const Network::Truth& truth = network_.truth();
+  const auto rejected = [&](frame::Reject reason) {
+    return account.losses.rejected[static_cast<std::size_t>(reason)];
+  };
+  require(account.source.foreign == truth.foreign, "datagrams of another sender are miscounted");
+  if (account.let_go == 0) {
+    require(rejected(frame::Reject::kWrongSize) == truth.of_wrong_size,
+            "datagrams of wrong size are miscounted");
+  }
+  if (has_only({kLoss, kDuplicate, kTruncated, kGarbage, kOtherSender, kStolenCore, kSlowWork,
+                kMotionStops})) {
+    if (account.let_go == 0) {
+      require(rejected(frame::Reject::kRepeated) == truth.repeated, "repeats are miscounted");
+    }
+    if (truth.packets_lost < kMostLostTold) {
+      require(account.losses.network_gap_packets == truth.packets_lost,
+              "packets told lost are not those that were");
+    }
+  }
+  if (has_only({kDuplicate, kGarbage, kBurst, kDeviceClock, kHostClock, kMotionStops}) &&
+      account.let_go == 0) {
+    require(account.losses.rejected_total() == truth.repeated + truth.of_wrong_size,
+            "packets are refused although none is bad");
+  }
+}
+
 void Watch::look_at_end() {
   chain_.labeller->finish();
   judge_frames();
@@ -270,7 +330,7 @@ void Watch::look_at_end() {
   take_points();
   const Counts now = counts();
   const net::DatagramAccount &then = quiet_.account, &end = now.account;
-  require(end.source.kernel_drops == network_.dropped(), "drops of the kernel are not told");
+  require(end.source.kernel_drops == network_.truth().dropped, "drops of the kernel are not told");
   require(end.in_doubt == 0 && then.in_doubt == 0, "packets stay in doubt");
   require(end.decoded - then.decoded == end.source.received - then.source.received,
           "not every packet is decoded, three turns after all faults");
@@ -280,6 +340,7 @@ void Watch::look_at_end() {
               now.unused_sectors == quiet_.unused_sectors &&
               now.dropped_records == quiet_.dropped_records,
           "outputs are left out, three turns after all faults");
+  look_at_truth(end);
   const std::int64_t turns = (machine_.now_ns() - quiet_began_ns_) / loop_.turn_ns();
   require(static_cast<std::int64_t>(perfect_ - perfect_before_quiet_) >= turns - 2,
           "frames do not come, three turns after all faults");

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,7 +56,8 @@ class Watch {
   [[nodiscard]] std::uint64_t frames_compared() const noexcept { return compared_; }
 
   /// Returns when the last effect of a fault on frames is over.
-  [[nodiscard]] static std::int64_t end_ns(const Fault& fault, const SensorLoop& loop) noexcept;
+  [[nodiscard]] static std::int64_t end_ns(const Fault& fault, const Faults& faults,
+                                          const SensorLoop& loop) noexcept;
 
  private:
   struct Counts {
@@ -67,6 +69,12 @@ class Watch {
   void note(std::uint64_t value) noexcept;
   [[nodiscard]] Counts counts();
   [[nodiscard]] bool has(FaultKind kind) const noexcept;
+  /// True if no fault of another kind befalls frames.
+  [[nodiscard]] bool has_only(std::initializer_list<FaultKind> kinds) const noexcept;
+  /// Returns for how long the core was away after a frame's last packet.
+  [[nodiscard]] std::int64_t stolen_since(const frame::FrameInfo& info) const noexcept;
+  /// Compares what the run tells of its input with what befell it.
+  void look_at_truth(const net::DatagramAccount& account);
   /// True if no fault befell the frame or the three turns before it, or the one after it.
   [[nodiscard]] bool must_be_perfect(const frame::FrameInfo& info) const;
   void look_at_record(const status::FrameRecord& record);

@@ -102,8 +102,10 @@ class LiveLabeller {
     fetched_ns_ = clock_.realtime_ns();
     gate_.begin_batch(more_may_wait);
     frames_ = 0;
+    const std::uint64_t decoded = turns_.decoder().packets_decoded();
     for (const packet::Datagram& datagram : datagrams) take(datagram);
-    if (datagrams.empty()) close_if_quiet();
+    const bool is_quiet = turns_.decoder().packets_decoded() == decoded && !more_may_wait;
+    if (is_quiet) close_if_quiet();
     publish();
     return {frames_, more_may_wait ? 0 : gathering_.time_ns()};
   }
@@ -119,36 +121,42 @@ class LiveLabeller {
 
   void take(const packet::Datagram& datagram) noexcept {
     newest_packet_ns_ = datagram.stamp_ns;
-    is_closed_ = false;
     if (to_.recorder != nullptr) to_.recorder->add(datagram);
     if (to_.told_table != nullptr) to_.told_table->add(datagram);
     if (!gate_.lets_in(datagram.stamp_ns, fetched_ns_)) {
       // Otherwise the decoder would count the packets left out here as lost on the network.
       if (!std::exchange(lets_go_, true)) {
         turns_.end_stream();
-        work();
+        work(datagram.stamp_ns);
       }
       ++let_go_;
       return;
     }
     lets_go_ = false;
+    const std::uint64_t decoded = turns_.decoder().packets_decoded();
     turns_.push(datagram);
-    work();
+    work(datagram.stamp_ns);
+    if (turns_.decoder().packets_decoded() != decoded) {
+      newest_decoded_ns_ = datagram.stamp_ns;
+      is_closed_ = false;
+    }
     if (turns_.decoder().rejected() == frame::Reject::kDeviceInfo) ++device_info_;
   }
 
   /// A turn's last returns wait for the next turn's first. If these do not come, they are labelled
-  /// without.
+  /// without, though other datagrams may come: those of a head that stands, or of no sensor.
   void close_if_quiet() noexcept {
-    const std::int64_t quiet_ns = fetched_ns_ - newest_packet_ns_;
+    const std::int64_t quiet_ns = fetched_ns_ - newest_decoded_ns_;
     if (quiet_ns < config_.deadline_ns / 2 || std::exchange(is_closed_, true)) return;
     turns_.wait_no_longer();
-    work();
+    work(newest_decoded_ns_);
   }
 
-  void work() noexcept {
+  /// Works on what was pushed, up to the packet with this stamp.
+  void work(std::int64_t packet_ns) noexcept {
+    at_work_ns_ = packet_ns;
     // A packet makes labels known for returns of up to an eighth of a turn before it.
-    due_ns_ = newest_packet_ns_ + config_.deadline_ns - config_.frame_period_ns / 8;
+    due_ns_ = packet_ns + config_.deadline_ns - config_.frame_period_ns / 8;
     const std::int64_t stages_before_ns = stage_clock_.sum_ns();
     const min_cut::CutBudget budget{min_cut::CutBudget::kDefaultOps,
                                     [](void* labeller) noexcept TERRACUT_NONBLOCKING {
@@ -207,7 +215,7 @@ class LiveLabeller {
   void end_frame(const frame::Frame& turn, std::int64_t stages_before_ns) noexcept {
     status::FrameRecord record;
     record.info = turn.info;
-    record.closing_packet_ns = newest_packet_ns_;
+    record.closing_packet_ns = at_work_ns_;
     record.labels_ns = clock_.realtime_ns();
     record.handed_over_ns = fetched_ns_;
     record.segmentation = turns_.report();
@@ -298,7 +306,8 @@ class LiveLabeller {
   net::ReceiveCounters before_;
   std::uint64_t received_ = 0;  ///< Datagrams received up to the newest fetch.
   std::uint64_t let_go_ = 0, device_info_ = 0;
-  std::int64_t newest_packet_ns_ = 0;
+  // Stamps: of the newest packet, of the newest that was decoded, and of the one at work.
+  std::int64_t newest_packet_ns_ = 0, newest_decoded_ns_ = 0, at_work_ns_ = 0;
   std::int64_t fetched_ns_ = 0;  ///< When the packets at work were fetched.
   std::int64_t due_ns_ = 0;      ///< When labels that become known now are due.
   // Of the turn that gets its labels:
@@ -307,7 +316,7 @@ class LiveLabeller {
   std::size_t noted_tiles_ = 0;  ///< Number of tiles of which all labels were noted.
   status::FiringToLabel waits_;
   bool lets_go_ = false;
-  bool is_closed_ = false;   ///< No packet has come since the newest turn was closed.
+  bool is_closed_ = false;   ///< No packet was decoded since the newest turn was closed.
   bool is_watched_ = false;  ///< The near ground of the frame at work is watched.
   int frames_ = 0;           ///< Frames of this round.
 

@@ -423,6 +423,20 @@ TEST_F(LiveFrames, TheLastTurnIsLabelledWithoutTheNextWhereThatDoesNotCome) {
   EXPECT_LT(lag_ns(records_[2]), kDeadline_ns);
 }
 
+TEST_F(LiveFrames, TheLastTurnIsLabelledInTimeWherePacketsComeOnThatAreNotDecoded) {
+  send(test::random_packets({.first_cdeg = 0,
+                             .last_cdeg = 36'000 * 2 + 1'500,
+                             .first_stamp_ns = kStart_ns,
+                             .share_of_returns = 0.05}));
+  run();
+  ASSERT_EQ(records_.size(), 2U);
+  const std::vector<std::uint8_t> too_short(100);
+  for (int i = 1; i <= 100; ++i) source_.add(too_short, time_.now_ns + i * kMs);
+  run();
+  ASSERT_EQ(records_.size(), 3U) << "as where a head stands";
+  EXPECT_LT(lag_ns(records_[2]), kDeadline_ns);
+}
+
 TEST_F(LiveFrames, SectorsPutTogetherAreTheFrameThatFollowsThem) {
   using Points = FramePool<points::LabelledPoint>;
   Points whole_ones("points", 2, turns_.decoder().return_capacity(), memory_);

@@ -84,10 +84,8 @@ void CachedMethod::label_tile(const frame::MeasuredReturns& turn, std::size_t ti
   for (std::size_t firing = 0; firing < frame::kTileFirings; ++firing) {
     for (std::size_t laser = 0; laser < turn.lasers(); ++laser) {
       if ((turn.row(tile, laser).returns >> firing & 1) == 0) continue;
-      const bool is_ground =
-          (raw[laser * frame::kTileFirings + firing] * 0x9E37U >> 11 & 1) == 0;
-      labels_[known_++] =
-          is_ground && in_time ? frame::Label::kGround : frame::Label::kObstacle;
+      const bool is_ground = (raw[laser * frame::kTileFirings + firing] * 0x9E37U >> 11 & 1) == 0;
+      labels_[known_++] = is_ground && in_time ? frame::Label::kGround : frame::Label::kObstacle;
       report_.cut.coarse_by_budget += in_time ? 0 : 1;
     }
   }

@@ -8,6 +8,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <vector>
 
 #include "tests/simulation/dice.hpp"
 
@@ -82,8 +83,12 @@ Faults faults_of(std::uint64_t seed) {
   // Every other seed has its faults close together, so that one falls into the other's wake.
   const bool close = dice.between(0, 1) == 0;
   const std::int64_t middle_ms = dice.between(kFirst_ms, kLast_ms - 1'000);
+  // Few kinds at a time: what must hold where only these happen can then be looked at.
+  std::vector<std::size_t> kinds(static_cast<std::size_t>(dice.between(1, 4)));
+  for (std::size_t& kind : kinds) kind = static_cast<std::size_t>(dice.between(0, kKinds - 1));
   for (Fault& fault : faults) {
-    const auto kind = static_cast<std::size_t>(dice.between(0, kKinds - 1));
+    const std::size_t kind = kinds[static_cast<std::size_t>(
+        dice.between(0, static_cast<std::int64_t>(kinds.size()) - 1))];
     const Sizes& sizes = kSizes[kind];
     fault.kind = static_cast<FaultKind>(kind);
     fault.at_ms = close ? middle_ms + dice.between(0, 1'000) : dice.between(kFirst_ms, kLast_ms);

@@ -13,26 +13,26 @@ namespace terracut::simulation {
 
 /// What may go wrong around a live run.
 enum class FaultKind : std::uint8_t {
-  kLoss,            ///< The network loses `amount` packets.
-  kReorder,         ///< A packet is overtaken by `amount` others.
-  kDuplicate,       ///< `amount` packets come twice.
-  kTruncated,       ///< `amount` packets come with half of their bytes.
-  kGarbage,         ///< `amount` datagrams of no sensor come at once, from the sensor's address.
-  kBurst,           ///< Packets are held back and come together at the end.
-  kCablePulled,     ///< The interface is down.
-  kSensorRestart,   ///< No packets; then head and clock begin anew, the head at turn `amount`/1000.
-  kDeviceClock,     ///< The sensor's clock is set by `amount` ms.
-  kDeviceClockSlow, ///< The sensor's clock runs at 1/`amount` of its pace.
-  kHeadStands,      ///< The head does not rotate.
-  kOtherSender,     ///< `amount` datagrams a second come from another address.
-  kTwin,            ///< Another sensor of that model sends as well, from the sensor's address.
-  kHostClock,       ///< The machine's time of day is set by `amount` ms.
-  kStolenCore,      ///< The labelling thread does not run.
-  kSlowWork,        ///< All work takes `amount` times as long.
-  kOutletStalls,    ///< Nobody takes labelled points.
-  kLabelsStall,     ///< Nobody takes labels.
-  kMonitorStalls,   ///< Nobody judges frames.
-  kMotionStops,     ///< The vehicle's motion is not told.
+  kLoss,           ///< The network loses `amount` packets.
+  kReorder,        ///< A packet is overtaken by `amount` others.
+  kDuplicate,      ///< `amount` packets come twice.
+  kTruncated,      ///< `amount` packets come with half of their bytes.
+  kGarbage,        ///< `amount` datagrams of no sensor come at once, from the sensor's address.
+  kBurst,          ///< Packets are held back and come together at the end.
+  kCablePulled,    ///< The interface is down.
+  kSensorRestart,  ///< No packets; then head and clock begin anew, the head at turn `amount`/1000.
+  kDeviceClock,    ///< The sensor's clock is set by `amount` ms.
+  kDeviceClockSlow,  ///< The sensor's clock runs at 1/`amount` of its pace.
+  kHeadStands,       ///< The head does not rotate.
+  kOtherSender,      ///< `amount` datagrams a second come from another address.
+  kTwin,             ///< Another sensor of that model sends as well, from the sensor's address.
+  kHostClock,        ///< The machine's time of day is set by `amount` ms.
+  kStolenCore,       ///< The labelling thread does not run.
+  kSlowWork,         ///< All work takes `amount` times as long.
+  kOutletStalls,     ///< Nobody takes labelled points.
+  kLabelsStall,      ///< Nobody takes labels.
+  kMonitorStalls,    ///< Nobody judges frames.
+  kMotionStops,      ///< The vehicle's motion is not told.
   kCount,
 };
 

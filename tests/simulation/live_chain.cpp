@@ -38,23 +38,22 @@ LiveChain::LiveChain(const SensorLoop& loop, const ground::TurnMethodMaker& meth
               reader->rows().size() * frame::kTileFirings, memory),
       monitor({.deadline_ns = kDeadline_ns, .stage_names = stage::kStageNames}, memory),
       machine_of_thread(machine) {
-  labeller.emplace(
-      Labeller::Config{.deadline_ns = kDeadline_ns,
-                       .frame_period_ns = loop.turn_ns(),
-                       .gathering = {.frame_period_ns = loop.turn_ns(),
-                                     .longest_ns = kLongestGathering_ns,
-                                     .room_packets = network.room_packets()}},
-      turns, network,
-      Labeller::Outlets{.records = &records,
-                        .intake = &intake,
-                        .labels = &labels,
-                        .points = &points,
-                        .sectors = &sectors,
-                        .points_ready = &points_ready,
-                        .reader = reader.get(),
-                        .near_ground = &near_ground,
-                        .recorder = &recorder},
-      MachineClock{&machine}, MachineWait{&machine});
+  labeller.emplace(Labeller::Config{.deadline_ns = kDeadline_ns,
+                                    .frame_period_ns = loop.turn_ns(),
+                                    .gathering = {.frame_period_ns = loop.turn_ns(),
+                                                  .longest_ns = kLongestGathering_ns,
+                                                  .room_packets = network.room_packets()}},
+                   turns, network,
+                   Labeller::Outlets{.records = &records,
+                                     .intake = &intake,
+                                     .labels = &labels,
+                                     .points = &points,
+                                     .sectors = &sectors,
+                                     .points_ready = &points_ready,
+                                     .reader = reader.get(),
+                                     .near_ground = &near_ground,
+                                     .recorder = &recorder},
+                   MachineClock{&machine}, MachineWait{&machine});
 }
 
 void LiveChain::work_round() {

@@ -3,6 +3,7 @@
 #include "tests/simulation/network.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace terracut::simulation {
 namespace {
@@ -18,9 +19,10 @@ constexpr std::int64_t kTwinClock_us = 1'234'567'891;
 
 }  // namespace
 
-Network::Network(const SensorLoop& loop, const Faults& faults, Machine& machine,
-                 std::size_t room_packets, std::uint64_t seed)
+Network::Network(const SensorLoop& loop, const BlindPlaces& blind, const Faults& faults,
+                 Machine& machine, std::size_t room_packets, std::uint64_t seed)
     : loop_(loop),
+      blind_(blind),
       faults_(faults),
       machine_(machine),
       room_packets_(room_packets),
@@ -123,8 +125,7 @@ std::int64_t Network::next_arrival_ns(std::int64_t limit_ns) {
 // --- Who sends ---
 
 bool Network::is_on(FaultKind kind, std::int64_t at_ns) const noexcept {
-  return std::ranges::any_of(faults_,
-                             [&](const Fault& fault) { return fault.is_on(kind, at_ns); });
+  return std::ranges::any_of(faults_, [&](const Fault& fault) { return fault.is_on(kind, at_ns); });
 }
 
 std::int64_t Network::device_us(std::int64_t at_ns) const noexcept {
@@ -155,10 +156,9 @@ std::int64_t Network::next_sent_ns() const noexcept {
   for (std::size_t i = 0; i < faults_.size(); ++i) {
     const Fault& fault = faults_[i];
     const std::int64_t due_ns = std::max(fault.at_ns(), done_[i].next_ns);
-    const bool sends =
-        ((fault.kind == FaultKind::kOtherSender || fault.kind == FaultKind::kTwin) &&
-         due_ns < fault.end_ns()) ||
-        (fault.kind == FaultKind::kGarbage && !done_[i].begun);
+    const bool sends = ((fault.kind == FaultKind::kOtherSender || fault.kind == FaultKind::kTwin) &&
+                        due_ns < fault.end_ns()) ||
+                       (fault.kind == FaultKind::kGarbage && !done_[i].begun);
     if (sends) next_ns = std::min(next_ns, due_ns);
   }
   return next_ns;
@@ -189,32 +189,45 @@ void Network::send_of_others(std::int64_t at_ns) {
       put({.arrival_ns = at_ns, .kind = Kind::kForeign});
       done.next_ns = at_ns + 1'000 * kMs / std::max<std::int64_t>(1, fault.amount);
     } else if (fault.kind == FaultKind::kTwin) {
-      const std::size_t place = (kTwinAhead + static_cast<std::size_t>(done.count++)) %
-                                loop_.packets.size();
-      put({.arrival_ns = at_ns, .kind = Kind::kTwin, .place = place,
+      const std::size_t place =
+          (kTwinAhead + static_cast<std::size_t>(done.count++)) % loop_.packets.size();
+      put({.arrival_ns = at_ns,
+           .kind = Kind::kTwin,
+           .place = place,
            .device_us = kTwinClock_us + at_ns / 1000});
       done.next_ns = at_ns + loop_.period_ns;
     }
   }
 }
 
+bool Network::restarts(std::int64_t at_ns) noexcept {
+  for (std::size_t i = 0; i < faults_.size(); ++i) {
+    const Fault& fault = faults_[i];
+    const bool begins = fault.kind == FaultKind::kSensorRestart && at_ns >= fault.at_ns();
+    if (!begins || std::exchange(done_[i].begun, true)) continue;
+    sensor_next_ns_ = booted_ns_ = std::max(at_ns, fault.end_ns());
+    boot_us_ = 0;
+    sensor_place_ = loop_.packets.size() * static_cast<std::size_t>(fault.amount) / 1000;
+    return true;
+  }
+  return false;
+}
+
 void Network::send_packet(std::int64_t at_ns) {
-  Sent sent{.arrival_ns = at_ns + dice_.between(kLeastWay_ns, kMostWay_ns)};
+  if (restarts(at_ns)) return;
+  const std::size_t place = sensor_place_;
+  const bool head_stands = is_on(FaultKind::kHeadStands, at_ns);
+  if (!head_stands) sensor_place_ = (place + 1) % loop_.packets.size();
+  if (blind_.holds(place, loop_)) return;
+  Sent sent{.arrival_ns = at_ns + dice_.between(kLeastWay_ns, kMostWay_ns),
+            .kind = head_stands ? Kind::kStanding : Kind::kData,
+            .place = place,
+            .device_us = device_us(at_ns)};
   bool is_lost = is_on(FaultKind::kCablePulled, at_ns), comes_twice = false;
   for (std::size_t i = 0; i < faults_.size(); ++i) {
     const Fault& fault = faults_[i];
     if (at_ns < fault.at_ns()) continue;
     switch (fault.kind) {
-      case FaultKind::kSensorRestart:
-        if (done_[i].begun) break;
-        done_[i].begun = true;
-        sensor_next_ns_ = booted_ns_ = std::max(at_ns, fault.end_ns());
-        boot_us_ = 0;
-        sensor_place_ = loop_.packets.size() * static_cast<std::size_t>(fault.amount) / 1000;
-        return;
-      case FaultKind::kHeadStands:
-        if (at_ns < fault.end_ns()) sent.kind = Kind::kStanding;
-        break;
       case FaultKind::kLoss:
         is_lost = take_one(i, at_ns) || is_lost;
         break;
@@ -236,9 +249,6 @@ void Network::send_packet(std::int64_t at_ns) {
         break;
     }
   }
-  sent.place = sensor_place_;
-  sent.device_us = device_us(at_ns);
-  if (sent.kind != Kind::kStanding) sensor_place_ = (sensor_place_ + 1) % loop_.packets.size();
   if (is_lost) {
     ++truth_.packets_lost;
     return;

@@ -26,8 +26,8 @@ namespace terracut::simulation {
 class Network {
  public:
   /// All arguments must outlive this object. The kernel's buffer holds `room_packets`.
-  Network(const SensorLoop& loop, const Faults& faults, Machine& machine, std::size_t room_packets,
-          std::uint64_t seed);
+  Network(const SensorLoop& loop, const BlindPlaces& blind, const Faults& faults, Machine& machine,
+          std::size_t room_packets, std::uint64_t seed);
 
   [[nodiscard]] std::span<const packet::Datagram> receive(std::int64_t timeout_ns) noexcept;
   void wake() const noexcept {}
@@ -63,8 +63,7 @@ class Network {
     std::int64_t stamp_ns = 0;  ///< The kernel's.
     bool is_again = false;      ///< Sent before.
     [[nodiscard]] bool operator>(const Sent& other) const noexcept {
-      return arrival_ns != other.arrival_ns ? arrival_ns > other.arrival_ns
-                                            : number > other.number;
+      return arrival_ns != other.arrival_ns ? arrival_ns > other.arrival_ns : number > other.number;
     }
   };
   /// What the network has done of a fault.
@@ -81,6 +80,8 @@ class Network {
   [[nodiscard]] std::int64_t next_sent_ns() const noexcept;
   void send_next();
   void send_packet(std::int64_t at_ns);
+  /// True if the sensor goes off now; it then begins anew.
+  [[nodiscard]] bool restarts(std::int64_t at_ns) noexcept;
   void send_of_others(std::int64_t at_ns);
   void put(Sent sent);
   [[nodiscard]] bool take_one(std::size_t fault, std::int64_t at_ns) noexcept;
@@ -89,6 +90,7 @@ class Network {
   [[nodiscard]] std::span<const std::uint8_t> write(const Sent& sent, std::size_t slot) noexcept;
 
   const SensorLoop& loop_;
+  BlindPlaces blind_;
   const Faults& faults_;
   Machine& machine_;
   std::size_t room_packets_;

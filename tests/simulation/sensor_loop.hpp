@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,6 +32,16 @@ struct SensorLoop {
   [[nodiscard]] std::int64_t turn_ns() const noexcept {
     return period_ns * static_cast<std::int64_t>(packets_per_turn);
   }
+};
+
+/// Packets of each turn that the sensor does not send, because its view is limited there.
+struct BlindPlaces {
+  std::size_t first = 0, count = 0;
+
+  [[nodiscard]] bool holds(std::size_t place, const SensorLoop& loop) const noexcept {
+    return (place + loop.packets_per_turn - first) % loop.packets_per_turn < count;
+  }
+  friend auto operator<=>(const BlindPlaces&, const BlindPlaces&) = default;
 };
 
 /// Packets of a VLP-16, 75 a turn.

@@ -71,10 +71,10 @@ int run(const Options& options) {
   std::uint64_t frames = 0, compared = 0, runs = 0, broken = 0;
   const auto wall_s = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
   const auto tell = [&] {
-    fmt::print("{} runs, {:.2f} simulated hours, {} frames, {} compared, {} broken, {:.0f} s; {:.0f} "
-               "simulated seconds a second\n",
-               runs, simulated_s / 3600, frames, compared, broken, wall_s(),
-               simulated_s / wall_s());
+    fmt::print(
+        "{} runs, {:.2f} simulated hours, {} frames, {} compared, {} broken, {:.0f} s; {:.0f} "
+        "simulated seconds a second\n",
+        runs, simulated_s / 3600, frames, compared, broken, wall_s(), simulated_s / wall_s());
     std::fflush(stdout);
   };
   for (std::uint64_t seed = options.seed;; ++seed) {

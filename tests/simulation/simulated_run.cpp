@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
+#include <tuple>
 #include <vector>
 
 #include "pipeline/ground/profile.hpp"
@@ -23,11 +25,17 @@ ground::TurnMethodMaker method_of(bool is_real) {
                  : cached_method();
 }
 
-/// Labels to compare with, made once a sensor and method.
+const SensorLoop& loop_of(const Plan& plan) {
+  return plan.is_hdl64e ? hdl64e_loop() : vlp16_loop();
+}
+
+/// Labels to compare with, made once a sensor, view and method.
 const std::vector<std::uint64_t>& expected_of(const Plan& plan, const SensorLoop& loop) {
-  static std::vector<std::uint64_t> known[2][2];
-  auto& hashes = known[plan.is_hdl64e ? 1 : 0][plan.has_real_method ? 1 : 0];
-  if (hashes.empty()) hashes = labels_without_haste(loop, method_of(plan.has_real_method));
+  static std::map<std::tuple<bool, bool, BlindPlaces>, std::vector<std::uint64_t>> known;
+  auto& hashes = known[{plan.is_hdl64e, plan.has_real_method, plan.blind}];
+  if (hashes.empty()) {
+    hashes = labels_without_haste(loop, plan.blind, method_of(plan.has_real_method));
+  }
   return hashes;
 }
 
@@ -42,20 +50,29 @@ Plan plan_of(std::uint64_t seed) {
   // From a buffer that the system refused to enlarge to what is asked for.
   plan.room_packets = static_cast<std::size_t>(dice.between(0, 2) == 0 ? 180 : 7'000);
   plan.faults = faults_of(seed);
+  if (dice.between(0, 3) == 0) {
+    const auto packets = static_cast<std::int64_t>(loop_of(plan).packets_per_turn);
+    plan.blind = {static_cast<std::size_t>(dice.between(0, packets - 1)),
+                  static_cast<std::size_t>(dice.between(packets / 15, packets / 3))};
+  }
   return plan;
 }
 
 Outcome simulate(const Plan& plan) {
-  const SensorLoop& loop = plan.is_hdl64e ? hdl64e_loop() : vlp16_loop();
+  const SensorLoop& loop = loop_of(plan);
   const std::vector<std::uint64_t>& expected = expected_of(plan, loop);
   Machine machine(plan.faults, plan.seed + 1);
-  Network network(loop, plan.faults, machine, plan.room_packets, plan.seed + 2);
+  Network network(loop, plan.blind, plan.faults, machine, plan.room_packets, plan.seed + 2);
   LiveChain chain(loop, method_of(plan.has_real_method), machine, network);
-  Watch watch(loop, plan.faults, expected, machine, network, chain);
-  machine.add_thread(2 * kMillisecond_ns, 60 * kMillisecond_ns, FaultKind::kMonitorStalls, [&] { watch.judge_frames(); });
-  machine.add_thread(kMillisecond_ns / 5, 30 * kMillisecond_ns, FaultKind::kLabelsStall, [&] { watch.take_labels(); });
-  machine.add_thread(kMillisecond_ns / 5, 5 * kMillisecond_ns, FaultKind::kOutletStalls, [&] { watch.take_points(); });
-  machine.add_thread(8 * kMillisecond_ns, 12 * kMillisecond_ns, FaultKind::kMotionStops, [&] { watch.tell_motion(); });
+  Watch watch(loop, plan.blind, plan.faults, expected, machine, network, chain);
+  machine.add_thread(2 * kMillisecond_ns, 60 * kMillisecond_ns, FaultKind::kMonitorStalls,
+                     [&] { watch.judge_frames(); });
+  machine.add_thread(kMillisecond_ns / 5, 30 * kMillisecond_ns, FaultKind::kLabelsStall,
+                     [&] { watch.take_labels(); });
+  machine.add_thread(kMillisecond_ns / 5, 5 * kMillisecond_ns, FaultKind::kOutletStalls,
+                     [&] { watch.take_points(); });
+  machine.add_thread(8 * kMillisecond_ns, 12 * kMillisecond_ns, FaultKind::kMotionStops,
+                     [&] { watch.tell_motion(); });
 
   std::int64_t faults_end_ns = 0;
   for (const Fault& fault : plan.faults) {
@@ -69,7 +86,7 @@ Outcome simulate(const Plan& plan) {
     }
   };
   const std::int64_t quiet_ns =
-      faults_end_ns + (Watch::kTurnsToRecover + 1) * loop.turn_ns();
+      faults_end_ns + (Watch::turns_to_recover(plan.blind) + 1) * loop.turn_ns();
   run_to(quiet_ns);
   watch.begin_of_quiet();
   run_to(quiet_ns + kQuietTurns * loop.turn_ns());

@@ -7,18 +7,21 @@
 #include <string>
 
 #include "tests/simulation/fault.hpp"
+#include "tests/simulation/sensor_loop.hpp"
 
 namespace terracut::simulation {
 
 /// What is simulated with a seed.
 struct Plan {
   std::uint64_t seed = 1;
-  bool is_hdl64e = false;         ///< Else a VLP-16.
-  bool has_real_method = false;   ///< Else cached labels.
-  std::size_t room_packets = 0;   ///< Of the kernel's buffer.
+  bool is_hdl64e = false;        ///< Else a VLP-16.
+  bool has_real_method = false;  ///< Else cached labels.
+  std::size_t room_packets = 0;  ///< Of the kernel's buffer.
+  BlindPlaces blind;
   Faults faults;
 };
-/// Returns the plan of a seed: an HDL-64E for one seed in sixteen, the real method for one in eight.
+/// Returns the plan of a seed: an HDL-64E for one seed in sixteen, the real method
+/// for one in eight, a limited view for one in four.
 [[nodiscard]] Plan plan_of(std::uint64_t seed);
 
 struct Outcome {

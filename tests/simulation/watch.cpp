@@ -40,14 +40,15 @@ std::uint64_t hash_of(std::span<const frame::Label> labels) noexcept {
   return hash;
 }
 
-std::vector<std::uint64_t> labels_without_haste(const SensorLoop& loop,
+std::vector<std::uint64_t> labels_without_haste(const SensorLoop& loop, const BlindPlaces& blind,
                                                 const ground::TurnMethodMaker& method) {
   memory::FixedMemory memory;
   run::LabelledTurns turns(loop.calibration, loop.profile, decoder_config(loop, nullptr), method,
                            memory);
   std::vector<std::uint64_t> hashes(loop.turns());
-  const std::size_t sent = 2 * loop.packets.size() + loop.packets_per_turn;
+  const std::size_t sent = 4 * loop.packets.size() + loop.packets_per_turn;
   for (std::size_t n = 0; n < sent; ++n) {
+    if (blind.holds(n, loop)) continue;
     SensorLoop::Packet packet = loop.packets[n % loop.packets.size()];
     const std::int64_t stamp_ns = static_cast<std::int64_t>(n) * loop.period_ns;
     set_device_stamp(packet, stamp_ns / 1000);
@@ -60,9 +61,11 @@ std::vector<std::uint64_t> labels_without_haste(const SensorLoop& loop,
   return hashes;
 }
 
-Watch::Watch(const SensorLoop& loop, const Faults& faults, std::span<const std::uint64_t> expected,
-             Machine& machine, Network& network, LiveChain& chain)
+Watch::Watch(const SensorLoop& loop, const BlindPlaces& blind, const Faults& faults,
+             std::span<const std::uint64_t> expected, Machine& machine, Network& network,
+             LiveChain& chain)
     : loop_(loop),
+      blind_(blind),
       faults_(faults),
       expected_(expected),
       machine_(machine),
@@ -118,7 +121,7 @@ bool Watch::must_be_perfect(const frame::FrameInfo& info) const {
   const auto first = network_.packet_of(info.first_packet_ns);
   const auto last = network_.packet_of(info.last_packet_ns);
   if (!first || !last) return false;
-  const std::int64_t recovery_ns = kTurnsToRecover * loop_.turn_ns();
+  const std::int64_t recovery_ns = turns_to_recover(blind_) * loop_.turn_ns();
   if (first->arrival_ns < recovery_ns) return false;  // the run has just begun
   return std::ranges::none_of(faults_, [&](const Fault& fault) {
     return befalls_frames(fault.kind) && fault.at_ns() < last->arrival_ns + loop_.turn_ns() &&
@@ -138,7 +141,8 @@ void Watch::look_after_round(std::uint64_t allocations) {
   require(sum == account.source.received, "the outcomes told do not add up");
   require(account.source.received + network_.waiting() == network_.truth().taken,
           "a datagram that the kernel handed over is not in the account");
-  require(account.source.kernel_drops <= network_.truth().dropped, "more drops are told than there were");
+  require(account.source.kernel_drops <= network_.truth().dropped,
+          "more drops are told than there were");
   require(chain_.memory.total_bytes() == memory_bytes_, "memory was taken after the start");
   require(allocations == 0 || !test::allocations_are_counted(),
           "the thread with a deadline allocated memory");
@@ -198,17 +202,18 @@ void Watch::look_at_record(const status::FrameRecord& record) {
   if (!must_be_perfect(info)) return;
   ++perfect_;
   const frame::LossCounters& losses = info.losses;
-  require(info.complete, "a frame is not complete, three turns after all faults");
+  require(info.complete, "a frame is not complete, when all faults are long over");
   require(losses.rejected_total() == 0 && losses.network_gap_packets == 0 &&
               losses.azimuth_hole_columns == 0 && losses.clock_jumps == 0 &&
               losses.late_returns == 0 && losses.overflow_full_returns == 0,
-          "a frame tells of losses, three turns after all faults");
-  require(record.level == status::Level::kFull, "a frame is not full, three turns after all faults");
+          "a frame tells of losses, when all faults are long over");
+  require(record.level == status::Level::kFull,
+          "a frame is not full, when all faults are long over");
   require(!record.missed && longest_ns(record.firing_to_label) <= deadline_ns,
-          "a frame is late, three turns after all faults");
-  require(report.late == 0, "returns came late, three turns after all faults");
+          "a frame is late, when all faults are long over");
+  require(report.late == 0, "returns came late, when all faults are long over");
   require(info.deskew.state == frame::DeskewState::kDone,
-          "a frame is not deskewed, three turns after all faults");
+          "a frame is not deskewed, when all faults are long over");
 }
 
 std::int64_t Watch::stolen_since(const frame::FrameInfo& info) const noexcept {
@@ -252,11 +257,11 @@ void Watch::take_points() {
       const std::uint64_t unused = chain_.sectors.unused();
       const bool follows = record.first_return == sectors_.next_return;
       require(follows || unused > 0, "returns are in no sector, and not counted");
-      sectors_.next_return =
-          record.first_return + static_cast<std::uint32_t>(sector.items.size());
-      sectors_.longest_ns = std::max(sectors_.longest_ns, record.labels_ns - record.first_packet_ns);
-      require(std::ranges::find(sector.items, frame::Label::kNone,
-                                &points::LabelledPoint::label) == sector.items.end(),
+      sectors_.next_return = record.first_return + static_cast<std::uint32_t>(sector.items.size());
+      sectors_.longest_ns =
+          std::max(sectors_.longest_ns, record.labels_ns - record.first_packet_ns);
+      require(std::ranges::find(sector.items, frame::Label::kNone, &points::LabelledPoint::label) ==
+                  sector.items.end(),
               "a point of a sector has no label");
       if (stamps_are_comparable_) {
         require(record.first_packet_ns <= record.last_packet_ns &&
@@ -307,7 +312,8 @@ void Watch::look_at_truth(const net::DatagramAccount& account) {
             "datagrams of wrong size are miscounted");
   }
   if (has_only({kLoss, kDuplicate, kTruncated, kGarbage, kOtherSender, kStolenCore, kSlowWork,
-                kMotionStops})) {
+                kMotionStops}) &&
+      blind_.count == 0) {
     if (account.let_go == 0) {
       require(rejected(frame::Reject::kRepeated) == truth.repeated, "repeats are miscounted");
     }
@@ -319,8 +325,8 @@ void Watch::look_at_truth(const net::DatagramAccount& account) {
       require(told_lost == truth.packets_lost, "packets were lost that are not told");
     }
   }
-  if (has_only({kDuplicate, kGarbage, kBurst, kHostClock, kMotionStops}) &&
-      account.let_go == 0) {
+  if (has_only({kDuplicate, kGarbage, kBurst, kHostClock, kMotionStops}) && account.let_go == 0 &&
+      truth.dropped == 0) {
     require(account.losses.rejected_total() == truth.repeated + truth.of_wrong_size,
             "packets are refused although none is bad");
   }
@@ -336,17 +342,17 @@ void Watch::look_at_end() {
   require(end.source.kernel_drops == network_.truth().dropped, "drops of the kernel are not told");
   require(end.in_doubt == 0 && then.in_doubt == 0, "packets stay in doubt");
   require(end.decoded - then.decoded == end.source.received - then.source.received,
-          "not every packet is decoded, three turns after all faults");
+          "not every packet is decoded, when all faults are long over");
   require(end.losses.network_gap_packets == then.losses.network_gap_packets,
-          "packets are told lost, three turns after all faults");
+          "packets are told lost, when all faults are long over");
   require(now.unused_labels == quiet_.unused_labels && now.unused_points == quiet_.unused_points &&
               now.unused_sectors == quiet_.unused_sectors &&
               now.dropped_records == quiet_.dropped_records,
-          "outputs are left out, three turns after all faults");
+          "outputs are left out, when all faults are long over");
   look_at_truth(end);
   const std::int64_t turns = (machine_.now_ns() - quiet_began_ns_) / loop_.turn_ns();
   require(static_cast<std::int64_t>(perfect_ - perfect_before_quiet_) >= turns - 2,
-          "frames do not come, three turns after all faults");
+          "frames do not come, when all faults are long over");
   for (const std::uint64_t value :
        {end.source.received, end.source.kernel_drops, end.let_go, end.decoded,
         end.losses.rejected_total(), end.losses.network_gap_packets}) {

@@ -23,19 +23,23 @@ namespace terracut::simulation {
 [[nodiscard]] std::uint64_t hash_of(std::span<const frame::Label> labels) noexcept;
 /// Returns the number for the labels of each turn of a loop that is labelled without haste.
 [[nodiscard]] std::vector<std::uint64_t> labels_without_haste(
-    const SensorLoop& loop, const ground::TurnMethodMaker& method);
+    const SensorLoop& loop, const BlindPlaces& blind, const ground::TurnMethodMaker& method);
 
 /// Looks whether what must hold of a live run holds, while it is simulated: after each round of the
 /// thread with a deadline, and in the threads that take what it hands over. Keeps the first
 /// sentence about what does not.
 class Watch {
  public:
-  /// Turns after a fault's end in which a run need not be as good as ever.
-  static constexpr std::int64_t kTurnsToRecover = 3;
+  /// Returns for how many turns after a fault's end a run need not be as good as ever. Where a
+  /// limited view begins and ends is learnt in eight turns (firmware_io/decode/blind_sector.hpp).
+  [[nodiscard]] static std::int64_t turns_to_recover(const BlindPlaces& blind) noexcept {
+    return blind.count > 0 ? 10 : 3;
+  }
 
   /// All arguments must outlive this object.
-  Watch(const SensorLoop& loop, const Faults& faults, std::span<const std::uint64_t> expected,
-        Machine& machine, Network& network, LiveChain& chain);
+  Watch(const SensorLoop& loop, const BlindPlaces& blind, const Faults& faults,
+        std::span<const std::uint64_t> expected, Machine& machine, Network& network,
+        LiveChain& chain);
 
   /// `allocations`: of the round.
   void look_after_round(std::uint64_t allocations);
@@ -45,7 +49,7 @@ class Watch {
   void take_labels();
   void take_points();
   void tell_motion();
-  /// To be called when the faults are over and kTurnsToRecover turns have passed, and at the end.
+  /// To be called when the faults are over and turns_to_recover() have passed, and at the end.
   void begin_of_quiet();
   void look_at_end();
 
@@ -57,7 +61,7 @@ class Watch {
 
   /// Returns when the last effect of a fault on frames is over.
   [[nodiscard]] static std::int64_t end_ns(const Fault& fault, const Faults& faults,
-                                          const SensorLoop& loop) noexcept;
+                                           const SensorLoop& loop) noexcept;
 
  private:
   struct Counts {
@@ -80,6 +84,7 @@ class Watch {
   void look_at_record(const status::FrameRecord& record);
 
   const SensorLoop& loop_;
+  BlindPlaces blind_;
   const Faults& faults_;
   std::span<const std::uint64_t> expected_;
   Machine& machine_;

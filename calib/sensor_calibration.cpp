@@ -8,14 +8,13 @@
 namespace terracut::calib {
 
 SensorCalibration nominal(sensor::SensorModel model) {
-  if (sensor::has_factory_table(model)) return velodyne::factory_table(model);
+  if (sensor::has_built_in_table(model)) return beams::built_in_table(model);
   if (model == sensor::SensorModel::kRuby128) return ruby128::nominal_ruby128();
   return hdl64e::nominal_hdl64e();
 }
 
 sensor::SensorModel model_of(const SensorCalibration& calibration) noexcept {
-  if (const auto* unit = std::get_if<velodyne::VelodyneCalibration>(&calibration))
-    return unit->model;
+  if (const auto* unit = std::get_if<beams::BeamTable>(&calibration)) return unit->model;
   return std::holds_alternative<ruby128::Ruby128Calibration>(calibration)
              ? sensor::SensorModel::kRuby128
              : sensor::SensorModel::kHdl64e;

@@ -6,22 +6,22 @@
 #include <string>
 #include <variant>
 
+#include "calib/beams/beam_table.hpp"
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/mount/mount.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
 #include "calib/sensor/sensor_model.hpp"
-#include "calib/velodyne/velodyne_calibration.hpp"
 
 namespace terracut::calib {
 
 /// The calibration of one unit, of any sensor that terracut decodes.
-using SensorCalibration = std::variant<hdl64e::Hdl64eCalibration, ruby128::Ruby128Calibration,
-                                       velodyne::VelodyneCalibration>;
+using SensorCalibration =
+    std::variant<hdl64e::Hdl64eCalibration, ruby128::Ruby128Calibration, beams::BeamTable>;
 
 /// Returns a model's table for use without the unit's own: the built-in one if
-/// sensor::has_factory_table(), the nominal one for an RS-Ruby128, and an HDL-64E's for every other
-/// model.
+/// sensor::has_built_in_table(), the nominal one for an RS-Ruby128, and an HDL-64E's for every
+/// other model.
 [[nodiscard]] SensorCalibration nominal(sensor::SensorModel model);
 
 /// Returns the model that `calibration` belongs to; kHdl64e for an HDL-64E of any generation.

@@ -4,9 +4,11 @@
 
 #include <utility>
 
-#include "calib/hdl64e/hdl64e_file.hpp"
-#include "calib/ruby128/ruby128_csv.hpp"
 #include "calib/api/calibration_table.hpp"
+#include "calib/hdl64e/hdl64e_file.hpp"
+#include "calib/hesai/hesai_csv.hpp"
+#include "calib/ruby128/ruby128_csv.hpp"
+#include "calib/text/bounded_file.hpp"
 
 namespace terracut {
 
@@ -14,6 +16,12 @@ Calibration::Calibration(std::shared_ptr<const Table> table) noexcept : table_(s
 
 Expected<Calibration> Calibration::load(const std::filesystem::path& file) {
   if (file.extension() == ".csv") {
+    const auto text = text::read_bounded_file(file, "an angle table");
+    if (text && hesai::is_like_hesai_csv(*text)) {
+      return hesai::parse_hesai_csv(*text, file.string()).map([](const auto& table) {
+        return calibration_of(table);
+      });
+    }
     return ruby128::read_ruby128_csv(file).map(
         [](const auto& unit) { return calibration_of(unit); });
   }

@@ -30,7 +30,7 @@ namespace terracut::beams {
 /// the per-packet path).
 class StraightGeometry {
  public:
-  /// Takes `lasers` from a Ruby128Calibration or a VelodyneCalibration.
+  /// Takes `lasers` from a Ruby128Calibration or a beams::BeamTable.
   template <class Lasers>
   StraightGeometry(const Lasers& lasers, double metres_per_count, double lens_ahead_m = 0)
       : metres_per_count_(metres_per_count), lens_ahead_m_(lens_ahead_m) {

@@ -88,7 +88,7 @@ RingProfile ring_profile(const ruby128::Ruby128Calibration& calibration, const M
   return profile;
 }
 
-RingProfile ring_profile(const velodyne::VelodyneCalibration& calibration, const Mount& mount,
+RingProfile ring_profile(const beams::BeamTable& calibration, const Mount& mount,
                          double range_limit_m) {
   const auto rows = rows_upward(rows_by_elevation(calibration), mount);
   RingProfile profile{std::vector<Ring>(rows.size()), mount};

@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include "calib/beams/beam_table.hpp"
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/mount/mount.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
-#include "calib/velodyne/velodyne_calibration.hpp"
 
 namespace terracut::mount {
 
@@ -42,7 +42,7 @@ struct RingProfile {
                                        const Mount& mount, double range_limit_m = 120.0);
 [[nodiscard]] RingProfile ring_profile(const ruby128::Ruby128Calibration& calibration,
                                        const Mount& mount, double range_limit_m = 120.0);
-[[nodiscard]] RingProfile ring_profile(const velodyne::VelodyneCalibration& calibration,
-                                       const Mount& mount, double range_limit_m = 120.0);
+[[nodiscard]] RingProfile ring_profile(const beams::BeamTable& calibration, const Mount& mount,
+                                       double range_limit_m = 120.0);
 
 }  // namespace terracut::mount

@@ -7,13 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
-#include <iterator>
 #include <string_view>
 
 #include "calib/beams/angle.hpp"
 #include "calib/text/bounded_file.hpp"
 #include "calib/text/number_text.hpp"
+#include "calib/text/text_lines.hpp"
 #include "rt/files/whole_file.hpp"
 
 namespace terracut::ruby128 {
@@ -21,46 +20,6 @@ namespace {
 
 constexpr std::string_view kExpected =
     "an RS-Ruby128 angle.csv: 128 lines \"elevation,azimuth offset\" in degrees";
-constexpr std::string_view kSpace = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kSpace);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-}
-
-/// Returns the beginning of a line in printable form.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string shown(text.substr(0, kMost));
-  std::replace_if(shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return fmt::format("\"{}\"{}", shown, text.size() > kMost ? " ..." : "");
-}
-
-/// Splits text into lines, without the blank ones at its end.
-class Lines {
- public:
-  explicit Lines(std::string_view text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-    const std::size_t last = text.find_last_not_of(" \t\r\n");
-    rest_ = last == std::string_view::npos ? std::string_view() : text.substr(0, last + 1);
-    count_ = rest_.empty() ? 0 : text::line_of(rest_, rest_.size());
-  }
-  [[nodiscard]] int count() const { return count_; }
-
-  /// Returns the next line, trimmed; empty after the last one.
-  std::string_view next() {
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    const std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    return trimmed(line);
-  }
-
- private:
-  std::string_view rest_;
-  int count_ = 0;
-};
 
 /// The numbers of one line, in degrees.
 struct Angles {
@@ -72,10 +31,12 @@ struct Angles {
 Expected<double> angle_from(std::string_view field, std::string_view what) {
   const auto value = text::number_from(field);
   if (!value) {
-    return fail(ErrorCode::kMalformed, fmt::format("{} {} is not a number", what, quoted(field)));
+    return fail(ErrorCode::kMalformed,
+                fmt::format("{} {} is not a number", what, text::quoted(field)));
   }
   if (!std::isfinite(*value)) {
-    return fail(ErrorCode::kMalformed, fmt::format("{} {} is not finite", what, quoted(field)));
+    return fail(ErrorCode::kMalformed,
+                fmt::format("{} {} is not finite", what, text::quoted(field)));
   }
   return *value;
 }
@@ -107,13 +68,13 @@ Expected<Angles> angles_from(std::string_view line) {
     return fail(ErrorCode::kMalformed,
                 fmt::format("{} has a {}; expected a comma between the two angles and a "
                             "point for decimals",
-                            quoted(line), separator));
+                            text::quoted(line), separator));
   }
   const auto commas = std::count(line.begin(), line.end(), ',');
   if (commas > 1) {
     return fail(ErrorCode::kMalformed,
                 fmt::format("{} has {} fields; expected two, and a point for decimals",
-                            quoted(line), commas + 1));
+                            text::quoted(line), commas + 1));
   }
   Angles angles;
   const std::size_t comma = line.find(',');
@@ -146,18 +107,11 @@ std::string_view owner_of(int lines) {
   }
 }
 
-/// Appends an angle in degrees with three decimals: "-0.290".
-void put_angle(fmt::memory_buffer& text, double rad) {
-  const std::int64_t mdeg = angle_mdeg(rad);
-  fmt::format_to(std::back_inserter(text), "{}{}.{:03}", mdeg < 0 ? "-" : "", std::abs(mdeg) / 1000,
-                 std::abs(mdeg) % 1000);
-}
-
 }  // namespace
 
 Expected<Ruby128Calibration> parse_ruby128_csv(std::span<const char> text,
                                                const std::string& name) {
-  Lines lines(std::string_view(text.data(), text.size()));
+  text::TextLines lines(std::string_view(text.data(), text.size()));
   if (lines.count() == 0) {
     return fail(ErrorCode::kMalformed, fmt::format("{}: is empty; expected {}", name, kExpected));
   }
@@ -215,9 +169,9 @@ Expected<Ruby128Calibration> read_ruby128_csv(const std::filesystem::path& path)
 std::string ruby128_csv_text(const Ruby128Calibration& calibration) {
   fmt::memory_buffer text;
   for (const Ruby128Channel& channel : calibration.channels) {
-    put_angle(text, channel.elevation_rad);
+    text::put_thousandths(text, angle_mdeg(channel.elevation_rad));
     text.push_back(',');
-    put_angle(text, channel.azimuth_offset_rad);
+    text::put_thousandths(text, angle_mdeg(channel.azimuth_offset_rad));
     text.push_back('\n');
   }
   return fmt::to_string(text);

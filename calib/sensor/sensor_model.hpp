@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "calib/sensor/factory_lasers.hpp"
+#include "calib/sensor/hesai_lasers.hpp"
 #include "terracut/sensor.hpp"
 
 namespace terracut::sensor {
@@ -29,11 +30,19 @@ enum class SensorModel : std::uint8_t {
   kOtherVelodyne,  ///< A Velodyne data packet with a product number not known here.
   /// Not a data packet: 512 bytes with NMEA text, from models below the HDL-64E.
   kVelodynePosition,
-  kRuby128,             ///< RS-Ruby128.
-  kRubyPlus,            ///< Has the RS-Ruby128's layout, but other angles and firing times.
-  kRubyLite,            ///< Ruby Lite / Ruby 80: packets have four blocks of 80 channels.
-  kOtherRoboSense,      ///< A RoboSense data packet of another model.
-  kRoboSenseDeviceInfo  ///< A DIFOP packet about the sensor, sent about once a second.
+  kRuby128,              ///< RS-Ruby128.
+  kRubyPlus,             ///< Has the RS-Ruby128's layout, but other angles and firing times.
+  kRubyLite,             ///< Ruby Lite / Ruby 80: packets have four blocks of 80 channels.
+  kOtherRoboSense,       ///< A RoboSense data packet of another model.
+  kRoboSenseDeviceInfo,  ///< A DIFOP packet about the sensor, sent about once a second.
+  kPandar40p,
+  kPandar64,
+  kPandarQt64,
+  kPandarQt128,
+  kPandarXt16,
+  kPandarXt32,
+  kPandarXt32m,
+  kOtherHesai  ///< A Hesai data packet of another model.
 };
 
 /// What is known of a model. Facts that only the model's packet decoder needs are in its trait
@@ -46,8 +55,10 @@ struct SensorRow {
   std::uint8_t product_number = 0;  ///< Last byte of a Velodyne's data packet; 0: no such number.
   /// The model's number in the labelled stream; never changes. 0: not decoded.
   std::uint8_t stream_number = 0;
-  /// The lasers of every unit; empty: each unit has a table of its own.
+  /// The lasers of every unit, or nominal ones; empty: there is no table but the unit's own.
   std::span<const FactoryLaser> lasers{};
+  /// True if `lasers` are nominal: each unit comes with a table of its own.
+  bool has_unit_tables = false;
   /// Highest packet rate, in dual return. The default is an RS-Ruby128's, which is above that of
   /// models without a figure of their own.
   double most_packets_per_second = 12'001;
@@ -98,6 +109,55 @@ inline constexpr std::array kSensorTable{
               .stream_number = 6,
               .lasers = kVls128Lasers,
               .most_packets_per_second = 18'750},  // each packet holds one firing
+    SensorRow{.model = SensorModel::kPandar40p,
+              .name = "Hesai Pandar40P",
+              .sensor = Sensor::kPandar40p,
+              .word = "pandar40p",
+              .stream_number = 7,
+              .lasers = kPandar40pLasers,
+              .has_unit_tables = true},
+    SensorRow{.model = SensorModel::kPandar64,
+              .name = "Hesai Pandar64",
+              .sensor = Sensor::kPandar64,
+              .word = "pandar64",
+              .stream_number = 8,
+              .lasers = kPandar64Lasers,
+              .has_unit_tables = true},
+    SensorRow{.model = SensorModel::kPandarQt64,
+              .name = "Hesai PandarQT64",
+              .sensor = Sensor::kPandarQt64,
+              .word = "pandarqt64",
+              .stream_number = 9,
+              .lasers = kPandarQt64Lasers,
+              .has_unit_tables = true},
+    SensorRow{.model = SensorModel::kPandarQt128,
+              .name = "Hesai PandarQT128",
+              .sensor = Sensor::kPandarQt128,
+              .word = "pandarqt128",
+              .stream_number = 10,
+              .lasers = kPandarQt128Lasers,
+              .has_unit_tables = true},
+    SensorRow{.model = SensorModel::kPandarXt16,
+              .name = "Hesai PandarXT-16",
+              .sensor = Sensor::kPandarXt16,
+              .word = "pandarxt16",
+              .stream_number = 11,
+              .lasers = kPandarXt16Lasers,
+              .has_unit_tables = true},
+    SensorRow{.model = SensorModel::kPandarXt32,
+              .name = "Hesai PandarXT-32",
+              .sensor = Sensor::kPandarXt32,
+              .word = "pandarxt32",
+              .stream_number = 12,
+              .lasers = kPandarXt32Lasers,
+              .has_unit_tables = true},
+    SensorRow{.model = SensorModel::kPandarXt32m,
+              .name = "Hesai PandarXT-32M",
+              .sensor = Sensor::kPandarXt32m,
+              .word = "pandarxt32m",
+              .stream_number = 13,
+              .lasers = kPandarXt32mLasers,
+              .has_unit_tables = true},
     SensorRow{.model = SensorModel::kVlp16HiRes,
               .name = "Velodyne VLP-16 Hi-Res",
               .product_number = 0x24},
@@ -107,6 +167,7 @@ inline constexpr std::array kSensorTable{
     SensorRow{.model = SensorModel::kRubyLite, .name = "RoboSense Ruby Lite (80)"},
     SensorRow{.model = SensorModel::kOtherRoboSense, .name = "other RoboSense"},
     SensorRow{.model = SensorModel::kRoboSenseDeviceInfo, .name = "RoboSense device info (DIFOP)"},
+    SensorRow{.model = SensorModel::kOtherHesai, .name = "other Hesai"},
     SensorRow{.model = SensorModel::kUnknown, .name = "unknown"}};
 
 [[nodiscard]] constexpr const SensorRow& row_of(SensorModel model) noexcept {
@@ -123,9 +184,13 @@ inline constexpr std::array kSensorTable{
 [[nodiscard]] constexpr Sensor sensor_of(SensorModel model) noexcept {
   return row_of(model).sensor.value_or(Sensor::kHdl64e);
 }
+/// True if a table of `model` is built in: that of all its units, or a nominal one.
+[[nodiscard]] constexpr bool has_built_in_table(SensorModel model) noexcept {
+  return !row_of(model).lasers.empty();
+}
 /// True if all units of `model` have one table, which is built in.
 [[nodiscard]] constexpr bool has_factory_table(SensorModel model) noexcept {
-  return !row_of(model).lasers.empty();
+  return has_built_in_table(model) && !row_of(model).has_unit_tables;
 }
 /// Returns the model of a sensor. For an HDL-64E of any generation this is kHdl64e.
 [[nodiscard]] constexpr SensorModel model_of(Sensor sensor) noexcept {

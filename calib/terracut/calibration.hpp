@@ -33,12 +33,13 @@ struct FoundMount {
 /// The calibration table of one unit. Cheap to copy: copies share the table.
 class Calibration {
  public:
-  /// Reads an HDL-64E's table (Velodyne's db.xml or the ROS driver's yaml) or an RS-Ruby128's
-  /// (RoboSense's angle.csv). Fails with kNotFound, kUnreadable or kMalformed; the message names
-  /// file and line.
+  /// Reads an HDL-64E's table (Velodyne's db.xml or the ROS driver's yaml), an RS-Ruby128's
+  /// (RoboSense's angle.csv) or a Hesai's (the CSV file that comes with the unit). Fails with
+  /// kNotFound, kUnreadable or kMalformed; the message names file and line.
   [[nodiscard]] static Expected<Calibration> load(const std::filesystem::path& file);
-  /// Returns the model's table, for use if the unit's own is not at hand. Heights of an HDL-64E and
-  /// an RS-Ruby128 are then some centimetres off; units of other models have no table of their own.
+  /// Returns the model's table, for use if the unit's own is not at hand. Heights of an HDL-64E, an
+  /// RS-Ruby128 and a Hesai are then some centimetres off; units of the other models have no table
+  /// of their own.
   [[nodiscard]] static Calibration nominal(Sensor sensor);
 
   [[nodiscard]] Sensor sensor() const noexcept;

@@ -13,7 +13,14 @@ enum class Sensor : std::uint8_t {
   kVlp16,
   kHdl32e,
   kVlp32c,
-  kVls128
+  kVls128,
+  kPandar40p,
+  kPandar64,
+  kPandarQt64,
+  kPandarQt128,
+  kPandarXt16,
+  kPandarXt32,
+  kPandarXt32m
 };
 
 }  // namespace terracut

@@ -22,12 +22,17 @@ auto with_trait(const calib::SensorCalibration& calibration, const Decoder::Conf
   if (const auto* unit = std::get_if<ruby128::Ruby128Calibration>(&calibration)) {
     return use(std::type_identity<ruby128::Ruby128Sensor>{}, *unit, config.ruby128);
   }
-  const auto& unit = std::get<velodyne::VelodyneCalibration>(calibration);
-  return velodyne::Models::with(unit.model, [&]<class Model>(std::type_identity<Model>) {
-    if (unit.model != Model::kModel || unit.lasers.size() != std::size_t{Model::kLasers}) {
-      throw std::invalid_argument("Decoder: the table has other lasers than the sensor");
-    }
-    return use(std::type_identity<velodyne::VelodyneSensor<Model>>{}, unit, config.velodyne);
+  const auto& table = std::get<beams::BeamTable>(calibration);
+  if (table.lasers.empty() || !validate(table)) {
+    throw std::invalid_argument("Decoder: the table has other lasers than the sensor");
+  }
+  if (hesai::Models::has(table.model)) {
+    return hesai::Models::with(table.model, [&]<class Model>(std::type_identity<Model>) {
+      return use(std::type_identity<hesai::HesaiSensor<Model>>{}, table, config.hesai);
+    });
+  }
+  return velodyne::Models::with(table.model, [&]<class Model>(std::type_identity<Model>) {
+    return use(std::type_identity<velodyne::VelodyneSensor<Model>>{}, table, config.velodyne);
   });
 }
 

@@ -18,16 +18,13 @@
 #include "firmware_io/decode/host_clock.hpp"
 #include "firmware_io/decode/packet_returns.hpp"
 #include "firmware_io/decode/packets_in_doubt.hpp"
+#include "firmware_io/decode/sensors.hpp"
 #include "firmware_io/decode/stream_tracker.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/measured_returns.hpp"
 #include "firmware_io/frame/point_image.hpp"
-#include "firmware_io/hdl64e/hdl64e_sensor.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
-#include "firmware_io/ruby128/ruby128_sensor.hpp"
-#include "firmware_io/velodyne/models.hpp"
-#include "firmware_io/velodyne/velodyne_sensor.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -37,7 +34,7 @@ namespace terracut::decode {
 /// (frame::MeasuredReturns). A few packets at a time are placed: their columns and the owners of
 /// cells are found; all of a frame's returns are placed before it is handed out. Points are made of
 /// them where they are needed: with make_reader(), or by a point_image(). Everything that differs
-/// between models is in a trait (packet_returns.hpp).
+/// between models is in a trait (sensor_trait.hpp).
 ///
 /// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
 /// decoded packet is placed or counted (overflow_full_returns, late_returns); a packet is decoded
@@ -72,6 +69,7 @@ class Decoder {
     hdl64e::Hdl64eSensor::Config hdl64e;
     ruby128::Ruby128Sensor::Config ruby128;
     velodyne::VelodyneConfig velodyne;
+    hesai::HesaiConfig hesai;
   };
 
   /// Makes a decoder for the sensor that the calibration belongs to.
@@ -142,11 +140,9 @@ class Decoder {
   /// open at the start.
 
  private:
-  template <class... VelodyneModel>
-  using ReturnsOf =
-      std::variant<PacketReturns<hdl64e::Hdl64eSensor>, PacketReturns<ruby128::Ruby128Sensor>,
-                   PacketReturns<velodyne::VelodyneSensor<VelodyneModel>>...>;
-  using SensorReturns = velodyne::Models::In<ReturnsOf>;
+  template <class... Sensor>
+  using ReturnsOf = std::variant<PacketReturns<Sensor>...>;
+  using SensorReturns = Sensors::In<ReturnsOf>;
 
   /// Sizes that depend on the sensor.
   struct Model {

@@ -11,7 +11,7 @@
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/image_shape.hpp"
 #include "firmware_io/frame/measured_returns.hpp"
-#include "firmware_io/packet/beam_spread.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
 #include "firmware_io/packet/rotor_sector.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"

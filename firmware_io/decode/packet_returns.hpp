@@ -13,6 +13,7 @@
 #include "calib/beams/angle.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/sensor_tile_reader.hpp"
+#include "firmware_io/decode/sensor_trait.hpp"
 #include "firmware_io/decode/tile_columns.hpp"
 #include "firmware_io/frame/measured_returns.hpp"
 #include "firmware_io/packet/firing_returns.hpp"
@@ -36,30 +37,7 @@ struct PacketPlace {
 ///   packet  --transposed-->  tile: what each laser found in 24 firings, next to the core
 ///   tile    --a laser's constants, 24 firings in vectors-->  columns of the returns, their owners
 ///
-/// `Sensor` is a trait: it has all that differs from model to model, resolved at compile time:
-/// - the types `Calibration` and `Config`;
-/// - `kRows`, the rows of the image;
-/// - `kChannels`, the readings in a column, called lasers below: one for each laser, or more if a
-///   laser fires more than once for one azimuth; a multiple of 8;
-/// - `kGroups`, the number of groups of lasers that fire together;
-/// - `kPacketBytes`, the size of a data packet;
-/// - `kClockWrap_us`, where the device clock wraps;
-/// - `kDefaultColumns`, `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
-/// - a constructor (const Calibration&, const mount::Mount&, const Config&);
-/// - `check(Datagram, PacketAzimuths&)`: returns the reason to reject a packet, or reads its heads;
-/// - `spread(step_ticks)`: the packet::BeamSpread around the head;
-/// - `beam_ticks(laser)`: azimuth of a laser's beam minus the head's when it fires;
-/// - `group(laser)`: the group of a laser;
-/// - `advance_ticks(step_ticks, group, dual_return)`: how far the head has rotated from a firing's
-///   azimuth when the group fires, [0, 1e5];
-/// - `begin_packet(azimuths)`, to be called for each packet in order of arrival;
-/// - `step_ticks(azimuths, column)`: the head's step at a column;
-/// - `read_column(payload, column, FiringReturns<kChannels>)`: fills in a column's returns;
-/// - `metres_per_count()`, and `compute_points(laser, LaserHeads, measured_m, frame::PointsOut)`;
-/// - `rows()`: the range image row of each laser.
-/// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp,
-/// velodyne/velodyne_sensor.hpp.
-template <class Sensor>
+template <SensorTrait Sensor>
 class PacketReturns {
  public:
   /// `columns` is the number of columns of the range image, [16, 36000].

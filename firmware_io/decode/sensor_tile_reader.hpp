@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "firmware_io/decode/sensor_trait.hpp"
 #include "firmware_io/packet/firing_returns.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/packet/step_advances.hpp"
@@ -15,8 +16,8 @@
 
 namespace terracut::decode {
 
-/// Computes the points of tiles of one sensor model; `Sensor` is its trait (packet_returns.hpp).
-template <class Sensor>
+/// Computes the points of tiles of one sensor model.
+template <SensorTrait Sensor>
 class SensorTileReader final : public frame::TileReader {
  public:
   SensorTileReader(const Sensor& sensor, memory::FixedMemory& memory)

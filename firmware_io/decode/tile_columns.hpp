@@ -8,6 +8,7 @@
 #include <span>
 
 #include "calib/beams/angle.hpp"
+#include "firmware_io/decode/sensor_trait.hpp"
 #include "firmware_io/packet/firing_returns.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/packet/step_advances.hpp"
@@ -16,8 +17,8 @@
 
 namespace terracut::decode {
 
-/// Finds the image columns of the beams of a tile. `Sensor` is a trait (packet_returns.hpp).
-template <class Sensor>
+/// Finds the image columns of the beams of a tile.
+template <SensorTrait Sensor>
 class TileColumns {
  public:
   /// `columns` is the number of columns of the range image, [16, 36000].

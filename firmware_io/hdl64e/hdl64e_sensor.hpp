@@ -15,7 +15,7 @@
 #include "firmware_io/hdl64e/point_kernel.hpp"
 #include "firmware_io/hdl64e/s1_packet.hpp"
 #include "firmware_io/hdl64e/s1_reader.hpp"
-#include "firmware_io/packet/beam_spread.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/firing_returns.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"

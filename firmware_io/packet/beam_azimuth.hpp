@@ -21,6 +21,12 @@ namespace terracut::packet {
   return (beams::wrap_cdeg(column_cdeg) * kTicksPerCdeg + advance_ticks) * kRadPerTick;
 }
 
+/// How far beams point off the head: every beam's azimuth minus the head's is in [hindmost,
+/// foremost].
+struct BeamSpread {
+  std::int64_t hindmost_ticks = 0, foremost_ticks = 0;
+};
+
 /// The azimuth of a beam: the frame it falls into, and the azimuth in that frame.
 struct BeamAzimuth {
   std::int64_t frame = 0;

@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/packet/hesai_wire.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
 
 namespace terracut::sensor {
@@ -74,6 +75,15 @@ SensorModel robosense_model(Bytes payload) noexcept {
   return by_80 ? SensorModel::kRubyLite : SensorModel::kOtherRoboSense;
 }
 
+SensorModel hesai_model(Bytes payload) noexcept {
+  const auto* const found = std::ranges::find_if(
+      hesai::kLayouts,
+      [&](const hesai::PacketLayout& layout) { return hesai::is_of(layout, payload); });
+  if (found != hesai::kLayouts.end()) return found->model;
+  return starts_with(payload, hesai::kPacketStart) ? SensorModel::kOtherHesai
+                                                   : SensorModel::kUnknown;
+}
+
 std::string_view velodyne_return_mode(std::uint8_t mode) noexcept {
   switch (mode) {
     case 0x37:
@@ -118,7 +128,7 @@ SensorModel recognise_sensor(Bytes payload) noexcept {
     const std::uint8_t first = payload[kSentenceAt];
     if (first == '$' || first == 0) return SensorModel::kVelodynePosition;
   }
-  return SensorModel::kUnknown;
+  return hesai_model(payload);
 }
 
 SensorModel recognise_sensor_as(std::optional<SensorModel> named, Bytes payload) noexcept {

@@ -37,4 +37,22 @@ TERRACUT_VECTOR_CLONES void split_returns(const std::uint8_t* bytes, ByteOrder o
   }
 }
 
+TERRACUT_VECTOR_CLONES void split_wide_returns(const std::uint8_t* bytes,
+                                               std::span<std::uint16_t> raw,
+                                               std::uint8_t* intensity) noexcept {
+  constexpr std::size_t kAtOnce = 4, kBytes = kAtOnce * 4;
+  using FourBytes = std::uint8_t __attribute__((vector_size(4)));
+  std::uint16_t* to = raw.data();
+  for (const std::uint16_t* const end = to + raw.size(); to < end;
+       to += kAtOnce, intensity += kAtOnce, bytes += kBytes) {
+    SixteenBytes returns;
+    std::memcpy(&returns, bytes, sizeof(returns));
+    const EightBytes distances =
+        __builtin_shufflevector(returns, returns, 0, 1, 4, 5, 8, 9, 12, 13);
+    const FourBytes strengths = __builtin_shufflevector(returns, returns, 2, 6, 10, 14);
+    std::memcpy(to, &distances, sizeof(distances));
+    std::memcpy(intensity, &strengths, sizeof(strengths));
+  }
+}
+
 }  // namespace terracut::packet

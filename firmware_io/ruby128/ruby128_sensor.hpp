@@ -10,7 +10,7 @@
 #include "calib/mount/mount.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
-#include "firmware_io/packet/beam_spread.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/firing_returns.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"

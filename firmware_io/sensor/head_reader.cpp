@@ -21,6 +21,9 @@ std::optional<frame::Reject> HeadReader::read(SensorModel model, const packet::D
   for (velodyne::PacketReader& reader : velodyne_.of_models) {
     if (reader.model() == model) return reader.read(datagram.payload, azimuths);
   }
+  for (hesai::PacketReader& reader : hesai_.of_models) {
+    if (reader.model() == model) return reader.read(datagram.payload, azimuths);
+  }
   const auto* packet = hdl64e::packet_in(datagram.payload);
   if (model == SensorModel::kHdl64eS1 && packet != nullptr) {
     return s1_.read(*packet, datagram.stamp_ns, azimuths);

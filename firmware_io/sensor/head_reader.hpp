@@ -8,6 +8,8 @@
 #include "calib/sensor/sensor_model.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
 #include "firmware_io/hdl64e/s1_reader.hpp"
+#include "firmware_io/hesai/models.hpp"
+#include "firmware_io/hesai/packet_reader.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
@@ -35,6 +37,12 @@ class HeadReader {
         velodyne::PacketReader(Model::kLayout, true)...};
   };
   velodyne::Models::In<VelodyneReaders> velodyne_;
+  template <class... Model>
+  struct HesaiReaders {
+    std::array<hesai::PacketReader, sizeof...(Model)> of_models{
+        hesai::PacketReader(Model::kLayout)...};
+  };
+  hesai::Models::In<HesaiReaders> hesai_;
 };
 
 }  // namespace terracut::sensor

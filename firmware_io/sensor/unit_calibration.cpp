@@ -9,6 +9,7 @@
 
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
+#include "calib/hesai/hesai_csv.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
@@ -125,8 +126,12 @@ Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& cho
                                                     const FromPackets& from_packets) {
   const bool ruby128 = model == SensorModel::kRuby128;
   if (choice.unit) return *choice.unit;
+  if (row_of(model).has_unit_tables) {  // a Hesai, whose packets do not hold its table
+    if (choice.file.empty()) return beams::built_in_table(model);
+    return hesai::read_hesai_csv(choice.file, model);
+  }
   if (has_factory_table(model)) {
-    if (choice.file.empty()) return velodyne::factory_table(model);
+    if (choice.file.empty()) return beams::built_in_table(model);
     return fail(ErrorCode::kUnsupported,
                 fmt::format("{}: the table of a {} is built in; leave --calibration away",
                             choice.file.string(), to_string(model)));

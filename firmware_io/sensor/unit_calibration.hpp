@@ -17,7 +17,7 @@ namespace terracut::sensor {
 struct CalibrationChoice {
   /// A calibration known already; must be of the model.
   std::optional<calib::SensorCalibration> unit{};
-  /// File of an HDL-64E (xml or yaml) or an RS-Ruby128 (csv); empty: none.
+  /// File of an HDL-64E (xml or yaml), an RS-Ruby128 or a Hesai (csv); empty: none.
   std::filesystem::path file{};
   bool allows_nominal = false;  ///< Allows the nominal table of an RS-Ruby128 as the last resort.
 
@@ -27,9 +27,9 @@ struct CalibrationChoice {
 /// Returns the calibration from the unit's packets, or why there is none and what to do.
 using FromPackets = std::function<Expected<calib::SensorCalibration>()>;
 
-/// Returns the unit's calibration: the first of choice.unit, the model's built-in table, the file,
-/// the packets, and the nominal table if allowed. `from_packets` is called only if the first three
-/// are missing; its error is returned if nothing is found.
+/// Returns the unit's calibration: the first of choice.unit, the model's factory table, the file,
+/// a Hesai's nominal table, the packets, and the nominal table if allowed. `from_packets` is called
+/// only if the first four are missing; its error is returned if nothing is found.
 [[nodiscard]] Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
                                                                   SensorModel model,
                                                                   const FromPackets& from_packets);

@@ -6,10 +6,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "calib/sensor/sensor_model.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/table/model_list.hpp"
 #include "firmware_io/velodyne/packet_layout.hpp"
 
 /// The models of Velodyne's family, and when each of their lasers fires (velodyne_sensor.hpp lists
@@ -29,8 +29,9 @@ struct Vlp16 {
   static constexpr int kLasers = 16, kChannels = 2 * kLasers;
   static constexpr PacketLayout kLayout{.model = kModel,
                                         .block_ids = {hdl64e::kUpperBlockId},
-                                        .column_ns = 2 * kFiring_ns,
+                                        .pace = {2 * kFiring_ns, 12, 6},
                                         .firing_ns = kFiring_ns};
+  static constexpr table::ColumnPace kPace = kLayout.pace;
   static constexpr int kDefaultColumns = 1808;  ///< 1808.4 firings a frame at 10 Hz.
 
   static constexpr std::size_t kGroups = kChannels;
@@ -52,8 +53,9 @@ struct Hdl32e {
   static constexpr int kLasers = 32, kChannels = kLasers;
   static constexpr PacketLayout kLayout{.model = kModel,
                                         .block_ids = {hdl64e::kUpperBlockId},
-                                        .column_ns = 46'080,
+                                        .pace = {46'080, 12, 6},
                                         .firing_ns = 46'080};
+  static constexpr table::ColumnPace kPace = kLayout.pace;
   static constexpr int kDefaultColumns = 2170;  ///< 2170.1 firings a frame at 10 Hz.
 
   static constexpr std::size_t kGroups = kChannels;
@@ -74,8 +76,9 @@ struct Vlp32c {
   static constexpr int kLasers = 32, kChannels = kLasers;
   static constexpr PacketLayout kLayout{.model = kModel,
                                         .block_ids = {hdl64e::kUpperBlockId},
-                                        .column_ns = 55'296,
+                                        .pace = {55'296, 12, 6},
                                         .firing_ns = 55'296};
+  static constexpr table::ColumnPace kPace = kLayout.pace;
   static constexpr int kDefaultColumns = 1808;  ///< 1808.4 firings a frame at 10 Hz.
 
   static constexpr std::size_t kGroups = kChannels / 2;
@@ -106,8 +109,9 @@ struct Vls128 {
                     hdl64e::kVls128FourthId},
       .blocks_per_column = 4,
       .columns_dual = 2,  // the last four blocks are empty
-      .column_ns = kSteps * kStep_ns,
+      .pace = {kSteps * kStep_ns, 3, 1},
       .firing_ns = kSteps * kStep_ns};
+  static constexpr table::ColumnPace kPace = kLayout.pace;
   static constexpr int kDefaultColumns = 1809;  ///< 1809.6 firings a frame at 10 Hz.
 
   static constexpr std::size_t kGroups = 16;
@@ -120,30 +124,8 @@ struct Vls128 {
   }
 };
 
-/// A list of models.
-template <class First, class... Rest>
-struct ModelList {
-  static constexpr std::array<PacketLayout, 1 + sizeof...(Rest)> kLayouts{First::kLayout,
-                                                                          Rest::kLayout...};
-  /// `Template` with the models of the list as arguments.
-  template <template <class...> class Template>
-  using In = Template<First, Rest...>;
-
-  /// Calls `use` with the std::type_identity of the given model and returns the result. For a model
-  /// not in the list, calls it with the list's last model.
-  template <class Use>
-  static decltype(auto) with(sensor::SensorModel model, const Use& use) {
-    if constexpr (sizeof...(Rest) == 0) {
-      return use(std::type_identity<First>{});
-    } else {
-      if (model == First::kModel) return use(std::type_identity<First>{});
-      return ModelList<Rest...>::with(model, use);
-    }
-  }
-};
-
 /// All models above, for code that folds over models.
-using Models = ModelList<Vlp16, Hdl32e, Vlp32c, Vls128>;
+using Models = table::ModelList<Vlp16, Hdl32e, Vlp32c, Vls128>;
 /// A macro for code that needs the preprocessor: expands to DO(Template<model>) for each model
 /// above.
 #define TERRACUT_FOR_VELODYNE_MODELS(DO, Template) \

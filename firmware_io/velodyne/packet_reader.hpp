@@ -8,6 +8,7 @@
 
 #include "firmware_io/frame/loss_counters.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/table/head_steps.hpp"
 #include "firmware_io/velodyne/packet_layout.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -20,11 +21,7 @@ namespace terracut::velodyne {
 ///   kWrongSize          not 1206 bytes
 ///   kWrongMagic         other block ids, or a return mode other than strongest, last and dual
 ///   kAzimuthOutOfRange, kAzimuthMismatch (of a firing's blocks, or of a pair in dual return)
-///   kAzimuthJump        steps beyond those of packet_layout.hpp. A packet begun before the head
-///                       left a limited field of view continues when it is back: one such step
-///                       is accepted (PacketAzimuths::behind_sector) once the rate is known; the
-///                       caller must know whether there is such a sector
-///   kStationary
+///   kAzimuthJump, kStationary (table::HeadSteps)
 ///
 /// `azimuths` holds stamp and azimuths for the azimuth reasons and kStationary, too. One stream,
 /// one thread; real-time safe.
@@ -34,7 +31,7 @@ class PacketReader {
   /// then counts as the model's (sensor::recognise_sensor_as()), and its return mode is found from
   /// its azimuths.
   explicit PacketReader(const PacketLayout& layout, bool is_named = false) noexcept
-      : layout_(layout), is_named_(is_named) {}
+      : layout_(layout), is_named_(is_named), steps_(layout.pace, kClockWrap_us) {}
 
   [[nodiscard]] sensor::SensorModel model() const noexcept { return layout_.model; }
 
@@ -48,20 +45,10 @@ class PacketReader {
   /// True for dual return; nothing for an unknown return mode.
   [[nodiscard]] std::optional<bool> dual_return_of(
       const hdl64e::wire::Packet& packet) const noexcept;
-  [[nodiscard]] std::optional<frame::Reject> judge_steps(packet::PacketAzimuths& azimuths) noexcept;
-  [[nodiscard]] std::int32_t step_of(const packet::PacketAzimuths& azimuths,
-                                     std::int32_t advance_cdeg) noexcept;
-  void complete(packet::PacketAzimuths& azimuths) const noexcept;
 
   PacketLayout layout_;
   bool is_named_;
-  std::int32_t step_ticks_ = 0;  ///< Step of the last packet that had one; 0: none yet.
-  bool is_step_guessed_ = false;
-  struct {
-    std::int64_t stamp_us = 0;
-    std::int32_t azimuth_cdeg = 0;
-    bool is_known = false;
-  } last_;  ///< The packet before.
+  table::HeadSteps steps_;
 };
 
 }  // namespace terracut::velodyne

@@ -38,7 +38,7 @@ void put_little(Bytes& bytes, std::uint32_t value) {
 
 /// A data packet of a VLP-16 that rotates ten times a second.
 Bytes packet_of(std::int64_t number) {
-  constexpr std::int64_t kPeriod_ns = velodyne::Vlp16::kLayout.column_ns * 12;
+  constexpr std::int64_t kPeriod_ns = velodyne::Vlp16::kPace.column_ns * 12;
   hdl64e::wire::Packet packet{};
   packet.stamp_us =
       static_cast<std::uint32_t>(number * kPeriod_ns / 1000 % velodyne::kClockWrap_us);

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "any_velodyne.hpp"
-#include "calib/velodyne/velodyne_calibration.hpp"
+#include "calib/beams/beam_table.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "packet_sequence.hpp"
 
@@ -19,7 +19,7 @@ using namespace terracut;
 template <class Model>
 struct Velodyne {
   using Decoder = decode::Decoder;
-  using Calibration = velodyne::VelodyneCalibration;
+  using Calibration = beams::BeamTable;
   struct Column {
     struct Beam {
       std::uint16_t raw;
@@ -32,8 +32,8 @@ struct Velodyne {
   static constexpr int kColumns = Model::kLayout.columns(false);
   static constexpr std::size_t kReturnsAColumn = 6;
 
-  static Calibration calibration() { return velodyne::factory_table(Model::kModel); }
-  static std::int64_t firing_ns(bool) { return Model::kLayout.column_ns; }
+  static Calibration calibration() { return beams::built_in_table(Model::kModel); }
+  static std::int64_t firing_ns(bool) { return Model::kPace.column_ns; }
   static Bytes encode(const std::array<Column, kColumns>& columns, std::int64_t first_reading,
                       bool dual, int encoding) {
     (void)first_reading, (void)encoding;  // have no place in its packets

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "calib/beams/angle.hpp"
+#include "calib/beams/beam_table.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
-#include "calib/velodyne/velodyne_calibration.hpp"
 
 namespace terracut::beams {
 namespace {
@@ -45,7 +45,7 @@ TEST(StraightGeometry, FollowsExamplesComputedByHand) {
   // The lens at 30 deg: x = 4.330127 + 0.031307, y = -(7.5 + 0.018075).
   EXPECT_LT(distance_m(of_ruby(ruby).point(9, deg_to_rad(30), 2000), {4.361434, -7.518075, -5}),
             1e-6);
-  const velodyne::VelodyneCalibration velodyne{
+  const beams::BeamTable velodyne{
       sensor::SensorModel::kVlp16, {{deg_to_rad(-30), deg_to_rad(30), 0.1}}, "by hand"};
   EXPECT_LT(distance_m(StraightGeometry(velodyne.lasers, 0.004).point(0, deg_to_rad(30), 2500),
                        {4.330127, -7.5, -4.9}),
@@ -66,8 +66,7 @@ TEST(StraightGeometry, AgreesWithTheMakersFormulaEverywhere) {
 }
 
 TEST(StraightGeometry, LasersBeyondTheTableAreThemAgain) {
-  const StraightGeometry geometry(velodyne::factory_table(sensor::SensorModel::kVlp16).lasers,
-                                  0.002);
+  const StraightGeometry geometry(beams::built_in_table(sensor::SensorModel::kVlp16).lasers, 0.002);
   for (int laser = 0; laser < 16; ++laser) {
     EXPECT_EQ(geometry.point(laser, 1.0, 4000).z_m, geometry.point(laser + 16, 1.0, 4000).z_m);
   }
@@ -87,7 +86,7 @@ TEST(StraightGeometry, RayHoldsEveryPoint) {
 }
 
 TEST(StraightGeometry, RawOnPlaneHitsThePlane) {
-  const auto vls128 = velodyne::factory_table(sensor::SensorModel::kVls128);
+  const auto vls128 = beams::built_in_table(sensor::SensorModel::kVls128);
   for (const StraightGeometry& geometry :
        {of_ruby(ruby128::nominal_ruby128()), StraightGeometry(vls128.lasers, 0.004)}) {
     std::mt19937 random(4);

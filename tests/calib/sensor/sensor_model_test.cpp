@@ -19,7 +19,7 @@ TEST(SensorTable, HasOneRowForEveryModelWithANameOfItsOwn) {
     models.insert(row.model);
     names.insert(row.name);
   }
-  EXPECT_EQ(models.size(), static_cast<std::size_t>(SensorModel::kRoboSenseDeviceInfo) + 1);
+  EXPECT_EQ(models.size(), static_cast<std::size_t>(SensorModel::kOtherHesai) + 1);
   EXPECT_EQ(names.size(), models.size());
 }
 
@@ -34,7 +34,14 @@ TEST(SensorTable, KeepsTheWordsAndTheNumbersOnTheWire) {
                                                  {"vlp16", 3},
                                                  {"hdl32e", 4},
                                                  {"vlp32c", 5},
-                                                 {"vls128", 6}}));
+                                                 {"vls128", 6},
+                                                 {"pandar40p", 7},
+                                                 {"pandar64", 8},
+                                                 {"pandarqt64", 9},
+                                                 {"pandarqt128", 10},
+                                                 {"pandarxt16", 11},
+                                                 {"pandarxt32", 12},
+                                                 {"pandarxt32m", 13}}));
 }
 
 TEST(SensorTable, TellsModelsApartByWordAndProductNumber) {

@@ -27,7 +27,7 @@ class Unit {
       : ahead_us_(ahead_us), ahead_cdeg_(ahead_cdeg), range_(range) {}
 
   std::vector<std::uint8_t> packet(int number) const {
-    constexpr std::int64_t kPeriod_ns = velodyne::Vlp16::kLayout.column_ns * 12;
+    constexpr std::int64_t kPeriod_ns = velodyne::Vlp16::kPace.column_ns * 12;
     hdl64e::wire::Packet packet{};
     const std::int64_t now_ns = number * kPeriod_ns;
     packet.stamp_us = static_cast<std::uint32_t>(1'000'000 + ahead_us_ + now_ns / 1000);

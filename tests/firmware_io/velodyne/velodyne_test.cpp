@@ -45,8 +45,8 @@ double unwrap_by_time(const std::vector<Payload>& payloads, const Payload& paylo
 }
 
 /// Packets that the reference refuses must be refused, unless a known blind sector lies in them.
-Both decode_both(const std::vector<Payload>& payloads, const velodyne::VelodyneCalibration& table,
-                 int columns, std::optional<double> spin_hz = std::nullopt) {
+Both decode_both(const std::vector<Payload>& payloads, const beams::BeamTable& table, int columns,
+                 std::optional<double> spin_hz = std::nullopt) {
   const mount::Mount mount{.height_m = 1.9, .roll_rad = -0.02, .pitch_rad = 0.04};
   std::vector<double> elevations;
   for (const auto& laser : table.lasers) elevations.push_back(laser.elevation_rad);
@@ -198,7 +198,7 @@ TYPED_TEST(VelodyneStream, IsDecodedWithoutAllocating) {
     std::swap(payloads[300], payloads[301]);
     TypeParam::set_azimuth(payloads[400].bytes, 0, 36'000);
     memory::FixedMemory memory;
-    decode::Decoder decoder(velodyne::factory_table(TypeParam::sheet().model), {}, {}, memory);
+    decode::Decoder decoder(beams::built_in_table(TypeParam::sheet().model), {}, {}, memory);
     std::uint64_t returns = 0;
     const auto on_frame = [&](const frame::FrameInfo& info,
                               const frame::MeasuredReturns&) noexcept { returns += info.returns; };
@@ -235,7 +235,7 @@ TYPED_TEST(VelodyneStream, IsFoundByItselfWithItsTable) {
     EXPECT_EQ(found->dual_return, dual_return);
     EXPECT_NEAR(found->columns, 1e5 / TypeParam::firing_us(dual_return), 1);
     EXPECT_EQ(calib::fingerprint(found->calibration),
-              fingerprint(velodyne::factory_table(TypeParam::sheet().model)));
+              fingerprint(beams::built_in_table(TypeParam::sheet().model)));
   }
 }
 
@@ -266,7 +266,7 @@ TEST_P(RealVelodyne, EqualsAPlainSlowDecoderAndLosesNothing) {
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   const auto payloads = read_payloads(path);
   ASSERT_EQ(payloads.size(), GetParam().packets);
-  const Both both = decode_both(payloads, velodyne::factory_table(GetParam().model), 1808);
+  const Both both = decode_both(payloads, beams::built_in_table(GetParam().model), 1808);
   EXPECT_EQ(both.difference, "");
   EXPECT_EQ(both.returns, GetParam().returns);
   EXPECT_EQ(both.decoded, GetParam().packets);
@@ -298,7 +298,7 @@ TEST(RealVlp32c, IsDecodedOnBothSidesOfItsBlindSector) {
   const auto payloads = read_payloads(path);
   ASSERT_EQ(payloads.size(), 379U);
   const Both both =
-      decode_both(payloads, velodyne::factory_table(sensor::SensorModel::kVlp32c), 1808, 10.0);
+      decode_both(payloads, beams::built_in_table(sensor::SensorModel::kVlp32c), 1808, 10.0);
   EXPECT_EQ(both.difference, "");
   EXPECT_EQ(both.returns, 130'312U);
   // Its head goes out of view at 90 degrees five times, each time in the middle of a packet; three

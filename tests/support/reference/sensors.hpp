@@ -12,6 +12,7 @@
 #include "firmware_io/hdl64e/packet_check.hpp"
 #include "firmware_io/ruby128/packet_check.hpp"
 #include "hdl64e_reference.hpp"
+#include "hesai_reference.hpp"
 #include "rotating_head.hpp"
 #include "ruby128_reference.hpp"
 #include "velodyne_reference.hpp"
@@ -92,7 +93,7 @@ struct Ruby128 {
 template <class Model>
 struct Velodyne {
   using Decoder = decode::Decoder;
-  using Calibration = velodyne::VelodyneCalibration;
+  using Calibration = beams::BeamTable;
   using Reference = VelodyneReference;
   static constexpr int kLasers = Model::kLasers;
   static constexpr int kColumns = Model::kLayout.columns(false) * Model::kChannels / kLasers;
@@ -101,10 +102,10 @@ struct Velodyne {
   static const VelodyneSheet& sheet() { return sheet_of(Model::kModel); }
   static double firing_us(bool) { return sheet().firing_us; }
   static double firings_per_packet(bool dual_return) {
-    return dual_return ? layout().firings(true) * sheet().firings_a_block : kColumns;
+    return dual_return ? layout().pace.firings(true) * sheet().firings_a_block : kColumns;
   }
   static Calibration random_unit(std::mt19937& random) {
-    return random_velodyne(Model::kModel, random);
+    return random_table(Model::kModel, random);
   }
   static std::vector<double> elevations(const Calibration& calibration) {
     std::vector<double> elevations;
@@ -134,6 +135,44 @@ struct Velodyne {
 using Hdl32e = Velodyne<velodyne::Hdl32e>;
 using Vlp32c = Velodyne<velodyne::Vlp32c>;
 using Vls128 = Velodyne<velodyne::Vls128>;
+
+/// Of Hesai's models.
+template <class Model>
+struct Hesai {
+  using Decoder = decode::Decoder;
+  using Calibration = beams::BeamTable;
+  using Reference = HesaiReference;
+  static constexpr int kLasers = Model::kLasers, kColumns = Model::kLayout.blocks;
+  static constexpr int kFirstBlock = static_cast<int>(Model::kLayout.header_bytes);
+  static constexpr int kBlockBytes = static_cast<int>(Model::kLayout.block_at(1)) - kFirstBlock;
+  static constexpr int kBlocks = Model::kLayout.blocks;
+
+  static const HesaiSheet& sheet() { return hesai_sheet_of(Model::kModel); }
+  static double firing_us(bool) { return sheet().block_us; }
+  static double firings_per_packet(bool dual_return) {
+    return static_cast<double>(sheet().blocks) / (dual_return ? 2 : 1);
+  }
+  static Calibration random_unit(std::mt19937& random) {
+    return random_table(Model::kModel, random);
+  }
+  static std::vector<double> elevations(const Calibration& calibration) {
+    return Velodyne<velodyne::Vlp16>::elevations(calibration);
+  }
+  static std::vector<Payload> payloads(const RotatingHead& head) {
+    return hesai_payloads(sheet(), head);
+  }
+  static void set_azimuth(PayloadBytes& payload, int column, unsigned cdeg) {
+    set_hesai_azimuth(sheet(), payload, column, cdeg);
+  }
+  static void set_return(PayloadBytes& payload, int column, int laser, unsigned raw,
+                         unsigned intensity) {
+    set_hesai_return(sheet(), payload, column, laser, raw, intensity);
+  }
+  static void set_clock(PayloadBytes& payload, std::int64_t time_ns) {
+    set_hesai_clock(sheet(), payload, time_ns);
+  }
+  static void reset(Reference&) {}
+};
 
 /// Takes the returns off whose beam is so near a seam that it may be of either frame.
 template <class Sensor>

@@ -175,7 +175,7 @@ Packet VelodyneReference::decode(std::span<const std::uint8_t> payload, bool acr
           column % sheet_.firings_a_block * sheet_.firing_us + sheet_.fired_us(laser);
       beam.fired_us = reading / (packet.dual_return ? 2 : 1) * column_us + since_us;
       beam.rotor_deg = reading_deg + packet.step_deg * since_us / column_us;
-      const velodyne::VelodyneLaser& unit = table_.lasers[static_cast<std::size_t>(laser)];
+      const beams::TableBeam& unit = table_.lasers[static_cast<std::size_t>(laser)];
       beam.beam_deg = beam.rotor_deg + unit.azimuth_offset_rad / kRadPerDeg;
       const double azimuth = beam.beam_deg * kRadPerDeg;
       const double d = beam.raw_distance * sheet_.metres_per_count;
@@ -243,13 +243,13 @@ void set_velodyne_clock(Bytes& payload, std::int64_t time_ns) {
   put(payload, 1200, static_cast<std::uint64_t>(time_ns / 1'000 % 3'600'000'000), 4);
 }
 
-velodyne::VelodyneCalibration random_velodyne(sensor::SensorModel model, std::mt19937& random) {
+beams::BeamTable random_table(sensor::SensorModel model, std::mt19937& random) {
   const auto off = [&](double most) {
     return std::uniform_real_distribution<double>(-most, most)(random);
   };
-  velodyne::VelodyneCalibration table = velodyne::factory_table(model);
+  beams::BeamTable table = beams::built_in_table(model);
   table.origin = "any unit";
-  for (velodyne::VelodyneLaser& laser : table.lasers) {
+  for (beams::TableBeam& laser : table.lasers) {
     laser.elevation_rad += off(0.02) * kRadPerDeg;
     laser.azimuth_offset_rad += off(1) * kRadPerDeg;
     laser.vert_offset_m += off(0.01);

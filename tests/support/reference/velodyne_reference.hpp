@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "calib/velodyne/velodyne_calibration.hpp"
+#include "calib/beams/beam_table.hpp"
 #include "reference_return.hpp"
 #include "rotating_head.hpp"
 
@@ -42,7 +42,7 @@ struct VelodyneSheet {
 /// else the last step, else that at 10 turns a second.
 class VelodyneReference {
  public:
-  explicit VelodyneReference(const velodyne::VelodyneCalibration& table)
+  explicit VelodyneReference(const beams::BeamTable& table)
       : table_(table), sheet_(sheet_of(table.model)) {}
 
   /// `column` of a return is its firing in the packet; in dual return those of both blocks count.
@@ -50,7 +50,7 @@ class VelodyneReference {
   [[nodiscard]] Packet decode(std::span<const std::uint8_t> payload, bool across_sector = false);
 
  private:
-  velodyne::VelodyneCalibration table_;
+  beams::BeamTable table_;
   VelodyneSheet sheet_;
   double last_step_deg_ = 0, last_us_ = -1;
   int last_cdeg_ = 0;
@@ -67,7 +67,6 @@ void set_velodyne_return(const VelodyneSheet& sheet, std::vector<std::uint8_t>& 
 void set_velodyne_clock(std::vector<std::uint8_t>& payload, std::int64_t time_ns);
 
 /// Any unit about the model's table.
-[[nodiscard]] velodyne::VelodyneCalibration random_velodyne(sensor::SensorModel model,
-                                                            std::mt19937& random);
+[[nodiscard]] beams::BeamTable random_table(sensor::SensorModel model, std::mt19937& random);
 
 }  // namespace terracut::reference

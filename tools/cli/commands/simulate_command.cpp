@@ -44,9 +44,9 @@ Ruby128EncoderTraits::Config sensor_config(const Options& options, Ruby128Encode
   config.unit.serial = {'S', 'I', 'M', 'U', 'L', 'A'};  // obviously not a real unit's serial number
   return config;
 }
-template <class Model>
-typename packets::VelodyneEncoderTraits<Model>::Config sensor_config(
-    const Options& options, packets::VelodyneEncoderTraits<Model>) {
+template <class Model, class Sender>
+typename packets::TableEncoderTraits<Model, Sender>::Config sensor_config(
+    const Options& options, packets::TableEncoderTraits<Model, Sender>) {
   return {.returns = options.simulate.returns};
 }
 

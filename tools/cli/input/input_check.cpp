@@ -3,6 +3,7 @@
 #include "input_check.hpp"
 
 #include "calib/hdl64e/hdl64e_file.hpp"
+#include "calib/hesai/hesai_csv.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "firmware_io/vehicle/dbc_file.hpp"
@@ -19,14 +20,17 @@ Status status_of(const Expected<Calibration>& read) {
 Status check_calibration(const CaptureOptions& capture) {
   const std::filesystem::path& file = capture.calibration;
   if (file.empty()) return {};
-  if (capture.sensor && sensor::has_factory_table(*capture.sensor)) {
+  if (capture.sensor && sensor::has_built_in_table(*capture.sensor)) {
     return status_of(sensor::unit_calibration({{}, file, false}, *capture.sensor, {}));
   }
   const auto hdl64e = [&] { return status_of(hdl64e::load_hdl64e_calibration(file)); };
   const auto ruby128 = [&] { return status_of(ruby128::read_ruby128_csv(file)); };
   if (capture.sensor == sensor::SensorModel::kHdl64e) return hdl64e();
-  if (capture.sensor == sensor::SensorModel::kRuby128 || file.extension() == ".csv")
-    return ruby128();
+  if (capture.sensor == sensor::SensorModel::kRuby128) return ruby128();
+  if (file.extension() == ".csv") {
+    const Status of_hesai = status_of(hesai::read_hesai_csv(file));
+    return of_hesai ? Status{} : ruby128();
+  }
   const Status of_hdl64e = hdl64e();
   return of_hdl64e || ruby128() ? Status{} : of_hdl64e;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "calib/hesai/hesai_csv.hpp"
 #include "rt/caught.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/lab/packets/hdl64e_encoder_traits.hpp"
@@ -84,8 +85,10 @@ void DumpWriter::work() {
 void DumpWriter::add_table(recorder::DumpReport& dump) const {
   const Status written = std::visit(
       [&]<class Calibration>(const Calibration& unit) -> Status {
-        if constexpr (std::is_same_v<Calibration, velodyne::VelodyneCalibration>) {
-          return {};  // nothing to write: the table is built in
+        if constexpr (std::is_same_v<Calibration, beams::BeamTable>) {
+          if (sensor::has_factory_table(unit.model)) return {};  // the decoder has it, too
+          dump.calibration = recorder::dump_calibration_path(dump.capture, ".calibration.csv");
+          return hesai::write_hesai_csv(dump.calibration, unit);
         } else {
           using EncoderTraits = EncoderTraitsOf<Calibration>;
           dump.calibration =

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "calib/hdl64e/hdl64e_file.hpp"
+#include "calib/hesai/hesai_csv.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 
 namespace terracut::cli {
@@ -21,9 +22,10 @@ Expected<ruby128::Ruby128Calibration> made_calibration(const CaptureOptions& opt
   return ruby128::read_ruby128_csv(options.calibration);
 }
 
-Expected<velodyne::VelodyneCalibration> made_calibration(const CaptureOptions& options,
-                                                         sensor::SensorModel model) {
-  if (options.calibration.empty()) return velodyne::factory_table(model);
+Expected<beams::BeamTable> made_calibration(const CaptureOptions& options,
+                                            sensor::SensorModel model) {
+  if (options.calibration.empty()) return beams::built_in_table(model);
+  if (!sensor::has_factory_table(model)) return hesai::read_hesai_csv(options.calibration, model);
   return fail(ErrorCode::kInvalidArgument,
               fmt::format("{}: the table of a {} is built in; leave --calibration away",
                           options.calibration.string(), to_string(model)));

@@ -7,18 +7,18 @@
 
 /// Returns the table of the unit whose packets are to be made: that of --calibration, otherwise the
 /// nominal one. Fails with the errors of the file; kInvalidArgument if a file is given for a sensor
-/// with a built-in table.
+/// with a factory table.
 namespace terracut::cli {
 
 [[nodiscard]] Expected<hdl64e::Hdl64eCalibration> made_calibration(const CaptureOptions& options,
                                                                    packets::Hdl64eEncoderTraits);
 [[nodiscard]] Expected<ruby128::Ruby128Calibration> made_calibration(const CaptureOptions& options,
                                                                      packets::Ruby128EncoderTraits);
-[[nodiscard]] Expected<velodyne::VelodyneCalibration> made_calibration(
-    const CaptureOptions& options, sensor::SensorModel model);
-template <class Model>
-[[nodiscard]] Expected<velodyne::VelodyneCalibration> made_calibration(
-    const CaptureOptions& options, packets::VelodyneEncoderTraits<Model>) {
+[[nodiscard]] Expected<beams::BeamTable> made_calibration(const CaptureOptions& options,
+                                                          sensor::SensorModel model);
+template <class Model, class Sender>
+[[nodiscard]] Expected<beams::BeamTable> made_calibration(
+    const CaptureOptions& options, packets::TableEncoderTraits<Model, Sender>) {
   return made_calibration(options, Model::kModel);
 }
 

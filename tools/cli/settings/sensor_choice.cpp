@@ -77,7 +77,7 @@ Expected<SensorChoice> choose_sensor(const CaptureOptions& options, capture::Pca
   if (sensors.empty() && heard.broke_off) return tl::unexpected(*heard.broke_off);
   if (sensors.empty()) {
     const std::string expected = options.sensor ? fmt::format("a {}", to_string(*options.sensor))
-                                                : "a Velodyne or RS-Ruby128";
+                                                : "a Velodyne, RS-Ruby128 or Hesai";
     return fail(ErrorCode::kUnsupported,
                 fmt::format("{}: expected data packets of {}, found none: {}", source.name(),
                             expected, found_instead(options, heard.senders, source)));

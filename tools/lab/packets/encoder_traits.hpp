@@ -6,11 +6,12 @@
 #include <type_traits>
 
 #include "calib/sensor/sensor_model.hpp"
+#include "firmware_io/hesai/models.hpp"
 #include "firmware_io/velodyne/models.hpp"
 #include "tools/lab/packets/hdl64e_encoder_traits.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 #include "tools/lab/packets/ruby128_encoder_traits.hpp"
-#include "tools/lab/packets/velodyne_encoder_traits.hpp"
+#include "tools/lab/packets/table_encoder_traits.hpp"
 
 /// An `EncoderTraits` describes a sensor to the makers of packets (DriveWriter, the simulator), as
 /// `Sensor` does to a decoder. Templates are instantiated for those in TERRACUT_FOR_ENCODER_TRAITS.
@@ -39,10 +40,11 @@
 ///   capture (tools/lab/packets/hdl64e_packet_sender.hpp).
 
 /// Expands INSTANTIATE(EncoderTraits) for each sensor whose packets are made.
-#define TERRACUT_FOR_ENCODER_TRAITS(INSTANTIATE)       \
-  INSTANTIATE(terracut::packets::Hdl64eEncoderTraits)  \
-  INSTANTIATE(terracut::packets::Ruby128EncoderTraits) \
-  TERRACUT_FOR_VELODYNE_MODELS(INSTANTIATE, terracut::packets::VelodyneEncoderTraits)
+#define TERRACUT_FOR_ENCODER_TRAITS(INSTANTIATE)                                      \
+  INSTANTIATE(terracut::packets::Hdl64eEncoderTraits)                                 \
+  INSTANTIATE(terracut::packets::Ruby128EncoderTraits)                                \
+  TERRACUT_FOR_VELODYNE_MODELS(INSTANTIATE, terracut::packets::VelodyneEncoderTraits) \
+  TERRACUT_FOR_HESAI_MODELS(INSTANTIATE, terracut::packets::HesaiEncoderTraits)
 
 namespace terracut::packets {
 
@@ -57,7 +59,12 @@ template <class EncoderTraits>
 /// packets cannot be made.
 template <class Work>
 decltype(auto) with_encoder_traits(sensor::SensorModel model, const Work& work) {
-  if (velodyne::layout_of(model) != nullptr) {
+  if (hesai::Models::has(model)) {
+    return hesai::Models::with(model, [&]<class Model>(std::type_identity<Model>) {
+      return work(HesaiEncoderTraits<Model>{});
+    });
+  }
+  if (velodyne::Models::has(model)) {
     return velodyne::Models::with(model, [&]<class Model>(std::type_identity<Model>) {
       return work(VelodyneEncoderTraits<Model>{});
     });

@@ -42,7 +42,7 @@ class VelodynePacketSender {
       }
     }
     return capture.write({.payload = hdl64e::payload_of(packet),
-                          .stamp_ns = columns.back().stamp_ns + Model::kLayout.column_ns,
+                          .stamp_ns = columns.back().stamp_ns + Model::kPace.column_ns,
                           .source_address = 0xC0A801C9,       // 192.168.1.201
                           .destination_address = 0xFFFFFFFF,  // broadcast
                           .source_port = hdl64e::kHdl64eDataPort,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "firmware_io/hesai/models.hpp"
+#include "firmware_io/hesai/stamp.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/packet/sensor_recognition.hpp"
@@ -56,6 +58,12 @@ bool DeviceStampShift::operator()(std::span<std::uint8_t> payload, std::int64_t 
     if (packet == nullptr) return false;
     const ruby128::RubyTimestamp encoding = ruby_encoding_.add(packet->stamp);
     if (shift_ns != 0) shift_ruby128(payload, *packet, encoding, shift_ns);
+    return true;
+  }
+  if (hesai::Models::has(model)) {
+    const hesai::PacketLayout& layout = hesai::layout_of(model);
+    const std::int64_t stamp_us = hesai::read_stamp_us(layout, payload) + rounded_us(shift_ns);
+    hesai::write_stamp_us(layout, stamp_us, payload);
     return true;
   }
   return false;

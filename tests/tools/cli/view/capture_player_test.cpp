@@ -18,7 +18,7 @@
 #include "tools/cli/view/played_capture.hpp"
 #include "tools/cli/view/played_clouds.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
-#include "tools/lab/packets/velodyne_encoder_traits.hpp"
+#include "tools/lab/packets/table_encoder_traits.hpp"
 #include "tools/lab/simulator/drive.hpp"
 
 namespace terracut::cli {

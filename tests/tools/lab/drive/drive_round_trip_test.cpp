@@ -127,7 +127,10 @@ class DriveRoundTrip : public terracut::test::InScratchFolder {
 
 template <class... VelodyneModel>
 using SensorsWith = testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits,
-                                   packets::VelodyneEncoderTraits<VelodyneModel>...>;
+                                   packets::VelodyneEncoderTraits<VelodyneModel>...,
+                                   packets::HesaiEncoderTraits<hesai::Pandar40p>,
+                                   packets::HesaiEncoderTraits<hesai::PandarQt128>,
+                                   packets::HesaiEncoderTraits<hesai::PandarXt32m>>;
 using Sensors = velodyne::Models::In<SensorsWith>;
 TYPED_TEST_SUITE(DriveRoundTrip, Sensors);
 

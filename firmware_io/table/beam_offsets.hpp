@@ -8,18 +8,18 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "calib/velodyne/velodyne_calibration.hpp"
+#include "calib/beams/beam_table.hpp"
 #include "firmware_io/packet/beam_azimuth.hpp"
-#include "firmware_io/velodyne/packet_layout.hpp"
+#include "firmware_io/table/column_pace.hpp"
 
-namespace terracut::velodyne {
+namespace terracut::table {
 
 /// The azimuth offsets of a model's beams from their column, by channel, in whole numbers
 /// (firmware_io/packet/beam_azimuth.hpp), for decoder and encoder. Allocation-free.
 template <class Model>
 class BeamOffsets {
  public:
-  explicit BeamOffsets(const VelodyneCalibration& calibration) noexcept {
+  explicit BeamOffsets(const beams::BeamTable& calibration) noexcept {
     for (std::size_t channel = 0; channel < ticks_.size(); ++channel) {
       const double offset_rad = calibration.lasers[channel % Model::kLasers].azimuth_offset_rad;
       ticks_[channel] = static_cast<std::int32_t>(std::lround(offset_rad / packet::kRadPerTick));
@@ -50,4 +50,4 @@ class BeamOffsets {
   std::int32_t least_ticks_ = 0, most_ticks_ = 0;
 };
 
-}  // namespace terracut::velodyne
+}  // namespace terracut::table

@@ -7,18 +7,18 @@
 #include <set>
 
 #include "calib/beams/angle.hpp"
+#include "calib/beams/beam_table.hpp"
 #include "calib/mount/ring_profile.hpp"
-#include "calib/velodyne/velodyne_calibration.hpp"
 
-namespace terracut::velodyne {
+namespace terracut::beams {
 namespace {
 
-double elevation_deg(const VelodyneCalibration& table, std::size_t laser) {
+double elevation_deg(const BeamTable& table, std::size_t laser) {
   return beams::rad_to_deg(table.lasers[laser].elevation_rad);
 }
 
 TEST(FactoryTables, TheVlp16sLasersAreTwoDegreesApartInTwoCombs) {
-  const auto table = factory_table(sensor::SensorModel::kVlp16);
+  const auto table = built_in_table(sensor::SensorModel::kVlp16);
   for (std::size_t laser = 0; laser < 16; ++laser) {
     const auto number = static_cast<double>(laser);
     EXPECT_NEAR(elevation_deg(table, laser), laser % 2 == 0 ? number - 15 : number, 1e-9);
@@ -29,7 +29,7 @@ TEST(FactoryTables, TheVlp16sLasersAreTwoDegreesApartInTwoCombs) {
 }
 
 TEST(FactoryTables, TheHdl32esLasersAreFourThirdsOfADegreeApart) {
-  const auto table = factory_table(sensor::SensorModel::kHdl32e);
+  const auto table = built_in_table(sensor::SensorModel::kHdl32e);
   for (std::size_t laser = 0; laser < 32; ++laser) {
     const double first_deg = laser % 2 == 0 ? -92.0 / 3 : -28.0 / 3;
     EXPECT_NEAR(elevation_deg(table, laser), first_deg + 4.0 / 3 * static_cast<double>(laser / 2),
@@ -39,7 +39,7 @@ TEST(FactoryTables, TheHdl32esLasersAreFourThirdsOfADegreeApart) {
 }
 
 TEST(FactoryTables, TheVls128sBeamsFanOutEightBySide) {
-  const auto table = factory_table(sensor::SensorModel::kVls128);
+  const auto table = built_in_table(sensor::SensorModel::kVls128);
   for (std::size_t laser = 0; laser < 128; ++laser) {
     EXPECT_NEAR(beams::rad_to_deg(table.lasers[laser].azimuth_offset_rad),
                 beams::rad_to_deg(table.lasers[laser % 8].azimuth_offset_rad), 1e-9);
@@ -55,7 +55,7 @@ TEST(FactoryTables, HaveARowAndAFingerprintOfTheirOwn) {
     if (model.lasers.empty()) continue;
     ++models;
     SCOPED_TRACE(model.name);
-    const auto table = factory_table(model.model);
+    const auto table = built_in_table(model.model);
     ASSERT_EQ(table.lasers.size(), model.lasers.size());
     EXPECT_THAT(table.origin, testing::HasSubstr(std::string(model.name)));
     fingerprints.insert(fingerprint(table));
@@ -74,19 +74,19 @@ TEST(FactoryTables, HaveARowAndAFingerprintOfTheirOwn) {
 
 TEST(FactoryTables, ARingLiesWhereItsBeamMeetsTheGround) {
   const auto profile =
-      mount::ring_profile(factory_table(sensor::SensorModel::kVlp16), {.height_m = 1.5});
+      mount::ring_profile(built_in_table(sensor::SensorModel::kVlp16), {.height_m = 1.5});
   EXPECT_NEAR(profile.rings[0].ground_distance_m,
               (1.5 + 0.0112) / std::tan(beams::deg_to_rad(15.0)), 1e-9);
   EXPECT_TRUE(std::isinf(profile.rings[8].ground_distance_m));  // one degree up
 }
 
 TEST(VelodyneTable, WithOtherThanItsModelsLasersIsRefused) {
-  EXPECT_TRUE(validate(factory_table(sensor::SensorModel::kVls128)));
+  EXPECT_TRUE(validate(built_in_table(sensor::SensorModel::kVls128)));
   EXPECT_FALSE(validate({sensor::SensorModel::kVlp16, {{}}, "by hand"}));
-  VelodyneCalibration broken = factory_table(sensor::SensorModel::kVlp16);
+  BeamTable broken = built_in_table(sensor::SensorModel::kVlp16);
   broken.lasers[3].elevation_rad = std::nan("");
   EXPECT_FALSE(validate(broken));
 }
 
 }  // namespace
-}  // namespace terracut::velodyne
+}  // namespace terracut::beams

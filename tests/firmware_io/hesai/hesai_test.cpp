@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Hesai's sensors: streams made here beside a plain decoder written from the manuals, and real
+// captures beside nebula's decode of a scan of each (data not part of the project; skipped where
+// absent).
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <unordered_map>
+
+#include "calib/hesai/hesai_csv.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/streams/first_seconds.hpp"
+#include "tests/support/allocation_counter.hpp"
+#include "tests/support/hand_out.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/reference/agreement.hpp"
+#include "tests/support/reference/sensors.hpp"
+
+namespace terracut::reference {
+namespace {
+
+/// What both decoders make of a stream.
+struct Both {
+  std::string difference;
+  frame::LossCounters losses;
+  std::vector<frame::FrameInfo> frames;
+  std::uint64_t decoded = 0;
+  bool dual_return = false;
+};
+
+Both decode_both(const std::vector<Payload>& payloads, const beams::BeamTable& table, int columns) {
+  const mount::Mount mount{.height_m = 1.9, .roll_rad = -0.02, .pitch_rad = 0.04};
+  HesaiReference reference(table);
+  ExpectedFrames expected(Velodyne<velodyne::Vlp16>::elevations(table), mount, columns);
+  Frames frames;
+  memory::FixedMemory memory;
+  decode::Decoder::Config config;
+  config.columns = columns;
+  config.returns_per_cell = 4;
+  decode::Decoder decoder(table, mount, config, memory);
+  HandedFrames handed;
+  Both both;
+  const auto keep = handed.keep();
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
+    both.frames.push_back(info);
+    keep(info, image);
+  };
+  for (const Payload& payload : payloads) {
+    const Packet plain = reference.decode(payload.bytes);
+    const auto reason = test::decode(
+        decoder, packet::Datagram{.payload = payload.bytes, .stamp_ns = payload.stamp_ns},
+        on_frame);
+    EXPECT_EQ(reason.has_value(), plain.refusal != Refusal::kNone);
+    if (plain.refusal == Refusal::kNone) expected.add(plain, frames.unwrap(plain));
+  }
+  both.dual_return = decoder.dual_return();
+  test::end_stream(decoder, on_frame);
+  both.difference = first_difference(expected, handed, columns);
+  both.losses = decoder.losses();
+  both.decoded = decoder.packets_decoded();
+  return both;
+}
+
+template <class Sensor>
+class HesaiStream : public testing::Test {};
+template <class... Model>
+using SensorsOf = testing::Types<Hesai<Model>...>;
+using Sensors = hesai::Models::In<SensorsOf>;
+TYPED_TEST_SUITE(HesaiStream, Sensors);
+
+TYPED_TEST(HesaiStream, AgreesWithAPlainSlowDecoderAtEverySpinAndInEitherReturnMode) {
+  for (const bool dual_return : {false, true}) {
+    for (const double spin_hz : {5.0, 9.3, 10.0, 20.0}) {
+      SCOPED_TRACE(testing::Message() << spin_hz << " Hz, dual " << dual_return);
+      std::mt19937 random(7);
+      const auto unit = TypeParam::random_unit(random);
+      const double firings = 1e6 / TypeParam::firing_us(dual_return) / spin_hz;
+      RotatingHead head{.spin_hz = spin_hz, .dual_return = dual_return, .seed = 3};
+      head.packets = static_cast<int>(3.2 * firings / TypeParam::firings_per_packet(dual_return));
+      auto payloads = TypeParam::payloads(head);
+      HesaiReference reference(unit);
+      for (Payload& payload : payloads) {
+        erase_returns_on_the_seam<TypeParam>(payload.bytes, reference.decode(payload.bytes));
+      }
+      const Both both = decode_both(payloads, unit, static_cast<int>(std::lround(firings)));
+      EXPECT_EQ(both.difference, "");
+      EXPECT_EQ(both.decoded, payloads.size());
+      EXPECT_EQ(both.dual_return, dual_return);
+      EXPECT_EQ(both.losses.network_gap_packets, 0U);
+      EXPECT_EQ(both.losses.azimuth_hole_columns, 0U);
+      EXPECT_EQ(both.losses.overflow_full_returns, 0U);
+      EXPECT_EQ(both.losses.clock_jumps, 0U);
+      ASSERT_GE(both.frames.size(), 4U);
+      for (std::size_t n = 1; n + 1 < both.frames.size(); ++n) {
+        EXPECT_TRUE(both.frames[n].complete) << n;
+      }
+    }
+  }
+}
+
+TYPED_TEST(HesaiStream, CountsLostPacketsByTheDevicesStamps) {
+  std::mt19937 random(7);
+  const auto payloads = TypeParam::payloads({.packets = 400});
+  for (const std::size_t lost : {1U, 3U, 50U}) {
+    std::vector<Payload> arrived = payloads;
+    arrived.erase(arrived.begin() + 200, arrived.begin() + 200 + static_cast<std::ptrdiff_t>(lost));
+    const Both both = decode_both(arrived, TypeParam::random_unit(random), 1800);
+    EXPECT_EQ(both.losses.network_gap_packets, lost);
+    EXPECT_EQ(both.losses.azimuth_hole_columns,
+              lost * static_cast<std::size_t>(TypeParam::kColumns));
+  }
+}
+
+TYPED_TEST(HesaiStream, HasNoHolesWherePacketsCameLateAndSwapped) {
+  std::mt19937 random(7);
+  auto payloads = TypeParam::payloads({.packets = 400});
+  std::swap(payloads[200], payloads[202]);
+  const Both both = decode_both(payloads, TypeParam::random_unit(random), 1800);
+  EXPECT_EQ(both.decoded, payloads.size());
+  EXPECT_EQ(both.losses.network_gap_packets, 0U);
+  EXPECT_EQ(both.losses.azimuth_hole_columns, 0U);
+}
+
+TYPED_TEST(HesaiStream, RefusesWhatIsNoDataPacketOfTheModel) {
+  const HesaiSheet& sheet = TypeParam::sheet();
+  hesai::PacketReader reader(hesai::layout_of(sheet.model));
+  const auto good = TypeParam::payloads({.packets = 1})[0].bytes;
+  packet::PacketAzimuths azimuths;
+  const auto read = [&](int at, int value) {
+    PayloadBytes bytes = good;
+    bytes[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(value);
+    return reader.read(bytes, azimuths);
+  };
+  EXPECT_EQ(reader.read(good, azimuths), std::nullopt);
+  for (const int single : {0x33, 0x34, 0x38}) EXPECT_EQ(read(sheet.mode_at, single), std::nullopt);
+  EXPECT_EQ(read(sheet.mode_at, 0x3D), frame::Reject::kWrongMagic);  // three returns
+  EXPECT_EQ(read(sheet.mode_at, 0x3B), frame::Reject::kAzimuthMismatch);
+  EXPECT_EQ(read(sheet.azimuth_at(1) + 1, 0xA0), frame::Reject::kAzimuthOutOfRange);
+  EXPECT_EQ(read(0, 0x00), frame::Reject::kWrongMagic);
+  EXPECT_EQ(reader.read(std::span(good).first(good.size() - 1), azimuths),
+            frame::Reject::kWrongSize);
+  const auto of_another = Velodyne<velodyne::Vlp16>::payloads({.packets = 1})[0].bytes;
+  EXPECT_EQ(reader.read(of_another, azimuths), frame::Reject::kWrongModel);
+}
+
+TYPED_TEST(HesaiStream, GoesOnAcrossTheEndsOfDaysMonthsAndYears) {
+  const HesaiSheet& sheet = TypeParam::sheet();
+  hesai::PacketReader reader(hesai::layout_of(sheet.model));
+  constexpr std::int64_t kMidnight_ns = 1'767'225'600'000'000'000, kDay_ns = 86'400'000'000'000;
+  using Date = std::array<std::uint8_t, 3>;
+  const auto stamp_us = [&](const Date& date, std::int64_t since_midnight_ns) {
+    auto payload = TypeParam::payloads({.packets = 1})[0].bytes;
+    set_hesai_clock(sheet, payload, kMidnight_ns + since_midnight_ns);
+    std::ranges::copy(date, payload.begin() + sheet.date_at);
+    packet::PacketAzimuths azimuths;
+    EXPECT_EQ(reader.read(payload, azimuths), std::nullopt);
+    return azimuths.device_stamp_us;
+  };
+  for (const auto& [day, next] : {std::pair(Date{123, 1, 31}, Date{123, 2, 1}),
+                                  {Date{123, 2, 28}, Date{123, 3, 1}},
+                                  {Date{124, 2, 29}, Date{124, 3, 1}},
+                                  {Date{125, 4, 30}, Date{125, 5, 1}},
+                                  {Date{125, 12, 31}, Date{126, 1, 1}},
+                                  {Date{24, 2, 29}, Date{24, 3, 1}}}) {
+    EXPECT_EQ(stamp_us(next, 0) - stamp_us(day, kDay_ns - 1'000), 1)
+        << int{day[0]} << "-" << int{day[1]};
+  }
+}
+
+TYPED_TEST(HesaiStream, IsDecodedWithoutAllocating) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
+  for (const bool dual_return : {false, true}) {
+    auto payloads = TypeParam::payloads({.dual_return = dual_return, .packets = 500});
+    payloads.erase(payloads.begin() + 200, payloads.begin() + 210);
+    std::swap(payloads[300], payloads[301]);
+    TypeParam::set_azimuth(payloads[400].bytes, 0, 36'000);
+    memory::FixedMemory memory;
+    decode::Decoder decoder(beams::built_in_table(TypeParam::sheet().model), {}, {}, memory);
+    const auto on_frame = [](const frame::FrameInfo&, const frame::MeasuredReturns&) noexcept {};
+    const std::size_t planned = memory.total_bytes();
+    const std::uint64_t before = test::allocations_of_this_thread();
+    for (const Payload& payload : payloads) {
+      test::decode(decoder, {.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, on_frame);
+    }
+    test::end_stream(decoder, on_frame);
+    EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
+    EXPECT_EQ(memory.total_bytes(), planned);
+    EXPECT_EQ(decoder.packets_decoded(), 489U);
+  }
+}
+
+TYPED_TEST(HesaiStream, IsFoundByItselfWithItsNominalTable) {
+  for (const bool dual_return : {false, true}) {
+    streams::FirstSeconds::Config config;
+    config.place = "0.0.0.0:2368";
+    streams::FirstSeconds first(config);
+    RotatingHead head{.dual_return = dual_return, .share_of_returns = 0.1};
+    head.packets = static_cast<int>(0.5e6 / TypeParam::firing_us(dual_return) /
+                                    TypeParam::firings_per_packet(dual_return));
+    for (const Payload& payload : TypeParam::payloads(head)) {
+      first.add({.payload = payload.bytes, .stamp_ns = payload.stamp_ns});
+    }
+    ASSERT_TRUE(first.is_enough()) << first.waits_for();
+    const auto found = first.conclude();
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(found->model, TypeParam::sheet().model);
+    EXPECT_NEAR(found->spin_hz, 10, 0.03);
+    EXPECT_EQ(found->dual_return, dual_return);
+    EXPECT_NEAR(found->columns, 1e5 / TypeParam::firing_us(dual_return), 1);
+    EXPECT_TRUE(calib::origin_of(found->calibration).starts_with("nominal table of the Hesai"));
+  }
+}
+
+// --- Real captures ---
+
+struct RealCapture {
+  const char* file;
+  const char* table;
+  sensor::SensorModel model;
+  std::uint64_t packets;
+  std::size_t points;  ///< In nebula's cloud.
+};
+
+std::vector<Payload> read_payloads(const std::filesystem::path& path) {
+  std::vector<Payload> payloads;
+  auto source = capture::PcapSource::open(path, {});
+  if (!source) return payloads;
+  for (auto next = source->next(); next && *next; next = source->next()) {
+    payloads.push_back({{(*next)->payload.begin(), (*next)->payload.end()}, (*next)->stamp_ns});
+  }
+  return payloads;
+}
+
+struct Point {
+  float x_m = 0, y_m = 0, z_m = 0;
+};
+
+/// The cloud's points in the sensor frame here; nebula's has y at azimuth 0 and x at 90 degrees.
+std::vector<Point> read_nebula(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  const std::string kData = "DATA binary\n";
+  std::vector<Point> points;
+  for (std::size_t at = bytes.find(kData) + kData.size(); at + sizeof(Point) <= bytes.size();
+       at += sizeof(Point)) {
+    Point theirs;
+    std::memcpy(&theirs, bytes.data() + at, sizeof(theirs));
+    points.push_back({theirs.y_m, -theirs.x_m, theirs.z_m});
+  }
+  return points;
+}
+
+/// Points in boxes as wide as they may lie apart.
+class Boxes {
+ public:
+  static constexpr float kApart_m = 0.002F;
+
+  void add(const Point& point) { boxes_[key(box(point))].push_back(point); }
+  [[nodiscard]] bool has_near(const Point& wanted) const {
+    const Box of = box(wanted);
+    for (int n = 0; n < 27; ++n) {
+      const auto found =
+          boxes_.find(key({of[0] + n % 3 - 1, of[1] + n / 3 % 3 - 1, of[2] + n / 9 - 1}));
+      if (found == boxes_.end()) continue;
+      for (const Point& point : found->second) {
+        if (std::abs(point.x_m - wanted.x_m) < kApart_m &&
+            std::abs(point.y_m - wanted.y_m) < kApart_m &&
+            std::abs(point.z_m - wanted.z_m) < kApart_m) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  using Box = std::array<std::int64_t, 3>;
+  static Box box(const Point& point) {
+    const auto number = [](float m) { return static_cast<std::int64_t>(std::floor(m / kApart_m)); };
+    return {number(point.x_m), number(point.y_m), number(point.z_m)};
+  }
+  static std::int64_t key(const Box& box) {
+    return (box[0] * 1'000'003 + box[1]) * 1'000'003 + box[2];
+  }
+  std::unordered_map<std::int64_t, std::vector<Point>> boxes_;
+};
+
+class RealHesai : public testing::TestWithParam<RealCapture> {
+ protected:
+  void SetUp() override {
+    const std::filesystem::path folder = test::shared_data("hesai");
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+    auto table =
+        hesai::read_hesai_csv(folder / (std::string(GetParam().table) + ".csv"), GetParam().model);
+    ASSERT_TRUE(table) << table.error().message;
+    table_ = *table;
+    payloads_ = read_payloads(folder / (std::string(GetParam().file) + ".pcap"));
+    ASSERT_EQ(payloads_.size(), GetParam().packets);
+  }
+  beams::BeamTable table_;
+  std::vector<Payload> payloads_;
+};
+
+TEST_P(RealHesai, HasEveryPointThatNebulaFindsWithin2Mm) {
+  const auto theirs =
+      read_nebula(test::shared_data("hesai") / (std::string(GetParam().file) + ".nebula.pcd"));
+  ASSERT_EQ(theirs.size(), GetParam().points);
+  const mount::Mount mount{.height_m = 1};
+  decode::Decoder::Config config;
+  config.hesai.follows_firing = false;  // nebula takes the block's azimuth
+  memory::FixedMemory memory;
+  decode::Decoder decoder(table_, mount, config, memory);
+  HandedFrames handed;
+  for (const Payload& payload : payloads_) {
+    test::decode(decoder, packet::Datagram{.payload = payload.bytes, .stamp_ns = payload.stamp_ns},
+                 handed.keep());
+  }
+  test::end_stream(decoder, handed.keep());
+  Boxes ours;
+  for (const auto& returns : handed.frames()) {
+    for (const PlacedReturn& one : returns) {
+      ours.add({static_cast<float>(one.x_m), static_cast<float>(one.y_m),
+                static_cast<float>(one.z_m - mount.height_m)});
+    }
+  }
+  std::size_t missing = 0;
+  for (const Point& point : theirs) missing += ours.has_near(point) ? 0U : 1U;
+  EXPECT_EQ(missing, 0U);
+}
+
+TEST_P(RealHesai, EqualsAPlainSlowDecoderAndLosesNothing) {
+  const Both both = decode_both(payloads_, table_, 1800);
+  EXPECT_EQ(both.difference, "");
+  EXPECT_EQ(both.decoded, GetParam().packets);
+  EXPECT_TRUE(both.dual_return);
+  EXPECT_EQ(both.losses.rejected_total(), 0U);
+  EXPECT_EQ(both.losses.network_gap_packets, 0U);
+  EXPECT_EQ(both.losses.azimuth_hole_columns, 0U);
+  EXPECT_EQ(both.losses.overflow_full_returns, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shared, RealHesai,
+    testing::Values(
+        RealCapture{"40p", "Pandar40P", sensor::SensorModel::kPandar40p, 1'439, 56'762},
+        RealCapture{"64", "Pandar64", sensor::SensorModel::kPandar64, 2'400, 93'591},
+        RealCapture{"qt64", "PandarQT64", sensor::SensorModel::kPandarQt64, 1'200, 34'158},
+        RealCapture{"qt128", "PandarQT128", sensor::SensorModel::kPandarQt128, 1'800, 73'560},
+        RealCapture{"xt32", "PandarXT32", sensor::SensorModel::kPandarXt32, 2'000, 63'021}),
+    [](const auto& capture) { return "Of" + std::string(capture.param.file); });
+
+}  // namespace
+}  // namespace terracut::reference

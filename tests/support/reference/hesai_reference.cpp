@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "hesai_reference.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace terracut::reference {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+constexpr std::int64_t kStart_ns = 1'767'225'600'000'000'000;  // 2026-01-01
+
+int little_endian(std::span<const std::uint8_t> bytes, int at) {
+  const auto i = static_cast<std::size_t>(at);
+  return bytes[i] + 256 * bytes[i + 1];
+}
+
+void put(Bytes& bytes, int at, std::uint64_t value, int count) {
+  for (int i = 0; i < count; ++i, value /= 256) {
+    bytes[static_cast<std::size_t>(at + i)] = static_cast<std::uint8_t>(value % 256);
+  }
+}
+
+std::vector<double> evenly(int lasers, double apart_us, int before_again) {
+  std::vector<double> fired_us;
+  for (int laser = 0; laser < lasers; ++laser) fired_us.push_back(laser % before_again * apart_us);
+  return fired_us;
+}
+
+/// The QT128's two kinds of blocks in one: the mean of a laser's times, or the one it has.
+std::vector<double> of_both_loops(const std::vector<double>& one,
+                                  const std::vector<double>& other) {
+  std::vector<double> fired_us;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const bool is_in_both = one[i] > 0 && other[i] > 0;
+    fired_us.push_back((one[i] + other[i]) / (is_in_both ? 2 : 1));
+  }
+  return fired_us;
+}
+
+std::vector<HesaiSheet> make_sheets() {
+  using enum sensor::SensorModel;
+  std::vector<HesaiSheet> sheets{
+      {.model = kPandar40p,
+       .bytes = 1262,
+       .more = 4,
+       .lasers = 40,
+       .blocks = 10,
+       .blocks_have_a_start = true,
+       .bytes_a_return = 3,
+       .mode_at = 1254,
+       .microseconds_at = 1250,
+       .date_at = 1256,
+       .block_us = 55.56,
+       .fired_us = {-42.22, -28.47, -16.04, -3.62,  -45.49, -31.74, -47.46, -54.67, -20.62, -33.71,
+                    -40.91, -8.19,  -20.62, -27.16, -50.73, -8.19,  -14.74, -36.98, -45.49, -52.7,
+                    -23.89, -31.74, -38.95, -11.47, -18.65, -25.19, -48.76, -6.23,  -12.77, -35.01,
+                    -21.92, -9.5,   -43.52, -29.77, -17.35, -4.92,  -42.22, -28.47, -16.04, -3.62}},
+      {.model = kPandar64,
+       .bytes = 1194,
+       .more = 4,
+       .first_block = 8,
+       .lasers = 64,
+       .blocks = 6,
+       .bytes_a_return = 3,
+       .mode_at = 1186,
+       .microseconds_at = 1182,
+       .date_at = 1188,
+       .block_us = 55.56,
+       .fired_us = {-23.18,  -21.876, -20.572, -19.268, -17.964, -16.66,  -11.444, -46.796,
+                    -7.532,  -36.956, -50.732, -54.668, -40.892, -44.828, -31.052, -34.988,
+                    -48.764, -52.7,   -38.924, -42.86,  -29.084, -33.02,  -46.796, -25.148,
+                    -36.956, -50.732, -27.116, -40.892, -44.828, -31.052, -34.988, -48.764,
+                    -25.148, -38.924, -42.86,  -29.084, -33.02,  -52.7,   -6.228,  -54.668,
+                    -15.356, -27.116, -10.14,  -23.18,  -4.924,  -21.876, -14.052, -17.964,
+                    -8.836,  -19.268, -3.62,   -20.572, -12.748, -16.66,  -7.532,  -11.444,
+                    -6.228,  -15.356, -10.14,  -4.924,  -3.62,   -14.052, -8.836,  -12.748}},
+      {.model = kPandarQt64,
+       .bytes = 1072,
+       .first_block = 12,
+       .lasers = 64,
+       .blocks = 4,
+       .mode_at = 1060,
+       .microseconds_at = 1056,
+       .date_at = 1062,
+       .block_us = 166.667,
+       .fired_us = {12.31,  14.37,  16.43,  18.49,  20.54,  22.6,   24.66,  26.71,  29.16,  31.22,
+                    33.28,  35.34,  37.39,  39.45,  41.5,   43.56,  46.61,  48.67,  50.73,  52.78,
+                    54.84,  56.9,   58.95,  61.01,  63.45,  65.52,  67.58,  69.63,  71.69,  73.74,
+                    75.8,   77.86,  80.9,   82.97,  85.02,  87.08,  89.14,  91.19,  93.25,  95.3,
+                    97.75,  99.82,  101.87, 103.93, 105.98, 108.04, 110.1,  112.15, 115.2,  117.26,
+                    119.32, 121.38, 123.43, 125.49, 127.54, 129.6,  132.05, 134.11, 136.17, 138.22,
+                    140.28, 142.34, 144.39, 146.45}},
+      {.model = kPandarQt128,
+       .bytes = 1095,
+       .more = 32,
+       .first_block = 12,
+       .lasers = 128,
+       .blocks = 2,
+       .mode_at = 1073,
+       .microseconds_at = 1082,
+       .date_at = 1076,
+       .block_us = 111.111,
+       .fired_us = of_both_loops(
+           {0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,
+            0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,
+            0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    27.656,
+            53.0,   2.312,  78.344, 81.512, 5.48,   56.168, 30.824, 33.992, 59.336, 8.648,  84.68,
+            87.848, 11.816, 62.504, 37.16,  40.328, 65.672, 14.984, 91.016, 94.184, 18.152, 68.84,
+            43.496, 46.664, 72.008, 21.32,  97.352, 100.52, 24.488, 75.176, 49.832, 1.456,  77.488,
+            26.8,   52.144, 55.312, 29.968, 80.656, 4.624,  7.792,  83.824, 33.136, 58.48,  61.648,
+            36.304, 86.992, 10.96,  14.128, 90.16,  39.472, 64.816, 67.984, 42.64,  93.328, 17.296,
+            20.464, 96.496, 45.808, 71.152, 74.32,  48.976, 99.664, 23.632, 25.944, 51.288, 0.6,
+            76.632, 79.8,   3.768,  54.456, 29.112, 32.28,  57.624, 6.936,  82.968, 86.136, 10.104,
+            60.792, 35.448, 38.616, 63.96,  13.272, 89.304, 92.472, 16.44,  67.128, 41.784, 44.952,
+            70.296, 19.608, 95.64,  98.808, 22.776, 73.464, 48.12},
+           {2.312,  78.344, 27.656, 53.0,   56.168, 30.824, 81.512, 5.48,   8.648,  84.68,  33.992,
+            59.336, 62.504, 37.16,  87.848, 11.816, 14.984, 91.016, 40.328, 65.672, 68.84,  43.496,
+            94.184, 18.152, 21.32,  97.352, 46.664, 72.008, 75.176, 49.832, 100.52, 24.488, 0.0,
+            0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,
+            0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,
+            0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.0,    0.6,    76.632,
+            25.944, 51.288, 54.456, 29.112, 79.8,   3.768,  6.936,  82.968, 32.28,  57.624, 60.792,
+            35.448, 86.136, 10.104, 13.272, 89.304, 38.616, 63.96,  67.128, 41.784, 92.472, 16.44,
+            19.608, 95.64,  44.952, 70.296, 73.464, 48.12,  98.808, 22.776, 26.8,   52.144, 1.456,
+            77.488, 80.656, 4.624,  55.312, 29.968, 33.136, 58.48,  7.792,  83.824, 86.992, 10.96,
+            61.648, 36.304, 39.472, 64.816, 14.128, 90.16,  93.328, 17.296, 67.984, 42.64,  45.808,
+            71.152, 20.464, 96.496, 99.664, 23.632, 74.32,  48.976})},
+      {.model = kPandarXt16,
+       .bytes = 568,
+       .first_block = 12,
+       .lasers = 16,
+       .blocks = 8,
+       .mode_at = 550,
+       .microseconds_at = 559,
+       .date_at = 553,
+       .block_us = 50,
+       .fired_us = evenly(16, 3.024, 16)},
+      {.model = kPandarXt32,
+       .bytes = 1080,
+       .first_block = 12,
+       .lasers = 32,
+       .blocks = 8,
+       .mode_at = 1062,
+       .microseconds_at = 1071,
+       .date_at = 1065,
+       .block_us = 50,
+       .fired_us = evenly(32, 1.512, 32)},
+      {.model = kPandarXt32m,
+       .bytes = 820,
+       .first_block = 12,
+       .lasers = 32,
+       .blocks = 6,
+       .mode_at = 802,
+       .microseconds_at = 811,
+       .date_at = 805,
+       .block_us = 50,
+       .fired_us = evenly(32, 2.888, 16)}};
+  for (HesaiSheet& sheet : sheets) {
+    const double earliest_us = std::ranges::min(sheet.fired_us);
+    for (double& fired_us : sheet.fired_us) fired_us -= earliest_us;
+  }
+  return sheets;
+}
+
+int returns_of(int mode) {
+  if (mode == 0x33 || mode == 0x34 || mode == 0x37 || mode == 0x38) return 1;
+  return (mode >= 0x39 && mode <= 0x3C) || mode == 0x3E ? 2 : 0;
+}
+
+bool is_packet(const HesaiSheet& sheet, std::span<const std::uint8_t> payload) {
+  const auto size = static_cast<int>(payload.size());
+  if (size != sheet.bytes && size != sheet.bytes + sheet.more) return false;
+  if (sheet.blocks_have_a_start) {
+    for (int block = 0; block < sheet.blocks; ++block) {
+      if (little_endian(payload, sheet.azimuth_at(block) - 2) != 0xEEFF) return false;
+    }
+    return true;
+  }
+  const int counts = little_endian(payload, sheet.counts_at());
+  return little_endian(payload, 0) == 0xFFEE && counts == sheet.lasers + 256 * sheet.blocks &&
+         payload[static_cast<std::size_t>(sheet.counts_at()) + 3] == 4;
+}
+
+double clock_us(const HesaiSheet& sheet, std::span<const std::uint8_t> payload) {
+  const auto date = payload.subspan(static_cast<std::size_t>(sheet.date_at), 6);
+  return little_endian(payload, sheet.microseconds_at) +
+         65'536.0 * little_endian(payload, sheet.microseconds_at + 2) +
+         1e6 * (3'600 * date[3] + 60 * date[4] + date[5]);
+}
+
+}  // namespace
+
+const HesaiSheet& hesai_sheet_of(sensor::SensorModel model) {
+  static const std::vector<HesaiSheet> kSheets = make_sheets();
+  return *std::ranges::find(kSheets, model, &HesaiSheet::model);
+}
+
+Packet HesaiReference::decode(std::span<const std::uint8_t> payload) {
+  Packet packet;
+  packet.refusal = Refusal::kOtherPacket;
+  if (!is_packet(sheet_, payload)) return packet;
+  const int returns = returns_of(payload[static_cast<std::size_t>(sheet_.mode_at)]);
+  if (returns == 0) return packet;
+  packet.dual_return = returns == 2;
+  std::vector<int> cdeg;
+  bool in_range = true, agree = true;
+  for (int block = 0; block < sheet_.blocks; ++block) {
+    cdeg.push_back(little_endian(payload, sheet_.azimuth_at(block)));
+    in_range &= cdeg.back() <= 35'999;
+    if (block % returns == 1) agree &= cdeg.back() == cdeg[cdeg.size() - 2];
+  }
+  packet.refusal = agree ? Refusal::kNone : Refusal::kUnequalFirings;
+  if (!in_range) packet.refusal = Refusal::kAzimuthRange;
+  if (packet.refusal != Refusal::kNone) return packet;
+  const int firings = sheet_.blocks / returns;
+  const int most_cdeg = static_cast<int>(36'000 * 30 * sheet_.block_us * 1e-6) + 1;
+  const double stamp_us = clock_us(sheet_, payload);
+  if (firings > 1) {
+    packet.refusal = judge_rotation(cdeg, {.forwards_cdeg = most_cdeg,
+                                           .backwards_cdeg = 5,
+                                           .least_sweep_cdeg = 2 * (firings - 1),
+                                           .standing_back_cdeg = 6});
+    packet.step_deg = clockwise_cdeg(cdeg.front(), cdeg.back()) / 100.0 / (firings - 1);
+  } else {
+    const int way_cdeg = clockwise_cdeg(last_cdeg_, cdeg.front());
+    const double since_us = stamp_us - last_us_;
+    const bool follows = last_us_ >= 0 && since_us > 0 && since_us < 1.5 * sheet_.block_us;
+    const double usual_deg = last_step_deg_ > 0 ? last_step_deg_ : 3'600 * sheet_.block_us * 1e-6;
+    packet.step_deg = follows && way_cdeg <= most_cdeg ? way_cdeg / 100.0 : usual_deg;
+    if (packet.step_deg < 0.02) packet.refusal = Refusal::kNotRotating;
+  }
+  last_cdeg_ = cdeg.front();
+  last_us_ = stamp_us;
+  if (packet.refusal != Refusal::kNone) return packet;
+  last_step_deg_ = packet.step_deg;
+
+  packet.columns = sheet_.blocks;
+  packet.first_deg = cdeg[0] / 100.0;
+  for (int block = 0; block < sheet_.blocks; ++block) {
+    const double block_deg =
+        packet.first_deg + clockwise_cdeg(cdeg[0], cdeg[static_cast<std::size_t>(block)]) / 100.0;
+    for (int laser = 0; laser < sheet_.lasers; ++laser) {
+      const int at = sheet_.azimuth_at(block) + 2 + laser * sheet_.bytes_a_return;
+      Return beam;
+      beam.column = block;
+      beam.laser = laser;
+      beam.raw_distance = little_endian(payload, at);
+      beam.intensity = payload[static_cast<std::size_t>(at) + 2];
+      if (beam.raw_distance == 0) continue;
+      const double since_us = sheet_.fired_us[static_cast<std::size_t>(laser)];
+      beam.fired_us = block / returns * sheet_.block_us + since_us;
+      beam.rotor_deg = block_deg + packet.step_deg * since_us / sheet_.block_us;
+      const beams::TableBeam& unit = table_.lasers[static_cast<std::size_t>(laser)];
+      beam.beam_deg = beam.rotor_deg + unit.azimuth_offset_rad / kRadPerDeg;
+      const double azimuth = beam.beam_deg * kRadPerDeg;
+      const double d = beam.raw_distance * 0.004;
+      beam.x_m = d * std::cos(unit.elevation_rad) * std::cos(azimuth);
+      beam.y_m = -d * std::cos(unit.elevation_rad) * std::sin(azimuth);
+      beam.z_m = d * std::sin(unit.elevation_rad) + unit.vert_offset_m;
+      packet.returns.push_back(beam);
+    }
+  }
+  return packet;
+}
+
+std::vector<Payload> hesai_payloads(const HesaiSheet& sheet, const RotatingHead& head) {
+  std::mt19937 random(head.seed);
+  std::bernoulli_distribution measured(head.share_of_returns);
+  std::uniform_int_distribution<unsigned> distance(1, 65'535), intensity(0, 255);
+  const int returns = head.dual_return ? 2 : 1;
+  std::vector<Payload> payloads(static_cast<std::size_t>(head.packets));
+  for (std::size_t n = 0; n < payloads.size(); ++n) {
+    Bytes& bytes = payloads[n].bytes;
+    bytes.resize(static_cast<std::size_t>(sheet.bytes));
+    if (!sheet.blocks_have_a_start) {
+      put(bytes, 0, 0xFFEE, 2);
+      put(bytes, sheet.counts_at(), static_cast<unsigned>(sheet.lasers + 256 * sheet.blocks), 2);
+      put(bytes, sheet.counts_at() + 3, 4, 1);
+    }
+    put(bytes, sheet.mode_at, head.dual_return ? 0x39 : 0x37, 1);
+    const double first_us = static_cast<double>(n) * (sheet.blocks / returns) * sheet.block_us;
+    for (int block = 0; block < sheet.blocks; ++block) {
+      if (sheet.blocks_have_a_start) put(bytes, sheet.azimuth_at(block) - 2, 0xEEFF, 2);
+      const double fired_us = first_us + block / returns * sheet.block_us;
+      const double head_deg = head.first_deg + 360.0 * head.spin_hz * fired_us * 1e-6;
+      set_hesai_azimuth(sheet, bytes, block,
+                        static_cast<unsigned>(std::llround(head_deg * 100.0) % 36'000));
+      for (int laser = 0; laser < sheet.lasers; ++laser) {
+        if (!measured(random)) continue;
+        const unsigned raw = distance(random);
+        set_hesai_return(sheet, bytes, block, laser, raw, intensity(random));
+      }
+    }
+    payloads[n].stamp_ns = kStart_ns + std::llround(first_us * 1e3);
+    set_hesai_clock(sheet, bytes, payloads[n].stamp_ns);
+  }
+  return payloads;
+}
+
+void set_hesai_azimuth(const HesaiSheet& sheet, Bytes& payload, int block, unsigned cdeg) {
+  put(payload, sheet.azimuth_at(block), cdeg, 2);
+}
+
+void set_hesai_return(const HesaiSheet& sheet, Bytes& payload, int block, int laser, unsigned raw,
+                      unsigned intensity) {
+  const int at = sheet.azimuth_at(block) + 2 + laser * sheet.bytes_a_return;
+  put(payload, at, raw, 2);
+  put(payload, at + 2, intensity, 1);
+}
+
+void set_hesai_clock(const HesaiSheet& sheet, Bytes& payload, std::int64_t time_ns) {
+  const std::int64_t us = (time_ns - kStart_ns) / 1'000, s = us / 1'000'000;
+  const std::array<std::int64_t, 6> date{126, 1, 1, s / 3'600 % 24, s / 60 % 60, s % 60};
+  for (std::size_t i = 0; i < date.size(); ++i) {
+    put(payload, sheet.date_at + static_cast<int>(i), static_cast<std::uint64_t>(date[i]), 1);
+  }
+  put(payload, sheet.microseconds_at, static_cast<std::uint64_t>(us % 1'000'000), 4);
+}
+
+}  // namespace terracut::reference

@@ -3,9 +3,12 @@
 #include "firmware_io/capture/pcap_source.hpp"
 
 #include <fmt/format.h>
+#include <pcap/pcap.h>
 
 #include <numeric>
 #include <utility>
+
+#include "firmware_io/bag/bag.hpp"
 
 namespace terracut::capture {
 namespace {
@@ -26,7 +29,10 @@ std::uint64_t PcapCounters::refused_total() const noexcept {
 }
 
 Expected<PcapSource> PcapSource::open(std::filesystem::path path, PcapFilter filter) {
-  return over(PcapFile::open(std::move(path)), std::move(filter));
+  if (!bag::is_bag(path)) return over(PcapFile::open(std::move(path)), std::move(filter));
+  auto packets = bag::BagPackets::open(path, filter.topic);
+  if (!packets) return tl::unexpected(packets.error());
+  return PcapSource(*std::move(packets), std::move(filter));
 }
 
 Expected<PcapSource> PcapSource::open_memory(std::span<const std::uint8_t> capture,
@@ -40,14 +46,27 @@ Expected<PcapSource> PcapSource::over(Expected<PcapFile> file, PcapFilter filter
   return PcapSource(*std::move(file), std::move(filter));
 }
 
+Expected<std::optional<tl::expected<packet::Datagram, packet::FrameReject>>> PcapSource::read() {
+  if (auto* const packets = std::get_if<bag::BagPackets>(&file_)) {
+    const auto packet = packets->next();
+    if (!packet) return tl::unexpected(packet.error());
+    if (!*packet) return std::nullopt;
+    return **packet;
+  }
+  auto& file = std::get<PcapFile>(file_);
+  const auto record = file.next();
+  if (!record) return tl::unexpected(record.error());
+  if (!*record) return std::nullopt;
+  return packet::parse_udp_frame(file.link_type(), (*record)->bytes, (*record)->stamp_ns);
+}
+
 Expected<std::optional<packet::Datagram>> PcapSource::next() {
   for (;;) {
-    const auto record = file_.next();
-    if (!record) return tl::unexpected(record.error());
-    if (!*record) return std::nullopt;
+    const auto read = this->read();
+    if (!read) return tl::unexpected(read.error());
+    if (!*read) return std::nullopt;
     ++counters_.frames;
-    const auto datagram =
-        packet::parse_udp_frame(file_.link_type(), (*record)->bytes, (*record)->stamp_ns);
+    const auto& datagram = **read;
     if (!datagram) {
       ++counters_.refused[static_cast<std::size_t>(datagram.error())];
     } else if (filter_.port && datagram->destination_port != *filter_.port) {
@@ -73,8 +92,26 @@ bool PcapSource::is_in_stream(const packet::Datagram& datagram) const {
 }
 
 Status PcapSource::rewind() {
-  if (Status rewound = file_.rewind(); !rewound) return rewound;
-  return check_link_type(file_);
+  Status rewound = std::visit([](auto& file) { return file.rewind(); }, file_);
+  const auto* const file = std::get_if<PcapFile>(&file_);
+  return rewound && file != nullptr ? check_link_type(*file) : rewound;
+}
+
+int PcapSource::link_type() const noexcept {
+  const auto* const file = std::get_if<PcapFile>(&file_);
+  return file == nullptr ? -1 : file->link_type();
+}
+
+std::string PcapSource::link_name() const {
+  if (const auto* const packets = std::get_if<bag::BagPackets>(&file_)) {
+    return packets->topic().type + " in " + packets->topic().name;
+  }
+  const char* const name = ::pcap_datalink_val_to_name(link_type());
+  return name == nullptr ? "unknown" : name;
+}
+
+const std::string& PcapSource::name() const noexcept {
+  return std::visit([](const auto& file) -> const std::string& { return file.name(); }, file_);
 }
 
 }  // namespace terracut::capture

@@ -11,7 +11,9 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 
+#include "firmware_io/bag/bag_packets.hpp"
 #include "firmware_io/capture/pcap_file.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/udp_frame.hpp"
@@ -19,7 +21,7 @@
 
 namespace terracut::capture {
 
-/// Selects datagrams of a capture; an empty filter passes all. The fields are those of Datagram.
+/// Selects datagrams of a capture; an empty filter passes all. Most fields are those of Datagram.
 struct PcapFilter {
   std::optional<std::uint16_t> port{};            ///< UDP destination port.
   std::optional<std::uint32_t> source_address{};  ///< IPv4 of the sender, host byte order.
@@ -29,11 +31,12 @@ struct PcapFilter {
   std::optional<std::uint32_t> vlan{};  ///< 0: only datagrams outside any VLAN.
   /// A further condition, tested last; empty: none.
   std::function<bool(const packet::Datagram&)> is_of_stream{};
+  std::string topic{};  ///< Of a bag; empty: its only one with packets.
 };
 
 /// Counts the frames of a capture; frames == delivered + left_out().
 struct PcapCounters {
-  std::uint64_t frames = 0;     ///< Records read from the file.
+  std::uint64_t frames = 0;     ///< Records read from the file; of a bag, packets.
   std::uint64_t delivered = 0;  ///< Datagrams returned by next().
   std::array<std::uint64_t, packet::kFrameRejects>
       refused{};                   ///< Frames without a UDP datagram, by reason.
@@ -49,11 +52,13 @@ struct PcapCounters {
 };
 
 /// Reads UDP datagrams of a capture file (pcap with micro- or nanosecond stamps in either byte
-/// order, or pcapng), in file order. Stamps are always nanoseconds. Not thread-safe.
+/// order, or pcapng), or the packets in a topic of a bag, in file order. Stamps are always
+/// nanoseconds. Not thread-safe.
 class PcapSource {
  public:
   /// Opens the file. Fails with kNotFound, kUnreadable, kMalformed (an empty file or no capture;
-  /// the message says what it looks like) or kUnsupported (a link layer without IP).
+  /// the message says what it looks like) or kUnsupported (a link layer without IP); for a bag, as
+  /// bag::BagPackets::open() does.
   [[nodiscard]] static Expected<PcapSource> open(std::filesystem::path path,
                                                  PcapFilter filter = {});
 
@@ -74,18 +79,23 @@ class PcapSource {
   [[nodiscard]] Status rewind();
 
   [[nodiscard]] const PcapCounters& counters() const noexcept { return counters_; }
-  /// DLT_ number of libpcap.
-  [[nodiscard]] int link_type() const noexcept { return file_.link_type(); }
-  [[nodiscard]] const std::string& name() const noexcept { return file_.name(); }
+  /// DLT_ number of libpcap; for a bag -1.
+  [[nodiscard]] int link_type() const noexcept;
+  /// "EN10MB"; for a bag "velodyne_msgs/msg/VelodyneScan in /velodyne_packets".
+  [[nodiscard]] std::string link_name() const;
+  [[nodiscard]] const std::string& name() const noexcept;
 
  private:
-  PcapSource(PcapFile file, PcapFilter filter)
-      : file_(std::move(file)), filter_(std::move(filter)) {}
+  using File = std::variant<PcapFile, bag::BagPackets>;
+
+  PcapSource(File file, PcapFilter filter) : file_(std::move(file)), filter_(std::move(filter)) {}
   /// Checks the filter's conditions other than port and sender.
   [[nodiscard]] bool is_in_stream(const packet::Datagram& datagram) const;
   [[nodiscard]] static Expected<PcapSource> over(Expected<PcapFile> file, PcapFilter filter);
+  /// Returns the next datagram of the file; of a frame without one, the reason.
+  [[nodiscard]] Expected<std::optional<tl::expected<packet::Datagram, packet::FrameReject>>> read();
 
-  PcapFile file_;
+  File file_;
   PcapFilter filter_;
   PcapCounters counters_;
 };

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/sensor/capture_survey.hpp"
 
-#include <pcap/pcap.h>
 
 #include <algorithm>
 #include <memory>
@@ -117,8 +116,7 @@ CaptureSurvey survey_capture(capture::PcapSource& source,
   CaptureSurvey survey;
   survey.name = source.name();
   survey.link_type = source.link_type();
-  const char* link_name = ::pcap_datalink_val_to_name(source.link_type());
-  survey.link_type_name = link_name == nullptr ? "unknown" : link_name;
+  survey.link_type_name = source.link_name();
 
   std::map<StreamKey, StreamUnderSurvey> streams;
   while (!stop_wanted || !stop_wanted()) {

@@ -47,8 +47,8 @@ struct UdpStream {
 /// Everything that `terracut info` shows of a capture.
 struct CaptureSurvey {
   std::string name;
-  int link_type = 0;           ///< libpcap's DLT_ number.
-  std::string link_type_name;  ///< "EN10MB"
+  int link_type = 0;           ///< libpcap's DLT_ number; of a bag -1.
+  std::string link_type_name;  ///< As PcapSource::link_name().
   capture::PcapCounters counters;
   std::vector<UdpStream> streams;                ///< The streams, the one with most packets first.
   std::uint64_t packets_of_further_streams = 0;  ///< Packets of streams beyond kMostStreams.

@@ -17,9 +17,8 @@
 namespace terracut::mcap {
 namespace {
 
-using Opcode = RecordWriter::Opcode;
+using bag::Opcode;
 
-constexpr std::array<std::uint8_t, 8> kMagic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 constexpr std::string_view kProfile = "ros2";
 constexpr std::string_view kLibrary = "terracut " TERRACUT_VERSION;
 constexpr std::string_view kMetadataName = "terracut";
@@ -78,7 +77,7 @@ McapFile::~McapFile() {
 }
 
 Status McapFile::begin(const Metadata& metadata) {
-  if (const Status written = write(std::as_bytes(std::span(kMagic))); !written) return written;
+  if (const Status written = write(std::as_bytes(std::span(bag::kMcapMagic))); !written) return written;
   records_.begin(Opcode::kHeader);
   records_.add(kProfile);
   records_.add(kLibrary);
@@ -291,7 +290,7 @@ Status McapFile::close() {
   records_.add(summary_start);
   records_.add(summary_offset_start);
   records_.add(crc_of(records_.bytes()));
-  records_.append(std::as_bytes(std::span(kMagic)));
+  records_.append(std::as_bytes(std::span(bag::kMcapMagic)));
   if (const Status written = flush_records(); !written) return written;
 
   // A network file system may report only now that there was no room.

@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "firmware_io/bag/mcap_records.hpp"
+
 namespace terracut::mcap {
 
 /// Writes records of an MCAP file (mcap.dev/spec), one after the other: opcode, length, then the
@@ -19,24 +21,8 @@ class RecordWriter {
  public:
   static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie");
 
-  enum class Opcode : std::uint8_t {
-    kHeader = 0x01,
-    kFooter = 0x02,
-    kSchema = 0x03,
-    kChannel = 0x04,
-    kMessage = 0x05,
-    kChunk = 0x06,
-    kMessageIndex = 0x07,
-    kChunkIndex = 0x08,
-    kStatistics = 0x0B,
-    kMetadata = 0x0C,
-    kMetadataIndex = 0x0D,
-    kSummaryOffset = 0x0E,
-    kDataEnd = 0x0F,
-  };
-
   /// Begins a record. The caller then adds fields and calls end().
-  void begin(Opcode opcode) {
+  void begin(bag::Opcode opcode) {
     add(static_cast<std::uint8_t>(opcode));
     begin_block<std::uint64_t>();
   }

@@ -47,6 +47,14 @@ terracut_require(ZLIB_FOUND "zlib" zlib1g-dev)
 include(TerracutZstd)
 terracut_require(ZSTD_FOUND "libzstd" libzstd-dev)
 
+# Optional: without them the program says what to install where a bag needs one.
+include(TerracutLz4)
+find_package(SQLite3 QUIET)
+if(NOT LZ4_FOUND OR NOT SQLite3_FOUND)
+  message(STATUS "Without liblz4 or SQLite, so some bags cannot be read. "
+                 "Install them with: apt-get install liblz4-dev libsqlite3-dev (or run ./tools/setup)")
+endif()
+
 # Optional: without it the program says what to install where it is asked for DDS.
 find_package(CycloneDDS 0.10 QUIET)
 find_program(TERRACUT_IDLC idlc)

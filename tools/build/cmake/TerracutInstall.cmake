@@ -29,5 +29,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/terracut-config-version.c
 install(FILES
   ${PROJECT_BINARY_DIR}/terracut-config.cmake
   ${PROJECT_BINARY_DIR}/terracut-config-version.cmake
+  ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutLz4.cmake
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutPcap.cmake
+  ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutZstd.cmake
   DESTINATION ${terracut_package_dir})

@@ -59,7 +59,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "chrony, linuxptp, libeigen3-dev, libexpected-dev, libpugixml-dev, libyaml-cpp-dev, libfmt-dev, libpng-dev, libpcap-dev")
+  "chrony, linuxptp, libeigen3-dev, libexpected-dev, libpugixml-dev, libyaml-cpp-dev, libfmt-dev, libpng-dev, libpcap-dev, libzstd-dev, zlib1g-dev, liblz4-dev, libsqlite3-dev")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
   ${terracut_service}/debian/conffiles ${terracut_service}/debian/postinst

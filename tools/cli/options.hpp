@@ -29,6 +29,7 @@ namespace terracut::cli {
 /// Selects the datagrams of a capture or live stream and how they become points.
 struct CaptureOptions {
   std::filesystem::path file;
+  std::string topic;  ///< Of a bag, to read; empty: its only one.
   std::optional<std::uint16_t> port;
   std::string from;                           ///< Dotted IPv4 of the sender, with or without port.
   std::string to;                             ///< Dotted IPv4 of the destination.

@@ -16,6 +16,9 @@ from drive import CALIBRATION, CAPTURE, error_of, labels_of_files, program
 import numpy as np
 import terracut
 
+sys.path.append(str(Path(__file__).parents[1] / "cli" / "bag"))
+import bag_files  # noqa: E402
+
 
 class Replay(unittest.TestCase):
     def setUp(self):
@@ -138,6 +141,21 @@ class Replay(unittest.TestCase):
             warnings.simplefilter("error")
             with self.assertRaises(terracut.TerracutWarning):
                 list(terracut.replay(cut, CALIBRATION))
+
+
+class Bags(unittest.TestCase):
+    def test_packets_of_a_bag_are_labelled_as_the_captures(self):
+        packets = bag_files.packets_of(CAPTURE)
+        scans = [packets[i : i + 348] for i in range(0, len(packets), 348)]
+        messages = [(0, scan[0][0], bag_files.velodyne_scan(scan)) for scan in scans]
+        topics = [("/packets", "velodyne_msgs/msg/VelodyneScan"), ("/others", "velodyne_msgs/msg/VelodyneScan")]
+        with tempfile.TemporaryDirectory() as folder:
+            bag = Path(folder) / "drive.mcap"
+            bag_files.write_mcap(bag, topics, messages)
+            with self.assertRaisesRegex(terracut.InvalidArgument, "choose one by --topic: /packets"):
+                terracut.replay(bag, CALIBRATION)
+            for frame, same in zip(terracut.replay(bag, CALIBRATION, topic="/packets"), terracut.replay(CAPTURE), strict=True):
+                np.testing.assert_array_equal(frame.labels, same.labels)
 
 
 class Refusals(unittest.TestCase):

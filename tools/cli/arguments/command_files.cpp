@@ -84,7 +84,7 @@ std::string made_of(Command command, const RunFiles& files, const Options& optio
     text += (text.empty() ? "" : " and ") + files::FilePlace(input.path).path().string();
   }
   if (text.empty()) return text;
-  return text + with("from", capture.from) +
+  return text + with("topic", capture.topic) + with("from", capture.from) +
          with("port", capture.port ? std::to_string(*capture.port) : "") + with("to", capture.to) +
          with("in VLAN", capture.vlan) + with("of", capture.mac);
 }

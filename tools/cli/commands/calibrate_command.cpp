@@ -114,7 +114,7 @@ ExitCode calibrate_clouds(const Options& options) {
   if (options.capture.start_s > 0 || options.capture.duration_s) {
     return refuse(kUsage, "--start and --duration are of captures; name the clouds to be used");
   }
-  auto clouds = CloudReader::open(options.capture.file);
+  auto clouds = CloudReader::open(options.capture.file, options.capture.topic);
   if (!clouds) return refuse(clouds.error());
   const auto rows = rows_of(*clouds, options.capture.calibration);
   if (!rows) return refuse(rows.error());
@@ -126,7 +126,9 @@ ExitCode calibrate_clouds(const Options& options) {
 
 ExitCode run_calibrate(const Options& options) {
   catch_stop_signals();
-  if (holds_clouds(options.capture.file)) return calibrate_clouds(options);
+  const auto is_clouds = holds_clouds(options.capture);
+  if (!is_clouds) return refuse(is_clouds.error());
+  if (*is_clouds) return calibrate_clouds(options);
   auto capture = open_capture(options.capture);
   if (!capture) return refuse(capture.error());
   say_what_is_read(*capture);

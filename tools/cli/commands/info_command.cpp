@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
+#include "firmware_io/bag/bag.hpp"
+#include "firmware_io/bag/packet_messages.hpp"
+#include "firmware_io/bag/topic_choice.hpp"
 #include "firmware_io/sensor/capture_survey.hpp"
 #include "firmware_io/streams/stream_names.hpp"
 #include "firmware_io/streams/stream_text.hpp"
@@ -244,6 +247,13 @@ Json json_of(const Hdl64eFacts& facts) {
   return json;
 }
 
+Json json_of(const std::vector<bag::Topic>& topics) {
+  Json json = Json::array();
+  for (const bag::Topic& topic : topics)
+    json.push_back({{"name", topic.name}, {"type", topic.type}});
+  return json;
+}
+
 Json json_of(const CaptureSurvey& survey) {
   Json json{{"terracut", TERRACUT_VERSION},
             {"command", "info"},
@@ -288,7 +298,7 @@ std::string text_of(const std::vector<streams::StreamName>& sensors) {
 
 /// Returns the sensors of a capture if there are several.
 std::vector<streams::StreamName> several_sensors_of(const CaptureOptions& options) {
-  auto source = capture::PcapSource::open(options.file);
+  auto source = capture::PcapSource::open(options.file, {.topic = options.topic});
   if (!source) return {};
   const auto sensors = sensors_in(options, *source);
   return sensors.size() < 2 ? std::vector<streams::StreamName>()
@@ -306,17 +316,51 @@ std::string note_of_calibration(const CaptureSurvey& survey, const CaptureOption
                      beside->string());
 }
 
+/// Lists the topics of a bag; empty for a capture.
+std::string text_of(const std::vector<bag::Topic>& topics) {
+  std::string text;
+  for (const bag::Topic& topic : topics) {
+    text += fmt::format("  {:<32} {}{}\n", topic.name, topic.type,
+                        bag::holds_packets(topic.type)  ? " (packets)"
+                        : bag::holds_clouds(topic.type) ? " (clouds)"
+                                                        : "");
+  }
+  return text.empty() ? text : "topics\n" + text + "\n";
+}
+
+/// Shows a bag without a topic whose packets could be surveyed.
+ExitCode show_topics(const Options& options, const std::vector<bag::Topic>& topics) {
+  print_text(text_of(topics));
+  Json json{{"terracut", TERRACUT_VERSION},
+            {"command", "info"},
+            {"input", options.capture.file.string()},
+            {"topics", json_of(topics)}};
+  return done_or_refused(write_json(options.output.json, json));
+}
+
 }  // namespace
 
 ExitCode run_info(const Options& options) {
   catch_stop_signals();
-  auto source = capture::PcapSource::open(options.capture.file);
+  std::vector<bag::Topic> topics;
+  if (bag::is_bag(options.capture.file)) {
+    const auto bag = bag::Bag::open(options.capture.file);
+    if (!bag) return refuse(bag.error());
+    topics = bag->topics();
+    const auto has_packets = [](const bag::Topic& topic) { return bag::holds_packets(topic.type); };
+    if (options.capture.topic.empty() && std::ranges::count_if(topics, has_packets) != 1) {
+      return show_topics(options, topics);
+    }
+  }
+  auto source = capture::PcapSource::open(options.capture.file, {.topic = options.capture.topic});
   if (!source) return refuse(source.error());
   const CaptureSurvey survey = sensor::survey_capture(*source, stop_wanted);
   if (const Status whole = go_on(); !whole) return refuse_work(whole.error());
   const std::vector<streams::StreamName> several = several_sensors_of(options.capture);
-  print_text(text_of(survey) + note_of_calibration(survey, options.capture) + text_of(several));
+  print_text(text_of(topics) + text_of(survey) + note_of_calibration(survey, options.capture) +
+             text_of(several));
   Json json = json_of(survey);
+  if (!topics.empty()) json["topics"] = json_of(topics);
   for (const streams::StreamName& sensor : several) {
     json["several_sensors"].push_back({{"name", sensor.name}, {"options", sensor.options}});
   }

@@ -55,17 +55,18 @@ std::string doubt_of_height(const MountOptions& stated, const MountChoice& mount
 
 ExitCode run_segment(const Options& options) {
   catch_stop_signals();
-  auto opened = CloudReader::open(options.scans);
+  auto opened = CloudReader::open(options.scans, options.capture.topic);
   if (!opened) return refuse(opened.error());
   CloudReader& reader = *opened;
   const auto rows = rows_of(reader, options.capture.calibration);
   if (!rows) return refuse(rows.error());
   CloudFrames frames(reader, *rows);
-  const auto mount = choose_mount(options.mount, frames);
+  const MountOptions stated = reader.stated(options.mount);
+  const auto mount = choose_mount(stated, frames);
   if (!mount) return refuse_work(mount.error());
   const auto profile = ring_profile_of(rows->rings.table, mount->options);
   if (!profile) return refuse(profile.error());
-  const std::string high = doubt_of_height(options.mount, *mount);
+  const std::string high = doubt_of_height(stated, *mount);
   if (!high.empty()) warn(options.scans.string() + ": " + high);
   const std::string sensor_line = fmt::format(
       "{} rows by {}", rows->rings.table.size(),
@@ -93,7 +94,6 @@ ExitCode run_segment(const Options& options) {
       report.interrupted = true;
       break;
     }
-    const scan::ScanFile& file = reader.file(i);
     const auto cloud = reader.read(i);
     if (!cloud) {
       unused.add(cloud.error());
@@ -105,10 +105,10 @@ ExitCode run_segment(const Options& options) {
     }
     status::FrameRecord record;
     record.info.complete = true;
-    record.info.number = file.frame.value_or(static_cast<std::uint32_t>(i));
+    record.info.number = reader.number(i);
     Status labelled = pipeline.label(*cloud, record);
     if (!labelled) {
-      labelled.error().message.insert(0, file.points.string() + ": ");
+      labelled.error().message.insert(0, reader.place(i) + ": ");
       unused.add(labelled.error());
       continue;
     }
@@ -117,15 +117,16 @@ ExitCode run_segment(const Options& options) {
     points.no_ring += pipeline.placed().no_ring;
     report.add(record);
     if (!truth.empty()) report.score(pipeline.point_labels(), truth);
-    Status written = outputs.write_labels(file.name, pipeline.point_labels());
+    Status written = outputs.write_labels(reader.name(i), pipeline.point_labels());
     if (written) {
-      written = outputs.write_frame(file.name, pipeline.image(), pipeline.labels(),
+      written = outputs.write_frame(reader.name(i), pipeline.image(), pipeline.labels(),
                                     pipeline.truth_of_returns(truth));
     }
     if (written) {
       // Makes up stamps, which files do not have: players of recordings expect increasing stamps.
       constexpr std::int64_t kFramePeriod_ns = 100'000'000;
-      record.info.first_packet_ns = record.info.number * kFramePeriod_ns;
+      record.info.first_packet_ns =
+          reader.stamp_ns().value_or(record.info.number * kFramePeriod_ns);
       record.info.last_packet_ns = record.info.first_packet_ns;
       written = outputs.publish(record, pipeline.image(), pipeline.labels());
     }

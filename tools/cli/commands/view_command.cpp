@@ -43,7 +43,9 @@ ExitCode run_view(const Options& as_said) {
   Options options = as_said;
   options.mount = guessing(options.mount);
   catch_stop_signals();
-  if (holds_clouds(options.capture.file)) {
+  const auto is_clouds = holds_clouds(options.capture);
+  if (!is_clouds) return refuse(is_clouds.error());
+  if (*is_clouds) {
     if (options.capture.start_s > 0 || options.capture.duration_s) {
       return refuse(kUsage, "--start and --duration are of captures; name the clouds to be seen");
     }

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "content_hash.hpp"
+#include "firmware_io/bag/bag.hpp"
 #include "firmware_io/cloud/cloud_file.hpp"
 #include "firmware_io/scan/scan_folder.hpp"
 #include "tools/cli/settings/companion_files.hpp"
@@ -27,16 +28,29 @@ Expected<std::string> stamp_of_file(const std::filesystem::path& path) {
                      file.st_ctim.tv_nsec);
 }
 
-/// Returns a hash of the names of the clouds in a folder and of what `of_file` returns for each.
-template <class OfFile>
-Expected<std::string> of_clouds(const std::filesystem::path& folder, OfFile&& of_file) {
-  const auto listed = scan::list_scan_folder(folder, cloud::kCloudFiles);
+/// Returns the files of an input, if it is a folder: clouds, or the files of a bag.
+Expected<std::vector<std::filesystem::path>> files_in(const DriveInput& input) {
+  if (bag::is_bag(input.path)) return bag::files_of(input.path);
+  const auto listed = scan::list_scan_folder(input.path, cloud::kCloudFiles);
   if (!listed) return tl::unexpected(listed.error());
+  std::vector<std::filesystem::path> files;
+  for (const scan::ScanFile& file : listed->scans) files.push_back(file.points);
+  return files;
+}
+
+/// Returns what `of_file` returns for an input; for a folder, a hash of the names of its files and
+/// of what it returns for each.
+template <class OfFile>
+Expected<std::string> of_input(const DriveInput& input, OfFile&& of_file) {
+  std::error_code none;
+  if (!std::filesystem::is_directory(input.path, none)) return of_file(input.path);
+  const auto files = files_in(input);
+  if (!files) return tl::unexpected(files.error());
   ContentHash hash;
-  for (const scan::ScanFile& file : listed->scans) {
-    const Expected<std::string> its = of_file(file.points);
+  for (const std::filesystem::path& file : *files) {
+    const Expected<std::string> its = of_file(file);
     if (!its) return its;
-    hash.add(fmt::format("{}  {}\n", *its, file.points.filename().string()));
+    hash.add(fmt::format("{}  {}\n", *its, file.filename().string()));
   }
   return hash.digits();
 }
@@ -59,8 +73,7 @@ std::vector<DriveInput> inputs_of(const FleetDrive& drive) {
 Expected<nlohmann::ordered_json> stamps_of(const FleetDrive& drive) {
   auto stamps = nlohmann::ordered_json::object();
   for (const DriveInput& input : inputs_of(drive)) {
-    auto stamp =
-        input.role == "scans" ? of_clouds(input.path, stamp_of_file) : stamp_of_file(input.path);
+    auto stamp = of_input(input, stamp_of_file);
     if (!stamp) return tl::unexpected(stamp.error());
     stamps[std::string(input.role)] = *std::move(stamp);
   }
@@ -68,7 +81,7 @@ Expected<nlohmann::ordered_json> stamps_of(const FleetDrive& drive) {
 }
 
 Expected<std::string> content_of(const DriveInput& input) {
-  return input.role == "scans" ? of_clouds(input.path, sha256_of_file) : sha256_of_file(input.path);
+  return of_input(input, sha256_of_file);
 }
 
 }  // namespace terracut::cli

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "firmware_io/bag/bag.hpp"
+#include "firmware_io/bag/topic_choice.hpp"
 #include "tools/cli/input/recording_tree.hpp"
 #include "tools/cli/settings/companion_files.hpp"
 #include "tools/cli/terminal_text.hpp"
@@ -46,6 +48,15 @@ std::map<fs::path, int> count_stems(const std::set<fs::path>& captures) {
   std::map<fs::path, int> counts;
   for (const fs::path& capture : captures) ++counts[capture.parent_path() / stem_of(capture)];
   return counts;
+}
+
+/// True if the only topic of a bag that could be labelled holds clouds, false if it holds packets.
+Expected<bool> holds_clouds(const fs::path& recording) {
+  const auto bag = bag::Bag::open(recording);
+  if (!bag) return tl::unexpected(bag.error());
+  const auto topic = bag::choose_topic(*bag, {}, bag::Content::kEither);
+  if (!topic) return tl::unexpected(topic.error());
+  return bag::holds_clouds(bag->topics()[*topic].type);
 }
 
 /// Lists some paths for a message.
@@ -105,6 +116,26 @@ Expected<Manifest> find_drives(const fs::path& root) {
       return tl::unexpected(added.error());
     }
   }
+  for (const fs::path& recording : found.bags) {
+    const auto has_clouds = holds_clouds(recording);
+    if (!has_clouds) {
+      std::string why = has_clouds.error().message;
+      if (const std::string place = recording.string() + ": "; why.starts_with(place)) {
+        why.erase(0, place.size());
+      }
+      manifest.left_out.push_back({recording, std::move(why)});
+      continue;
+    }
+    FleetDrive drive;
+    (*has_clouds ? drive.scans : drive.capture) = recording;
+    for (const fs::path& file : bag::files_of(recording)) {
+      const std::uintmax_t bytes = fs::file_size(file, error);
+      drive.bytes += error ? 0 : bytes;
+    }
+    if (Status added = add(std::move(drive), recording, recording, stem_of(recording)); !added) {
+      return tl::unexpected(added.error());
+    }
+  }
   for (const auto& [folder, bytes] : found.clouds) {
     const bool is_sequence = folder.filename() == "velodyne" && folder != manifest.root;
     const fs::path place = is_sequence ? folder.parent_path() : folder;
@@ -122,8 +153,8 @@ Expected<Manifest> find_drives(const fs::path& root) {
   }
   if (!manifest.drives.empty()) return manifest;
   return fail(ErrorCode::kNotFound,
-              fmt::format("{}: no drive in it: expected captures (.pcap, .pcapng) or folders of "
-                          "clouds (.bin, .pcd, .ply){}",
+              fmt::format("{}: no drive in it: expected captures (.pcap, .pcapng), bags (.mcap, "
+                          ".db3) or folders of clouds (.bin, .pcd, .ply){}",
                           root.string(), some_of(manifest.left_out)));
 }
 

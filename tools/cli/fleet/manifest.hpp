@@ -17,8 +17,8 @@ namespace terracut::cli {
 /// A recording to be labelled. An empty path means that there is no such file.
 struct FleetDrive {
   std::string name;               ///< Unique path below the root, "2026-11-02/front".
-  std::filesystem::path capture;  ///< A pcap or pcapng file; empty for clouds.
-  std::filesystem::path scans;    ///< A folder of clouds; empty for a capture.
+  std::filesystem::path capture;  ///< A pcap or pcapng file, or a bag; empty for clouds.
+  std::filesystem::path scans;    ///< A folder of clouds, or a bag; empty for a capture.
   std::filesystem::path calibration, setup;
   std::filesystem::path can, dbc;      ///< CAN recording of the vehicle, and its DBC file.
   std::vector<std::string> arguments;  ///< More options of `replay` or `segment` for it.

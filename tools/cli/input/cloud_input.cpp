@@ -12,6 +12,8 @@
 #include "calib/beams/angle.hpp"
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/mount/mount_pose.hpp"
+#include "firmware_io/bag/bag.hpp"
+#include "firmware_io/bag/topic_choice.hpp"
 #include "firmware_io/cloud/elevation_bins.hpp"
 #include "firmware_io/cloud/row_doubt.hpp"
 #include "firmware_io/cloud/sensor_pose.hpp"
@@ -62,10 +64,37 @@ Expected<cloud::SensorRows> learn_rows(CloudReader& clouds) {
 
 }  // namespace
 
-Expected<CloudReader> CloudReader::open(const std::filesystem::path& clouds) {
+Expected<CloudReader> CloudReader::open(const std::filesystem::path& clouds,
+                                        std::string_view topic) {
+  if (bag::is_bag(clouds)) {
+    auto bag = BagClouds::open(clouds, topic);
+    if (!bag) return tl::unexpected(bag.error());
+    return CloudReader(clouds, {}, *std::move(bag));
+  }
   auto folder = scan::list_scan_folder(clouds, cloud::kCloudFiles);
   if (!folder) return tl::unexpected(folder.error());
-  return CloudReader(clouds, std::move(folder->scans));
+  return CloudReader(clouds, std::move(folder->scans), {});
+}
+
+std::string CloudReader::place(std::size_t index) const {
+  return bag_ ? bag_->place(index) : files_[index].points.string();
+}
+
+std::string CloudReader::name(std::size_t index) const {
+  return bag_ ? fmt::format("{:06}", index) : files_[index].name;
+}
+
+std::uint32_t CloudReader::number(std::size_t index) const {
+  const auto by_index = static_cast<std::uint32_t>(index);
+  return bag_ ? by_index : files_[index].frame.value_or(by_index);
+}
+
+std::optional<std::int64_t> CloudReader::stamp_ns() const {
+  return bag_ ? std::optional(bag_->stamp_ns()) : std::nullopt;
+}
+
+MountOptions CloudReader::stated(const MountOptions& mount) const {
+  return bag_ ? stated_or_of_bag(mount, bag_->pose()) : mount;
 }
 
 void CloudReader::take_sensor_at(cloud::SensorPlace place) {
@@ -78,7 +107,8 @@ void CloudReader::take_sensor_at(const mount::RigidTransform& T_points_sensor) {
 }
 
 Expected<cloud::CloudView> CloudReader::read(std::size_t index) {
-  const Status read = cloud::read_cloud(files_[index].points, cloud_, place_);
+  const Status read =
+      bag_ ? bag_->read(index, cloud_) : cloud::read_cloud(files_[index].points, cloud_, place_);
   has_viewpoint_ = has_viewpoint_ || cloud_.has_viewpoint;
   if (!read) return tl::unexpected(read.error());
   if (to_sensor_) cloud::move_points(*to_sensor_, cloud_.points);
@@ -88,13 +118,20 @@ Expected<cloud::CloudView> CloudReader::read(std::size_t index) {
 Status CloudReader::read_labels(std::size_t index, std::size_t points,
                                 std::vector<std::uint32_t>& labels) const {
   labels.clear();
-  if (!files_[index].labels) return {};
+  if (bag_ || !files_[index].labels) return {};
   return scan::read_label_file(*files_[index].labels, points, labels);
 }
 
-bool holds_clouds(const std::filesystem::path& input) {
+Expected<bool> holds_clouds(const CaptureOptions& options) {
   std::error_code none;
-  return std::filesystem::is_directory(input, none) || cloud::is_cloud_file(input);
+  if (!bag::is_bag(options.file)) {
+    return std::filesystem::is_directory(options.file, none) || cloud::is_cloud_file(options.file);
+  }
+  const auto bag = bag::Bag::open(options.file);
+  if (!bag) return tl::unexpected(bag.error());
+  const auto topic = bag::choose_topic(*bag, options.topic, bag::Content::kEither);
+  if (!topic) return tl::unexpected(topic.error());
+  return bag::holds_clouds(bag->topics()[*topic].type);
 }
 
 Expected<cloud::SensorRows> rows_of(CloudReader& clouds, const std::filesystem::path& calibration) {

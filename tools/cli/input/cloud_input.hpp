@@ -6,28 +6,44 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "bag_clouds.hpp"
 #include "calib/mount/mount.hpp"
 #include "firmware_io/cloud/cloud.hpp"
 #include "firmware_io/cloud/cloud_file.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
 #include "firmware_io/scan/scan_folder.hpp"
 #include "rt/error.hpp"
+#include "tools/cli/options.hpp"
 
 namespace terracut::cli {
 
-/// Reads the clouds of a folder, or a single cloud, one by one.
+/// Reads the clouds of a folder, of a bag, or a single cloud, one by one.
 class CloudReader {
  public:
-  /// Opens a folder or a file. Fails with the errors of scan::list_scan_folder().
-  [[nodiscard]] static Expected<CloudReader> open(const std::filesystem::path& clouds);
+  /// Opens a folder, a file, or the topic of a bag. Fails with the errors of
+  /// scan::list_scan_folder() or BagClouds::open().
+  [[nodiscard]] static Expected<CloudReader> open(const std::filesystem::path& clouds,
+                                                  std::string_view topic);
 
   /// Returns the path given to open().
   [[nodiscard]] const std::filesystem::path& input() const { return input_; }
-  [[nodiscard]] std::size_t size() const { return files_.size(); }
-  [[nodiscard]] const scan::ScanFile& file(std::size_t index) const { return files_[index]; }
+  [[nodiscard]] std::size_t size() const { return bag_ ? bag_->size() : files_.size(); }
+  /// Returns a cloud's file, or which cloud of which bag it is, for messages.
+  [[nodiscard]] std::string place(std::size_t index) const;
+  /// Returns the name of the files made of a cloud: "000009".
+  [[nodiscard]] std::string name(std::size_t index) const;
+  /// Returns the number in a cloud's name; of a bag or without one, `index`.
+  [[nodiscard]] std::uint32_t number(std::size_t index) const;
+  /// Returns the stamp of the cloud read last, nanoseconds since 1970; nothing for files, which
+  /// have none.
+  [[nodiscard]] std::optional<std::int64_t> stamp_ns() const;
+  /// Fills the figures of the mount that were not stated by what a bag says of it.
+  [[nodiscard]] MountOptions stated(const MountOptions& mount) const;
 
   /// Sets the sensor's position among the points of the clouds read from now on.
   void take_sensor_at(cloud::SensorPlace place);
@@ -43,19 +59,23 @@ class CloudReader {
                                    std::vector<std::uint32_t>& labels) const;
 
  private:
-  CloudReader(std::filesystem::path input, std::vector<scan::ScanFile> files)
-      : input_(std::move(input)), files_(std::move(files)) {}
+  CloudReader(std::filesystem::path input, std::vector<scan::ScanFile> files,
+              std::optional<BagClouds> bag)
+      : input_(std::move(input)), files_(std::move(files)), bag_(std::move(bag)) {}
 
   std::filesystem::path input_;
   std::vector<scan::ScanFile> files_;
+  std::optional<BagClouds> bag_;  ///< In place of files.
   cloud::Cloud cloud_;
   cloud::SensorPlace place_ = cloud::SensorPlace::kOrigin;
   std::optional<mount::RigidTransform> to_sensor_;
   bool has_viewpoint_ = false;
 };
 
-/// Tells clouds from captures by name: true for a folder or a file with a cloud's name.
-[[nodiscard]] bool holds_clouds(const std::filesystem::path& input);
+/// Tells clouds from captures: true for a folder or a file with a cloud's name, and for a bag of
+/// which --topic, or its only topic of packets or clouds, holds clouds. Fails as bag::Bag::open()
+/// and bag::choose_topic() do.
+[[nodiscard]] Expected<bool> holds_clouds(const CaptureOptions& options);
 
 /// Returns how the clouds tell their lasers apart, and the lasers' elevations. With a
 /// `calibration`, both are that unit's, and the scans must be in KITTI's order; otherwise they are

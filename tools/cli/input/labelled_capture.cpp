@@ -30,6 +30,7 @@ Status LabelledCapture::prepare(Makes makes) {
   auto capture = open_capture(options_.capture);
   if (!capture) return tl::unexpected(capture.error());
   capture_ = *std::move(capture);
+  options_.mount = stated_or_of_bag(options_.mount, capture_->bag_pose);
   CaptureFrames frames(*capture_, options_);
   auto mount = choose_mount(options_.mount, frames);
   if (!mount && !frames.fault().empty()) mount.error().message += "; " + frames.fault();

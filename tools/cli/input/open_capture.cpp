@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "firmware_io/bag/bag.hpp"
+#include "firmware_io/bag/topic_choice.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "tools/cli/console.hpp"
@@ -50,6 +52,15 @@ Expected<PcapSource> open_unit(const CaptureOptions& options, const streams::Sen
   return PcapSource::open(options.file, std::move(its_own));
 }
 
+/// Returns what a bag says of the sensor's mount.
+BagPose pose_of_bag(const CaptureOptions& options) {
+  if (!bag::is_bag(options.file)) return {};
+  auto bag = bag::Bag::open(options.file);
+  if (!bag) return {};
+  const auto topic = bag::choose_topic(*bag, options.topic, bag::Content::kPackets);
+  return topic ? pose_in(*bag, *topic) : BagPose{};
+}
+
 /// Calls sensor::unit_calibration(). If the packets hold no calibration, uses a file beside the
 /// capture.
 Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
@@ -90,8 +101,12 @@ Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   unit = open_unit(options, sensor->stream);
   if (!unit) return tl::unexpected(unit.error());
   std::string sensor_line = describe(*sensor), calibration_line = describe(*calibration);
-  return OpenCapture{*std::move(unit), *sensor, *std::move(calibration), std::move(sensor_line),
-                     std::move(calibration_line)};
+  return OpenCapture{*std::move(unit),
+                     *sensor,
+                     *std::move(calibration),
+                     std::move(sensor_line),
+                     std::move(calibration_line),
+                     pose_of_bag(options)};
 }
 
 void say_what_is_read(const OpenCapture& capture) {

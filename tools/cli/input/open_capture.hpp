@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "bag_pose.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/capture/capture_clock.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
@@ -23,6 +24,7 @@ struct OpenCapture {
   calib::SensorCalibration calibration;
   std::string sensor_line;       ///< Model, spin rate, return mode, for logs and reports.
   std::string calibration_line;  ///< Origin, fingerprint; warns if not the unit's.
+  BagPose bag_pose;              ///< What a bag says of the mount.
 };
 
 /// Opens the capture, filtered to the datagrams of one unit, and chooses sensor and calibration

@@ -122,7 +122,7 @@ Status CloudFrames::each_frame(const mount::Mount& mount, std::size_t most,
       continue;
     }
     if (Status placed = to_image.place(*cloud); !placed) {
-      placed.error().message = clouds_.file(i).points.string() + ": " + placed.error().message;
+      placed.error().message = clouds_.place(i) + ": " + placed.error().message;
       last_fault = placed;
       continue;
     }

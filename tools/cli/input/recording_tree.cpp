@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "firmware_io/bag/bag.hpp"
 #include "firmware_io/capture/file_kind.hpp"
 #include "firmware_io/cloud/cloud_file.hpp"
 #include "rt/files/ending.hpp"
@@ -87,6 +88,9 @@ class TreeSearch {
     const fs::file_status status = entry.status(error);
     if (fs::is_directory(status)) {
       if (is_one_of(kOthersFolders, name)) return;
+      if (fs::exists(path / bag::kMetadataFile, error) && bag::is_bag(path)) {
+        return take_recording(path, found_.bags);
+      }
       if (entry.is_symlink(error)) return void(links_.insert(path));
       return look_in(path);
     }
@@ -98,7 +102,8 @@ class TreeSearch {
 
   void look_at_file(const fs::path& path) {
     const std::string ending = files::ending_of(path);
-    if (is_named_as_recording(path)) return take_recording(path);
+    if (cloud::is_cloud_file(path)) return take_cloud(path);
+    if (is_named_as_recording(path)) return take_recording(path, found_.captures);
     if (is_one_of(kNoRecordings, ending)) return;
     const bool is_packed_recording = is_named_as_recording(path.stem());
     const auto bytes = first_bytes_of(path);
@@ -106,19 +111,28 @@ class TreeSearch {
       if (is_packed_recording) leave_out(path, "a file that cannot be read");
       return;
     }
-    if (capture::begins_as_capture(*bytes)) return take_recording(path);
+    if (capture::begins_as_capture(*bytes)) return take_recording(path, found_.captures);
+    if (bag::is_bag(path)) return take_recording(path, found_.bags);
     const auto foreign = capture::foreign_kind(*bytes);
     if (foreign && (!foreign->is_packed || is_packed_recording)) {
       leave_out(path, std::string(foreign->name));
     }
   }
 
-  void take_recording(const fs::path& path) {
-    if (!is_utf8(path.native())) {
-      return leave_out(path,
-                       "a name that is no UTF-8, which a manifest cannot hold; rename it (convmv)");
+  void take_recording(const fs::path& path, std::set<fs::path>& recordings) {
+    if (has_good_name(path)) recordings.insert(path);
+  }
+
+  bool has_good_name(const fs::path& path) {
+    const bool is_good = is_utf8(path.native());
+    if (!is_good) {
+      leave_out(path, "a name that is no UTF-8, which a manifest cannot hold; rename it (convmv)");
     }
-    if (!cloud::is_cloud_file(path)) return void(found_.captures.insert(path));
+    return is_good;
+  }
+
+  void take_cloud(const fs::path& path) {
+    if (!has_good_name(path)) return;
     std::error_code vanished;
     const std::uintmax_t bytes = fs::file_size(path, vanished);
     found_.clouds[path.parent_path()] += vanished ? 0 : bytes;

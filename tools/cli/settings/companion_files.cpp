@@ -8,6 +8,7 @@
 #include <system_error>
 #include <vector>
 
+#include "firmware_io/bag/bag.hpp"
 #include "firmware_io/capture/file_kind.hpp"
 
 namespace terracut::cli {
@@ -49,6 +50,7 @@ Expected<fs::path> find_beside(const Beside& recording, const std::vector<std::s
 std::string stem_of(const fs::path& capture) {
   const std::string name = capture.filename().string();
   const std::string_view stem = capture::capture_stem(name);
+  if (stem.empty() && bag::is_bag_name(capture)) return name.substr(0, name.find_last_of('.'));
   return stem.empty() ? name : std::string(stem);
 }
 

@@ -16,7 +16,7 @@ struct Beside {
   std::string stem;  ///< The recording's name without its ending.
 };
 
-/// Returns a capture's name without its ending; the whole name if that is not one of a capture.
+/// Returns the name of a capture or bag without its ending; the whole name if it has neither's.
 [[nodiscard]] std::string stem_of(const std::filesystem::path& capture);
 
 /// Returns the setup file of a recording; empty if there is none. Fails with kMalformed if there

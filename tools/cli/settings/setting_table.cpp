@@ -76,11 +76,11 @@ ChoiceField dataset_choice(std::string& dataset) {
 // clang-format off: a table reads better with an entry on two lines than one word a line.
 constexpr std::array kSettings{
     // The input of a run
-    Setting{.option = "FILE", .commands = kWholeCaptures, .required_by = kWholeCaptures, .help = "Capture, pcap or pcapng",
+    Setting{.option = "FILE", .commands = kWholeCaptures, .required_by = kWholeCaptures, .help = "Capture, pcap or pcapng; or a bag with packets, MCAP or rosbag2's (a file, or its folder)",
             .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
-    Setting{.option = "FILE", .commands = C::kCalibrate | C::kView, .required_by = C::kCalibrate | C::kView, .help = "Capture, pcap or pcapng; or clouds, a folder or one file, as segment takes them",
+    Setting{.option = "FILE", .commands = C::kCalibrate | C::kView, .required_by = C::kCalibrate | C::kView, .help = "Capture, pcap or pcapng; or clouds, a folder or one file, as segment takes them; or a bag with either",
             .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
-    Setting{.option = "SCANS_DIR", .commands = C::kSegment | C::kEncode, .required_by = C::kSegment | C::kEncode, .help = "Folder of scans (.bin; segment: .pcd.bin, .pcd and .ply, too, or one file), or a SemanticKITTI sequence folder",
+    Setting{.option = "SCANS_DIR", .commands = C::kSegment | C::kEncode, .required_by = C::kSegment | C::kEncode, .help = "Folder of scans (.bin; segment: .pcd.bin, .pcd and .ply, too, or one file), or a SemanticKITTI sequence folder; segment: or a bag with clouds, MCAP or rosbag2's",
             .field = [](O& o) -> F { return &o.scans; }},
     Setting{.option = "DATASET", .commands = C::kEval, .required_by = C::kEval, .help = "Which dataset, or own clouds, or drives to simulate; hazards: any\nof these, with persons, boxes, ghosts and the like put in",
             .field = [](O& o) -> F { return dataset_choice(o.eval.dataset); }},
@@ -122,6 +122,8 @@ constexpr std::array kSettings{
     Setting{.key = "sensor.geometry", .option = "--geometry", .commands = kPackets | C::kRelabel, .help = "Meaning of the table: the maker's manual, or as ROS drivers take it",
             .field = [](O& o) -> F { return choice(o.capture.geometry, kGeometryWords); }},
 
+    Setting{.key = "input.topic", .option = "--topic", .commands = kCaptures | C::kInfo | C::kSend | C::kSegment | C::kRelabel, .help = "Bags: the topic to read, of packets or of clouds (default: the only one)",
+            .field = [](O& o) -> F { return &o.capture.topic; }},
     Setting{.key = "input.port", .option = "--port", .commands = kCaptures | C::kSend | C::kRelabel, .help = "Only UDP datagrams to this port (default: any)",
             .least = 0, .most = 65535, .field = [](O& o) -> F { return &o.capture.port; }},
     Setting{.key = "input.from", .option = "--from", .commands = kPackets | C::kSend | C::kRelabel, .help = "Only datagrams of this IPv4 address, or of this port of it (default: any)",

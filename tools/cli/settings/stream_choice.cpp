@@ -16,6 +16,7 @@ capture::PcapFilter filter_of(const CaptureOptions& options) {
   if (const auto to = net::parse_ipv4_address(options.to)) filter.destination_address = *to;
   if (const auto vlan = streams::parse_vlan(options.vlan)) filter.vlan = *vlan;
   if (const auto mac = streams::parse_mac(options.mac)) filter.source_mac = *mac;
+  filter.topic = options.topic;
   return filter;
 }
 

@@ -24,13 +24,13 @@ constexpr std::int64_t kPeriod_ns = 100'000'000;
 
 Expected<std::unique_ptr<PlayedClouds>> PlayedClouds::open(const std::filesystem::path& clouds,
                                                            const Options& options) {
-  auto reader = CloudReader::open(clouds);
+  auto reader = CloudReader::open(clouds, options.capture.topic);
   if (!reader) return tl::unexpected(reader.error());
   std::unique_ptr<PlayedClouds> opened(new PlayedClouds(*std::move(reader)));
   const auto rows = rows_of(opened->reader_, options.capture.calibration);
   if (!rows) return tl::unexpected(rows.error());
   CloudFrames frames(opened->reader_, *rows);
-  const auto mount = choose_mount(options.mount, frames);
+  const auto mount = choose_mount(opened->reader_.stated(options.mount), frames);
   if (!mount) return tl::unexpected(mount.error());
   const auto profile = ring_profile_of(rows->rings.table, mount->options);
   if (!profile) return tl::unexpected(profile.error());
@@ -62,15 +62,14 @@ std::optional<PlayedRecording::Span> PlayedClouds::next() {
 Status PlayedClouds::label(std::size_t index) {
   const auto cloud = reader_.read(index);
   if (!cloud) return tl::unexpected(cloud.error());
-  const scan::ScanFile& file = reader_.file(index);
   record_ = {};
   record_.info.complete = true;
-  record_.info.number = file.frame.value_or(static_cast<std::uint32_t>(index));
+  record_.info.number = reader_.number(index);
   // Players of recordings expect stamps that rise from frame to frame.
   record_.info.first_packet_ns = static_cast<std::int64_t>(index + 1) * kPeriod_ns;
   record_.info.last_packet_ns = record_.info.first_packet_ns;
   if (const Status labelled = pipeline_->label(*cloud, record_); !labelled) {
-    return fail(labelled.error().code, file.points.string() + ": " + labelled.error().message);
+    return fail(labelled.error().code, reader_.place(index) + ": " + labelled.error().message);
   }
   return {};
 }

@@ -65,6 +65,7 @@ def replay(
     cell_owner: Optional[str] = None,
     timestamp: Optional[str] = None,
     geometry: Optional[str] = None,
+    topic: Optional[str] = None,
     port: Optional[int] = None,
     sender: Optional[str] = None,
     start: Optional[float] = None,
@@ -83,14 +84,14 @@ def replay(
     deskew_to: Optional[str] = None,
     config: Optional[Path] = None,
 ) -> Replay:
-    """Returns the labelled frames of a capture file, as `terracut replay` labels them.
+    """Returns the labelled frames of a capture or of a bag's packets, as `terracut replay` labels them.
 
     Every setting is the program's option of that name (`terracut replay --help`): angles are degrees, a mount that is
     not stated is estimated from the first frames. `sender` is --from, `parameters` are those of --set.
     """
     return Replay(_words("replay", [capture], {
         "calibration": calibration, "sensor": sensor, "nominal_calibration": nominal_calibration, "columns": columns,
-        "cell_owner": cell_owner, "timestamp": timestamp, "geometry": geometry, "port": port, "from": sender,
+        "cell_owner": cell_owner, "timestamp": timestamp, "geometry": geometry, "topic": topic, "port": port, "from": sender,
         "start": start, "duration": duration, "reorder_packets": reorder_packets, "setup": setup,
         "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch, "profile": profile,
         "stages": stages, "method": method, "set": _settings(parameters), "can": can, "dbc": dbc,

@@ -41,8 +41,7 @@ enum class SensorModel : std::uint8_t {
   kPandarQt128,
   kPandarXt16,
   kPandarXt32,
-  kPandarXt32m,
-  kOtherHesai  ///< A Hesai data packet of another model.
+  kPandarXt32m
 };
 
 /// What is known of a model. Facts that only the model's packet decoder needs are in its trait
@@ -167,7 +166,6 @@ inline constexpr std::array kSensorTable{
     SensorRow{.model = SensorModel::kRubyLite, .name = "RoboSense Ruby Lite (80)"},
     SensorRow{.model = SensorModel::kOtherRoboSense, .name = "other RoboSense"},
     SensorRow{.model = SensorModel::kRoboSenseDeviceInfo, .name = "RoboSense device info (DIFOP)"},
-    SensorRow{.model = SensorModel::kOtherHesai, .name = "other Hesai"},
     SensorRow{.model = SensorModel::kUnknown, .name = "unknown"}};
 
 [[nodiscard]] constexpr const SensorRow& row_of(SensorModel model) noexcept {

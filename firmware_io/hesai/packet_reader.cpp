@@ -46,9 +46,9 @@ std::optional<bool> is_dual(std::uint8_t mode) noexcept {
 std::optional<frame::Reject> PacketReader::read(Bytes payload,
                                                 packet::PacketAzimuths& azimuths) noexcept {
   if (!is_of(layout_, payload)) {
-    const sensor::SensorModel model = sensor::recognise_sensor(payload);
-    if (model != sensor::SensorModel::kUnknown && model != sensor::SensorModel::kOtherHesai)
+    if (sensor::recognise_sensor(payload) != sensor::SensorModel::kUnknown) {
       return frame::Reject::kWrongModel;
+    }
     return layout_.fits(payload.size()) ? frame::Reject::kWrongMagic : frame::Reject::kWrongSize;
   }
   const Bytes tail = payload.subspan(layout_.tail_at());

@@ -79,9 +79,7 @@ SensorModel hesai_model(Bytes payload) noexcept {
   const auto* const found = std::ranges::find_if(
       hesai::kLayouts,
       [&](const hesai::PacketLayout& layout) { return hesai::is_of(layout, payload); });
-  if (found != hesai::kLayouts.end()) return found->model;
-  return starts_with(payload, hesai::kPacketStart) ? SensorModel::kOtherHesai
-                                                   : SensorModel::kUnknown;
+  return found == hesai::kLayouts.end() ? SensorModel::kUnknown : found->model;
 }
 
 std::string_view velodyne_return_mode(std::uint8_t mode) noexcept {

@@ -19,7 +19,7 @@ TEST(SensorTable, HasOneRowForEveryModelWithANameOfItsOwn) {
     models.insert(row.model);
     names.insert(row.name);
   }
-  EXPECT_EQ(models.size(), static_cast<std::size_t>(SensorModel::kOtherHesai) + 1);
+  EXPECT_EQ(models.size(), static_cast<std::size_t>(SensorModel::kPandarXt32m) + 1);
   EXPECT_EQ(names.size(), models.size());
 }
 

@@ -99,7 +99,7 @@ std::string FirstSeconds::other_sensors() const {
 }
 
 std::string FirstSeconds::wanted_name() const {
-  return config_.model ? std::string(to_string(*config_.model)) : "a Velodyne or RS-Ruby128";
+  return config_.model ? std::string(to_string(*config_.model)) : "a Velodyne, RS-Ruby128 or Hesai";
 }
 
 std::string FirstSeconds::heard_instead() const {

@@ -66,18 +66,21 @@ BagPose pose_of_bag(const CaptureOptions& options) {
 Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
                                                   sensor::SensorModel model, PcapSource& unit) {
   sensor::CalibrationChoice choice{.file = options.calibration};
-  auto told = sensor::unit_calibration(choice, model, unit);
+  // A Hesai's packets hold no table, so its nominal one must not come before the unit's.
+  const bool is_of_hesai = sensor::row_of(model).has_unit_tables;
+  Expected<calib::SensorCalibration> told = fail(ErrorCode::kNoCalibration, "");
+  if (!is_of_hesai || choice.is_given()) told = sensor::unit_calibration(choice, model, unit);
   if (told || choice.is_given() || told.error().code != ErrorCode::kNoCalibration) return told;
   const auto beside = calibration_beside(options.file);
   if (!beside) return tl::unexpected(beside.error());
   const bool is_of_ruby128 = model == sensor::SensorModel::kRuby128;
-  if (!beside->empty() && (beside->extension() == ".csv") == is_of_ruby128) {
+  if (!beside->empty() && (beside->extension() == ".csv") == (is_of_ruby128 || is_of_hesai)) {
     choice.file = *beside;
     say(fmt::format("the packets hold no calibration; {} beside the capture is taken",
                     beside->string()));
   }
   choice.allows_nominal = options.nominal_calibration;
-  if (choice.is_given() || choice.allows_nominal) {
+  if (choice.is_given() || choice.allows_nominal || is_of_hesai) {
     return sensor::unit_calibration(choice, model, unit);
   }
   told.error().message += fmt::format("; or put it beside the capture as {}.calibration.{}",

@@ -19,7 +19,7 @@
 namespace terracut::simulation {
 namespace {
 
-constexpr std::size_t kTurns = 4;
+constexpr std::size_t kTurns = 3;
 constexpr std::size_t kPacketBytes = SensorLoop::kMostPacketBytes;
 constexpr std::size_t kBlockBytes = 100, kBlocks = 12, kAzimuthAt = 2, kStampAt = 1200;
 constexpr std::int64_t kDeviceHour_us = 3'600'000'000;
@@ -61,7 +61,7 @@ SensorLoop loop_of(std::size_t packets_per_turn) {
   loop.period_ns = EncoderTraits::firing_ns(kSingle) * EncoderTraits::columns_per_packet(kSingle);
   loop.packets_per_turn = packets_per_turn;
   setup.spin_hz = 1e9 / static_cast<double>(loop.turn_ns());
-  setup.duration_s = static_cast<double>(kTurns + 2) / setup.spin_hz;
+  setup.duration_s = static_cast<double>(kTurns) / setup.spin_hz;
   loop.calibration = setup.calibration;
   loop.profile = ring_profile(setup.calibration, setup.mount);
   loop.columns = packets::image_columns<EncoderTraits>(setup.spin_hz, kSingle);

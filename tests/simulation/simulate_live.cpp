@@ -2,9 +2,11 @@
 // Copyright 2026 The terracut authors
 // Simulates live runs, seed after seed: see ./tools/simulate_live.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <optional>
@@ -17,6 +19,19 @@ namespace terracut::simulation {
 namespace {
 
 constexpr int kUsage = 2, kBroken = 1;
+constexpr unsigned kLongestRun_s =
+    300;  ///< No run takes so long unless something goes on for ever.
+
+/// The run that is simulated now, told where it ends the program.
+std::string simulated_now;
+
+/// Tells which run it was, and ends the program.
+void tell_of_crash(int signal) {
+  const std::string& run = simulated_now;
+  (void)!::write(STDOUT_FILENO, run.data(), run.size());
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
 
 struct Options {
   std::uint64_t seed = 1;
@@ -63,7 +78,17 @@ std::string repeat(const Plan& plan) {
                      plan.has_real_method ? "--real" : "--cached", to_string(plan.faults));
 }
 
+Outcome told_simulation(const Plan& plan) {
+  simulated_now =
+      fmt::format("seed {}: crashed or went on for ever\n  {}\n", plan.seed, repeat(plan));
+  ::alarm(kLongestRun_s);
+  return simulate(plan);
+}
+
 int run(const Options& options) {
+  for (const int signal : {SIGABRT, SIGALRM, SIGBUS, SIGFPE, SIGILL, SIGSEGV}) {
+    std::signal(signal, tell_of_crash);
+  }
   using Clock = std::chrono::steady_clock;
   const auto began = Clock::now();
   auto told = began;
@@ -81,7 +106,7 @@ int run(const Options& options) {
     Plan plan = plan_of(seed);
     if (options.faults) plan.faults = *options.faults;
     if (options.has_real_method) plan.has_real_method = *options.has_real_method;
-    const Outcome outcome = simulate(plan);
+    const Outcome outcome = told_simulation(plan);
     ++runs;
     simulated_s += outcome.simulated_s;
     frames += outcome.frames;
@@ -89,6 +114,7 @@ int run(const Options& options) {
     if (outcome.broken) {
       ++broken;
       fmt::print("seed {}: {}\n", seed, *outcome.broken);
+      ::alarm(0);
       const Plan least = shrunk(plan);
       fmt::print("  {}\n  all of it: {}\n", repeat(least), to_string(plan.faults));
       std::fflush(stdout);

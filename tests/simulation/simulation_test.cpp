@@ -20,7 +20,7 @@ TEST(Simulation, HoldsForTheFirstSeeds) {
 }
 
 TEST(Simulation, IsTheSameEachTime) {
-  for (const std::uint64_t seed : {3, 4, 5}) {
+  for (const std::uint64_t seed : {3U, 4U, 5U}) {
     const Outcome first = simulate(plan_of(seed)), again = simulate(plan_of(seed));
     EXPECT_EQ(first.digest, again.digest) << seed;
     EXPECT_EQ(first.frames, again.frames) << seed;

@@ -36,6 +36,12 @@ inline constexpr std::size_t kEight = 8;
 [[nodiscard]] inline FourFloats square_root(FourFloats four) noexcept {
   return FourFloats{std::sqrt(four[0]), std::sqrt(four[1]), std::sqrt(four[2]), std::sqrt(four[3])};
 }
+/// True if the mask is set in any lane.
+[[nodiscard]] inline bool is_any(FourInts mask) noexcept {
+  std::uint64_t halves[2];
+  std::memcpy(halves, &mask, sizeof(mask));
+  return (halves[0] | halves[1]) != 0;
+}
 /// Returns `four` where the mask is set, else 0.
 [[nodiscard]] inline FourFloats where(FourInts mask, FourFloats four) noexcept {
   FourInts bits;

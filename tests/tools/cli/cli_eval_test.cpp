@@ -340,5 +340,21 @@ TEST_F(CliEval, PutsHazardsIntoScansAndDrives) {
   EXPECT_THAT(no_ground.err, HasSubstr("no place for any of these hazards"));
 }
 
+TEST_F(CliEval, ComparesObjectsWithTheirTruth) {
+  const eval::MadeUpDataset made_up;
+  const std::string eval = "eval objects " + quoted(made_up.root()) + " --frames 0 ";
+  const Outcome outcome = run(eval + "--json objects.json");
+  ASSERT_EQ(outcome.exit_code, kOk) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("OSE"), HasSubstr("two-wheelers")));
+  const auto report = json("objects.json");
+  const auto& objects = report.at("methods").at("terracut").at("objects");
+  EXPECT_EQ(
+      objects.at("tuned").at("frames").get<int>() + objects.at("unseen").at("frames").get<int>(),
+      2);
+  EXPECT_EQ(run(eval + "--kinds child").exit_code, kUsage);
+  EXPECT_EQ(run(eval + "--report report").exit_code, kUsage);
+  expect_done("eval objects simulated flat --duration 0.1");
+}
+
 }  // namespace
 }  // namespace terracut::cli

@@ -98,7 +98,7 @@ void add_evaluation(RunFiles& files, const Options& options) {
       files.read("ROOT", root, "the dataset");
     }
   }
-  const bool has_journal = options.eval.changes.empty() && !subject.with_hazards;
+  const bool has_journal = options.eval.changes.empty() && subject.extra == EvalExtra::kNone;
   if (!options.output.json.empty() && has_journal) {
     files.write("the journal of --json", options.output.json.string() + ".journal");
   }

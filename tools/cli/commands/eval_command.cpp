@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "calib/beams/angle.hpp"
 #include "pipeline/ground/parameter_table.hpp"
@@ -32,6 +33,8 @@
 #include "tools/research/eval/simulated_evaluation.hpp"
 #include "tools/research/hazards/hazard_report.hpp"
 #include "tools/research/hazards/hazard_trials.hpp"
+#include "tools/research/object_measures/object_report.hpp"
+#include "tools/research/object_measures/object_trials.hpp"
 #include "tools/research/report/evaluation_report.hpp"
 
 namespace terracut::cli {
@@ -83,22 +86,26 @@ bool is_any_given(const Options& options, std::initializer_list<const char*> nam
   });
 }
 
-/// Refuses options that `eval hazards` does not use, and options that only it uses.
-Status check_fit_of_hazards(const Options& options, const EvalSubject& subject) {
-  const std::initializer_list<const char*> of_hazards{"MORE", "--kinds", "--trials", "--write"};
-  const std::initializer_list<const char*> of_others{"--report", "--changes", "--predictions"};
-  for (const char* const name : subject.with_hazards ? of_others : of_hazards) {
+/// Refuses options that are not used with what is measured beside labels.
+Status check_fit_of_extra(const Options& options, const EvalExtra extra,
+                          const std::string& dataset) {
+  std::vector<const char*> unused;
+  if (extra != EvalExtra::kHazards) unused = {"--kinds", "--trials", "--write"};
+  if (extra == EvalExtra::kNone) unused.push_back("MORE");
+  if (extra != EvalExtra::kNone) {
+    unused.insert(unused.end(), {"--report", "--changes", "--predictions"});
+  }
+  for (const char* const name : unused) {
     if (!is_any_given(options, {name})) continue;
     return fail(ErrorCode::kInvalidArgument,
-                fmt::format("`eval {}` does not know {}",
-                            subject.with_hazards ? "hazards" : subject.dataset, name));
+                fmt::format("`eval {}` does not know {}", dataset, name));
   }
   return {};
 }
 
 /// Refuses options that this kind of dataset does not use.
-Status check_fit(const Options& options, const EvalSubject& subject) {
-  if (const Status fits = check_fit_of_hazards(options, subject); !fits) return fits;
+Status check_fit(const Options& options, const EvalSubject& subject, const std::string& dataset) {
+  if (const Status fits = check_fit_of_extra(options, subject.extra, dataset); !fits) return fits;
   const auto refuse = [&](std::string_view what) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("`eval {}` does not know {}", options.eval.dataset, what));
@@ -124,7 +131,7 @@ Status check_fit(const Options& options, const EvalSubject& subject) {
     return refuse("--find-mount with a mount that is stated");
   }
   for (const char* const option : {"--sensor", "--returns", "--duration", "--seed"}) {
-    if (subject.with_hazards && option == std::string_view("--seed")) continue;
+    if (subject.extra == EvalExtra::kHazards && option == std::string_view("--seed")) continue;
     if (is_any_given(options, {option})) {
       return refuse(fmt::format("{}, only `eval simulated` does", option));
     }
@@ -394,6 +401,16 @@ void add_hazards(const hazards::HazardTrials& trials, const EvaluationConfig& co
   }
 }
 
+/// Adds the objects of every method to the report and prints how well they come apart.
+void add_objects(const object_measures::ObjectTrials& objects, const EvaluationConfig& config,
+                 nlohmann::ordered_json& json) {
+  for (std::size_t i = 0; i < config.methods.size(); ++i) {
+    const std::string& name = config.methods[i].name;
+    json["methods"][name]["objects"] = object_measures::object_json(objects.counts(i));
+    print_text(object_measures::object_text(name, json["methods"][name]["objects"]) + "\n");
+  }
+}
+
 }  // namespace
 
 ExitCode run_eval(const Options& given) {
@@ -401,7 +418,8 @@ ExitCode run_eval(const Options& given) {
   Options options = given;
   options.eval.dataset = subject.dataset;
   options.eval.root = subject.roots.front();
-  if (const Status fits = check_fit(options, subject); !fits) return refuse(fits.error());
+  if (const Status fits = check_fit(options, subject, given.eval.dataset); !fits)
+    return refuse(fits.error());
   const auto classes = classes_of(options);
   if (!classes) return refuse(classes.error());
   auto config = config_of(options, *classes);
@@ -417,7 +435,7 @@ ExitCode run_eval(const Options& given) {
   }
   std::optional<hazards::ScanWriter> writer;
   std::optional<hazards::HazardTrials> trials;
-  if (subject.with_hazards) {
+  if (subject.extra == EvalExtra::kHazards) {
     hazards::HazardChoice choice;
     choice.trials = options.eval.trials;
     choice.seed = options.simulate.seed;
@@ -426,6 +444,11 @@ ExitCode run_eval(const Options& given) {
     if (!options.eval.hazard_scans.empty()) writer.emplace(options.eval.hazard_scans);
     trials.emplace(config->methods, *classes, std::move(choice), writer ? &*writer : nullptr);
     config->on_labelled = [&](const eval::LabelledByAll& frame) { trials->look(frame); };
+  }
+  std::optional<object_measures::ObjectTrials> objects;
+  if (subject.extra == EvalExtra::kObjects) {
+    objects.emplace(config->methods.size());
+    config->on_labelled = [&](const eval::LabelledByAll& frame) { objects->look(frame); };
   }
   std::optional<eval::Journal> journal;
   // No journal is kept where labels are needed: frames in a journal are not labelled again, and it
@@ -448,6 +471,7 @@ ExitCode run_eval(const Options& given) {
   add_found_mounts(*outcome, json);
   say_outcome(*outcome, json);
   if (trials) add_hazards(*trials, *config, subject, json);
+  if (objects) add_objects(*objects, *config, json);
   print_text(eval::evaluation_text(json));
   if (outcome->interrupted) {
     warn(journal ? "interrupted; the same command goes on from here" : "interrupted");

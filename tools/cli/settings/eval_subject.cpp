@@ -22,8 +22,11 @@ bool is_dataset(const std::string& word) {
 }  // namespace
 
 EvalSubject subject_of(const EvalOptions& options) {
-  if (options.dataset != "hazards") return {options.dataset, {options.root}, false};
-  EvalSubject subject{"semantickitti", {}, true};
+  const EvalExtra extra = options.dataset == "hazards"   ? EvalExtra::kHazards
+                          : options.dataset == "objects" ? EvalExtra::kObjects
+                                                         : EvalExtra::kNone;
+  if (extra == EvalExtra::kNone) return {options.dataset, {options.root}, extra};
+  EvalSubject subject{"semantickitti", {}, extra};
   std::vector<std::string> words{options.root.string()};
   words.insert(words.end(), options.more_roots.begin(), options.more_roots.end());
   if (words == std::vector<std::string>{"simulated"}) {

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,15 +11,18 @@
 
 namespace terracut::cli {
 
+/// What `eval` measures beside labels.
+enum class EvalExtra : std::uint8_t { kNone, kHazards, kObjects };
+
 /// The data that `eval` measures on.
 struct EvalSubject {
-  std::string dataset;  ///< Never "hazards", but the dataset that they are put into.
+  std::string dataset;  ///< Never "hazards" or "objects", but the dataset itself.
   std::vector<std::filesystem::path> roots;  ///< At least one; for drives one: all scenes.
-  bool with_hazards = false;
+  EvalExtra extra = EvalExtra::kNone;
 };
 
 /// Parses `hazards DATASET ROOT...`, `hazards ROOT...` (semantickitti) and `hazards simulated` (all
-/// scenes). Without `hazards`, returns the dataset and its root.
+/// scenes), and the same with `objects`. Without either, returns the dataset and its root.
 [[nodiscard]] EvalSubject subject_of(const EvalOptions& options);
 
 }  // namespace terracut::cli

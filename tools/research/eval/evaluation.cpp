@@ -255,7 +255,8 @@ class Run {
     }
     config_.on_labelled({work.sequence->name, work.frame(), *labeller.placed().image,
                          work.sequence->profile, truth,
-                         [&](std::size_t i) { return labeller.returns(i); }});
+                         [&](std::size_t i) { return labeller.returns(i); },
+                         [&](std::size_t i) -> decltype(auto) { return labeller.planes(i); }});
   }
 
   void note(const Work& work, std::string what) {

@@ -35,11 +35,14 @@ class FrameLabeller {
   /// the safe side, for points lost on the way to the image.
   [[nodiscard]] std::span<const frame::Label> points() const noexcept { return labels_; }
 
-  /// placed() returns the scan as the methods see it. The next function returns the labels of
-  /// methods[index], by return index of that image, valid until the next scan.
+  /// placed() returns the scan as the methods see it. The next functions return the labels of
+  /// methods[index], by return index of that image, and its planes, valid until the next scan.
   [[nodiscard]] const PlacedScan& placed() const noexcept { return placed_; }
   [[nodiscard]] std::span<const frame::Label> returns(std::size_t index) const {
     return bench_->labels(index);
+  }
+  [[nodiscard]] const stage::CellPlanes& planes(std::size_t index) const {
+    return bench_->planes(index);
   }
 
  private:

@@ -10,10 +10,11 @@
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "pipeline/stage/cell_planes.hpp"
 
 namespace terracut::eval {
 
-/// A frame that every method has labelled; all data is by return index of `image`.
+/// A frame that every method has labelled; all data but planes is by return index of `image`.
 struct LabelledByAll {
   const std::string& sequence;
   const std::string& frame;
@@ -21,6 +22,7 @@ struct LabelledByAll {
   const mount::RingProfile& profile;
   std::span<const std::uint32_t> truth;  ///< Classes as in label files.
   std::function<std::span<const frame::Label>(std::size_t)> labels_of;  ///< By index of the method.
+  std::function<const stage::CellPlanes&(std::size_t)> planes_of;       ///< By index of the method.
 };
 
 /// Receives frames, from any thread.

@@ -30,4 +30,8 @@ std::span<const frame::Label> MethodBench::labels(std::size_t index) const {
   return methods_[index]->labels();
 }
 
+const stage::CellPlanes& MethodBench::planes(std::size_t index) const {
+  return methods_[index]->planes();
+}
+
 }  // namespace terracut::eval

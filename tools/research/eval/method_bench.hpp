@@ -11,6 +11,7 @@
 #include "firmware_io/frame/range_image.hpp"
 #include "frame_result.hpp"
 #include "method_choice.hpp"
+#include "pipeline/stage/cell_planes.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::eval {
@@ -27,6 +28,8 @@ class MethodBench {
   [[nodiscard]] FrameTimes segment(std::size_t index, const frame::RangeImage& image);
   /// Returns the labels of that method, one per return, until it runs again.
   [[nodiscard]] std::span<const frame::Label> labels(std::size_t index) const;
+  /// Returns the planes of that method, until it runs again.
+  [[nodiscard]] const stage::CellPlanes& planes(std::size_t index) const;
 
  private:
   std::vector<std::unique_ptr<ground::FrameMethod>> methods_;

@@ -173,7 +173,8 @@ class DriveEvaluation {
     }
     if (config_.on_labelled && methods.size() == config_.methods.size()) {
       config_.on_labelled({scene_, frame, image, profile_, truth_,
-                           [&](std::size_t i) { return bench_.labels(i); }});
+                           [&](std::size_t i) { return bench_.labels(i); },
+                           [&](std::size_t i) -> decltype(auto) { return bench_.planes(i); }});
     }
   }
 

@@ -22,19 +22,26 @@ TEST(EvalSubject, IsTheDatasetAndItsRoot) {
   const EvalSubject of_scans = subject("koblenz", "maps");
   EXPECT_EQ(of_scans.dataset, "koblenz");
   EXPECT_THAT(of_scans.roots, ElementsAre("maps"));
-  EXPECT_FALSE(of_scans.with_hazards);
+  EXPECT_EQ(of_scans.extra, EvalExtra::kNone);
 }
 
 TEST(EvalSubject, OfHazardsIsADatasetThatIsNamedOrSemanticKitti) {
   const EvalSubject named = subject("hazards", "nuscenes", {"a", "b"});
   EXPECT_EQ(named.dataset, "nuscenes");
   EXPECT_THAT(named.roots, ElementsAre("a", "b"));
-  EXPECT_TRUE(named.with_hazards);
+  EXPECT_EQ(named.extra, EvalExtra::kHazards);
   const EvalSubject folders = subject("hazards", "a", {"b"});
   EXPECT_EQ(folders.dataset, "semantickitti");
   EXPECT_THAT(folders.roots, ElementsAre("a", "b"));
   EXPECT_THAT(subject("hazards", "semantickitti").roots, ElementsAre("semantickitti"))
       << "a folder of that name";
+}
+
+TEST(EvalSubject, OfObjectsIsNamedLikeThatOfHazards) {
+  const EvalSubject folders = subject("objects", "a", {"b"});
+  EXPECT_EQ(folders.extra, EvalExtra::kObjects);
+  EXPECT_EQ(folders.dataset, "semantickitti");
+  EXPECT_THAT(folders.roots, ElementsAre("a", "b"));
 }
 
 TEST(EvalSubject, OfHazardsInDrivesIsTheirScenesOrAll) {

@@ -32,8 +32,13 @@ class ChangedFramesTest : public testing::Test {
             const std::vector<Label>& other) {
     static const std::string kSequence = "00";
     static const mount::RingProfile kProfile;
-    changed_.look({kSequence, frame, image_, kProfile, truth_,
-                   [&](std::size_t i) { return std::span(i == 0 ? first : other); }});
+    changed_.look({kSequence,
+                   frame,
+                   image_,
+                   kProfile,
+                   truth_,
+                   [&](std::size_t i) { return std::span(i == 0 ? first : other); },
+                   {}});
   }
   [[nodiscard]] nlohmann::json written() const {
     const Status status = changed_.write(folder_.path());

@@ -25,7 +25,7 @@ class HazardTrialsTest : public testing::Test {
   }
   void look(HazardTrials& trials, const std::string& frame) const {
     static const std::string kSequence = "00";
-    trials.look({kSequence, frame, scene_.image, scene_.profile, scene_.truth, {}});
+    trials.look({kSequence, frame, scene_.image, scene_.profile, scene_.truth, {}, {}});
   }
   [[nodiscard]] std::string report(const HazardChoice& choice,
                                    const std::vector<std::string>& frames) const {

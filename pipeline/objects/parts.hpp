@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <span>
+
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "rt/memory/fixed_memory.hpp"
+
+namespace terracut::objects {
+
+/// What an obstacle cell is part of.
+enum class Part : std::uint8_t {
+  kNone = 0,  ///< No obstacle.
+  kFoot = 1,  ///< Low growth, kerbs and rough ground around bodies, or something low by itself.
+  kBody = 2,  ///< Something that stands out of the ground.
+};
+
+/// Tells how far apart returns of neighbouring cells may be and still belong together: `gap_m`, or
+/// more, up to twice that, where beams lie far apart: two steps between rows, or eight between
+/// columns, because a car's side may be seen at a grazing angle (7 degrees).
+class Reach {
+ public:
+  /// `profile` must have shape.rows rings.
+  Reach(float gap_m, const mount::RingProfile& profile, frame::ImageShape shape,
+        memory::FixedMemory& memory)
+      : gap_m_(gap_m),
+        column_step_rad_(2 * std::numbers::pi_v<float> / static_cast<float>(shape.columns)),
+        row_steps_rad_(memory.take<float>("objects", profile.rings.size())) {
+    for (std::size_t row = 0; row + 1 < row_steps_rad_.size(); ++row) {
+      row_steps_rad_[row] = static_cast<float>(profile.rings[row + 1].elevation_rad -
+                                               profile.rings[row].elevation_rad);
+    }
+  }
+
+  /// Returns the square of the reach along a row for returns of that horizontal range.
+  [[nodiscard]] float along_row_squared_m2(float range_m) const noexcept {
+    return squared_m2(8 * column_step_rad_ * range_m);
+  }
+  /// Returns the same from a row to the next higher one.
+  [[nodiscard]] float to_next_row_squared_m2(int row, float range_m) const noexcept {
+    return squared_m2(2 * row_step_rad(row) * range_m);
+  }
+  /// Returns the angle from a row to the next higher one; 0 for the highest.
+  [[nodiscard]] float row_step_rad(int row) const noexcept {
+    return row_steps_rad_[static_cast<std::size_t>(row)];
+  }
+  [[nodiscard]] float column_step_rad() const noexcept { return column_step_rad_; }
+
+ private:
+  [[nodiscard]] float squared_m2(float steps_m) const noexcept {
+    const float reach_m = std::min(std::max(steps_m, gap_m_), 2 * gap_m_);
+    return reach_m * reach_m;
+  }
+
+  float gap_m_, column_step_rad_;
+  std::span<float> row_steps_rad_;  // by the lower row
+};
+
+/// Returns the square of the distance between two cells' returns.
+[[nodiscard]] inline float distance_squared_m2(const frame::PointPlanes& points, std::size_t a,
+                                               std::size_t b) noexcept {
+  const float x_m = points.x_m[a] - points.x_m[b];
+  const float y_m = points.y_m[a] - points.y_m[b];
+  const float z_m = points.z_m[a] - points.z_m[b];
+  return x_m * x_m + y_m * y_m + z_m * z_m;
+}
+
+}  // namespace terracut::objects

@@ -195,7 +195,8 @@ void Clusters::join_around(const Run& run, int row, const frame::PointPlanes& po
     if (!is_end && row + 1 < shape_.rows && body_of_[above] == body_of_[cell]) continue;
     const float range_m = points.ground_range_m[cell];
     const float columns = config_.join_m / std::max(range_m * reach.column_step_rad(), 0.01F);
-    const int wide = std::min(kMostColumns, static_cast<int>(columns) + 1);
+    const int wide =
+        std::min({kMostColumns, static_cast<int>(columns) + 1, (shape_.columns - 1) / 2});
     const auto column = static_cast<int>(cell - row_begin);
     const int last_row = std::min(row + kMostRows, shape_.rows - 1);
     float above_m = 0;
@@ -220,8 +221,10 @@ void Clusters::join_near(std::uint32_t cell, int row, frame::ColumnRange columns
   const float join_m2 = config_.join_m * config_.join_m;
   const std::size_t end = shape_.cell(row, columns.end);
   std::uint32_t joined = own;
-  // Rows are padded for whole vectors; three columns more do no harm.
-  for (std::size_t other = shape_.cell(row, columns.begin); other < end; other += 4) {
+  // Whole vectors of four; up to three columns more of the row do no harm.
+  const std::size_t last = shape_.cell(row, 0) + static_cast<std::size_t>(shape_.stride()) - 4;
+  for (std::size_t four = shape_.cell(row, columns.begin); four < end; four += 4) {
+    const std::size_t other = std::min(four, last);
     FourInts bodies;
     std::memcpy(&bodies, &body_of_[other], sizeof(bodies));
     const FourInts are_others =

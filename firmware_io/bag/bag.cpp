@@ -110,9 +110,11 @@ Expected<Bag> Bag::open(const fs::path& path) {
   if (bag.files_.empty()) {
     return fail(ErrorCode::kNotFound, bag.name_ + ": holds no file of a bag (.mcap, .db3)");
   }
-  // From the last file to the first, which is then open.
+  // From the last file to the first, which is then open. One that cannot be read, such as the last
+  // one of a recorder that was killed, is an error when it is reached.
   for (std::size_t i = bag.files_.size(); i-- > 0;) {
-    if (Status opened = bag.open_file(i); !opened) return tl::unexpected(opened.error());
+    const Status opened = bag.open_file(i);
+    if (!opened && i == 0) return tl::unexpected(opened.error());
   }
   return bag;
 }
@@ -146,11 +148,11 @@ Status Bag::open_file(std::size_t index) {
 
 Expected<std::optional<Bag::Found>> Bag::next(const std::vector<bool>& wanted) {
   while (!broke_off_ && file_ != nullptr) {
-    std::vector<bool> wanted_here(topic_of_.size());
+    wanted_here_.assign(topic_of_.size(), false);
     for (std::size_t i = 0; i < topic_of_.size(); ++i) {
-      wanted_here[i] = topic_of_[i] < wanted.size() && wanted[topic_of_[i]];
+      wanted_here_[i] = topic_of_[i] < wanted.size() && wanted[topic_of_[i]];
     }
-    auto message = file_->next(wanted_here);
+    auto message = file_->next(wanted_here_);
     if (!message) {
       broke_off_ = message.error();
       break;
@@ -179,7 +181,10 @@ Expected<std::optional<Bag::Found>> Bag::next(const std::vector<bool>& wanted) {
 Status Bag::seek(Position position) {
   broke_off_.reset();
   if (file_ == nullptr || position.file != open_) {
-    if (Status opened = open_file(position.file); !opened) return opened;
+    if (Status opened = open_file(position.file); !opened) {
+      broke_off_ = opened.error();
+      return opened;
+    }
   }
   return file_->seek(position.place);
 }

@@ -71,6 +71,7 @@ class Bag {
   std::unique_ptr<BagFile> file_;          ///< Null at the end, and after a fault.
   std::size_t open_ = 0;                   ///< Index of the open file.
   std::vector<std::size_t> topic_of_;      ///< The bag's topic for each topic of the open file.
+  std::vector<bool> wanted_here_;          ///< Topics of the open file.
   std::vector<std::byte> plain_;           ///< A message that was packed.
   std::optional<Error> broke_off_;
 };

@@ -15,8 +15,9 @@
 
 namespace terracut::bag {
 
-/// The most topics of a bag.
-inline constexpr std::size_t kMostTopics = 4096;
+/// The most topics of a file, and the most characters of a topic's name or type; further and longer
+/// ones are passed over.
+inline constexpr std::size_t kMostTopics = 4096, kLongestName = 1000;
 
 struct Topic {
   std::string name;  ///< "/velodyne_points"
@@ -33,7 +34,7 @@ struct Place {
 
 struct Message {
   std::size_t topic = 0;      ///< Index of the topic.
-  std::int64_t stamp_ns = 0;  ///< When it was recorded, nanoseconds since 1970.
+  std::int64_t stamp_ns = 0;  ///< When it was recorded, nanoseconds since 1970, not negative.
   Place place;
   std::span<const std::byte> bytes;  ///< In CDR; valid until the next call.
 };

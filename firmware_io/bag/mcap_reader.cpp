@@ -81,6 +81,7 @@ class McapReader final : public BagFile {
       for (auto message = next(none); message && *message; message = next(none)) {
       }
     }
+    knows_topics_ = true;
     return seek({});
   }
 
@@ -95,7 +96,7 @@ class McapReader final : public BagFile {
       }
       if (record->opcode == Opcode::kMessage) {
         if (auto message = message_in(*record, wanted)) return message;
-      } else {
+      } else if (!knows_topics_) {
         learn(record->opcode, record->content);
       }
     }
@@ -267,13 +268,14 @@ class McapReader final : public BagFile {
     const auto id = fields.number<std::uint16_t>();
     if (opcode == Opcode::kSchema) {
       const std::string_view name = fields.text();
-      if (!fields.failed()) types_[id] = name;
+      if (!fields.failed() && name.size() <= kLongestName) types_[id] = name;
     }
     if (opcode != Opcode::kChannel || topic_of_.contains(id)) return;
     const auto schema = fields.number<std::uint16_t>();
     const std::string_view name = fields.text(), encoding = fields.text();
     const auto type = types_.find(schema);
     if (fields.failed() || encoding != "cdr" || type == types_.end()) return;
+    if (name.size() > kLongestName) return;
     const Topic topic{std::string(name), type->second};
     const auto known = std::ranges::find(topics_, topic);
     if (known == topics_.end() && topics_.size() == kMostTopics) return;
@@ -310,6 +312,7 @@ class McapReader final : public BagFile {
   ByteSource source_;
   std::string name_;
   std::vector<Topic> topics_;
+  bool knows_topics_ = false;                         ///< Once begin() has found them all.
   std::map<std::uint16_t, std::string> types_;        ///< By the id of the schema.
   std::map<std::uint16_t, std::size_t> topic_of_;     ///< By the id of the channel.
   std::uint64_t offset_ = 0;                          ///< Of the next record outside chunks.

@@ -104,8 +104,9 @@ bool read_packets(std::string_view type, const Message& message, Packets& packet
   if (known == nullptr) return false;
   CdrReader from(message.bytes);
   known->read(from, packets);
+  constexpr std::int64_t kLastStamp_ns = 9'000'000'000'000'000'000;  // as of a PcapRecord
   for (PacketInMessage& packet : packets) {
-    if (packet.stamp_ns <= 0) packet.stamp_ns = std::max<std::int64_t>(0, message.stamp_ns);
+    if (packet.stamp_ns <= 0) packet.stamp_ns = std::min(message.stamp_ns, kLastStamp_ns);
   }
   return !from.failed();
 }

@@ -14,7 +14,7 @@ namespace terracut::bag {
 /// A sensor's packet in a message of a ROS driver.
 struct PacketInMessage {
   std::span<const std::uint8_t> payload;  ///< Points into the message.
-  std::int64_t stamp_ns = 0;              ///< Nanoseconds since 1970, not negative.
+  std::int64_t stamp_ns = 0;              ///< Nanoseconds since 1970, as of a PcapRecord.
 };
 
 /// True if messages of this type hold packets: velodyne_msgs' VelodyneScan, pandar_msgs'

@@ -67,7 +67,7 @@ class SqliteReader final : public BagFile {
         break;
       }
       return Message{topic->second,
-                     ::sqlite3_column_int64(row, 2),
+                     std::max<std::int64_t>(0, ::sqlite3_column_int64(row, 2)),
                      {0, static_cast<std::uint64_t>(::sqlite3_column_int64(row, 0))},
                      {static_cast<const std::byte*>(data), data == nullptr ? 0 : bytes}};
     }
@@ -118,9 +118,11 @@ class SqliteReader final : public BagFile {
     if (!rows) return refused(ErrorCode::kMalformed);
     int step = SQLITE_DONE;
     while ((step = ::sqlite3_step(rows.get())) == SQLITE_ROW && topics_.size() < kMostTopics) {
-      if (text_in(rows.get(), 3) != "cdr") continue;
+      Topic topic{text_in(rows.get(), 1), text_in(rows.get(), 2)};
+      const bool is_short = topic.name.size() <= kLongestName && topic.type.size() <= kLongestName;
+      if (!is_short || text_in(rows.get(), 3) != "cdr") continue;
       topic_of_[::sqlite3_column_int64(rows.get(), 0)] = topics_.size();
-      topics_.push_back({text_in(rows.get(), 1), text_in(rows.get(), 2)});
+      topics_.push_back(std::move(topic));
     }
     return step == SQLITE_DONE || step == SQLITE_ROW ? Status{} : refused(ErrorCode::kMalformed);
   }

@@ -94,6 +94,14 @@ TEST_F(BagTest, ReadsTheFilesOfAFolderInTheOrderOfTheirNumbers) {
   EXPECT_TRUE(is_bag(folder_ / "bag"));
 }
 
+TEST_F(BagTest, ReadsWhatAKilledRecorderLeft) {
+  write("bag/drive_0.mcap", three_messages(Compression::kNone));
+  write("bag/drive_1.mcap", "");
+  const Read found = read("bag");
+  EXPECT_THAT(found.messages, ElementsAre("one", "two", "three"));
+  EXPECT_THAT(found.fault, HasSubstr("drive_1.mcap: is empty"));
+}
+
 TEST_F(BagTest, GoesBackToAnyMessage) {
   for (const Compression compression : {Compression::kNone, Compression::kZstd}) {
     write("a.mcap", three_messages(compression));

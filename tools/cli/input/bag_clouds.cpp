@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "calib/mount/mount_pose.hpp"
@@ -68,7 +69,7 @@ Status BagClouds::read(std::size_t index, cloud::Cloud& cloud) {
   if (!*found || !message.read((*found)->message.bytes)) {
     return refused({ErrorCode::kMalformed, "is no PointCloud2"});
   }
-  stamp_ns_ = message.header.stamp_ns;
+  stamp_ns_ = std::max<std::int64_t>(0, message.header.stamp_ns);
   if (message.buffer.width == 0 || message.buffer.height == 0) {
     cloud.points.clear();
     cloud.laser.clear();

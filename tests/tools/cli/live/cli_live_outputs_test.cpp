@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // What becomes of a live run whose outputs cannot be had: it labels, and tries again.
+#include <fcntl.h>
+
 #include <csignal>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 
@@ -15,6 +18,11 @@ using testing::HasSubstr;
 
 class CliLiveOutputs : public CliLive {};
 
+/// Exchanges two paths at once: the run makes its folder anew whenever it is not there.
+void exchange(const fs::path& one, const fs::path& other) {
+  ASSERT_EQ(::renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE), 0);
+}
+
 TEST_F(CliLiveOutputs, LabelsAreWrittenAgainWhenTheirFolderIsBack) {
   LiveRun run = live_with_table("--labels labels --json live.json");
   const Sensors sender = sensor(run);
@@ -23,12 +31,11 @@ TEST_F(CliLiveOutputs, LabelsAreWrittenAgainWhenTheirFolderIsBack) {
   };
   EXPECT_TRUE(labels(run, 1));
   // What is to be their folder is a file: nobody may write there, whoever they are.
-  fs::rename(folder_ / "labels", folder_ / "taken away");
-  write("labels", "a file");
+  write("exchanged", "a file");
+  exchange(folder_ / "labels", folder_ / "exchanged");
   EXPECT_TRUE(run.says("no labels are written, which is tried again every second"));
   EXPECT_TRUE(run.shows([&](const auto& figures) { return unwritten(figures) > 0; }));
-  fs::remove(folder_ / "labels");
-  fs::rename(folder_ / "taken away", folder_ / "labels");
+  exchange(folder_ / "labels", folder_ / "exchanged");
   EXPECT_TRUE(run.says("labels are written again"));
   const Outcome outcome = run.interrupted();
   EXPECT_EQ(outcome.exit_code, kOutputFailed) << "frames are missing";

@@ -179,14 +179,18 @@ Expected<SensorRows> bin_elevations(std::size_t clouds, const ReadCloud& read) {
   return binned;
 }
 
-Expected<SensorRows> learn_rows_or_bins(std::size_t clouds, const ReadCloud& read) {
-  auto rows = learn_rows(clouds, read);
+Expected<SensorRows> rows_or_bins(Expected<SensorRows> rows, std::size_t clouds,
+                                  const ReadCloud& read) {
   const std::string doubt = rows ? doubt_of(*rows) : rows.error().message;
   if (doubt.empty()) return rows;
   auto bins = bin_elevations(clouds, read);
   if (!bins) return rows;
   bins->no_lasers = doubt;
   return bins;
+}
+
+Expected<SensorRows> learn_rows_or_bins(std::size_t clouds, const ReadCloud& read) {
+  return rows_or_bins(learn_rows(clouds, read), clouds, read);
 }
 
 }  // namespace terracut::cloud

@@ -21,6 +21,11 @@ namespace terracut::cloud {
 /// allocates. Deterministic.
 [[nodiscard]] Expected<SensorRows> bin_elevations(std::size_t clouds, const ReadCloud& read);
 
+/// Returns `rows`, which learn_rows() gave for these clouds, or bin_elevations() where it failed or
+/// they are doubtful (doubt_of()); the bins then say why. Returns `rows` also if there are no bins.
+[[nodiscard]] Expected<SensorRows> rows_or_bins(Expected<SensorRows> rows, std::size_t clouds,
+                                                const ReadCloud& read);
+
 /// Learns the rows of clouds by their lasers (learn_rows()) or, where these are not found or
 /// doubtful (doubt_of()), by bin_elevations(). Fails with the error of learn_rows() if neither can
 /// be had, and where check_reach() fails.

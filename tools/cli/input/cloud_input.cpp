@@ -24,9 +24,8 @@ namespace terracut::cli {
 namespace {
 
 Expected<cloud::SensorRows> learn_rows(CloudReader& clouds) {
-  const auto learn = [&] {
-    return cloud::learn_rows(clouds.size(), [&](std::size_t index) { return clouds.read(index); });
-  };
+  const cloud::ReadCloud read = [&](std::size_t index) { return clouds.read(index); };
+  const auto learn = [&] { return cloud::learn_rows(clouds.size(), read); };
   const auto is_beyond_doubt = [](const Expected<cloud::SensorRows>& rows) {
     return rows && cloud::doubt_of(*rows).empty();
   };
@@ -41,9 +40,8 @@ Expected<cloud::SensorRows> learn_rows(CloudReader& clouds) {
     }
     clouds.take_sensor_at(cloud::SensorPlace::kOrigin);
   }
-  const cloud::ReadCloud read = [&](std::size_t index) { return clouds.read(index); };
   const auto pose = cloud::find_sensor_pose(clouds.size(), read);
-  if (!pose) return cloud::learn_rows_or_bins(clouds.size(), read);
+  if (!pose) return cloud::rows_or_bins(std::move(rows), clouds.size(), read);
   clouds.take_sensor_at(*pose);
   // If points lie farther than this from the cones, the cloud may be of two sensors, and only one
   // has these cones.
@@ -59,7 +57,7 @@ Expected<cloud::SensorRows> learn_rows(CloudReader& clouds) {
     return by_pose;
   }
   clouds.take_sensor_at(cloud::SensorPlace::kOrigin);
-  return cloud::learn_rows_or_bins(clouds.size(), read);
+  return cloud::rows_or_bins(std::move(rows), clouds.size(), read);
 }
 
 }  // namespace

@@ -3,8 +3,21 @@
 #include "object_finder.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace terracut::objects {
+
+namespace {
+
+/// True if one of two returns lies above the other as on an upright face, up to 1:3 aslant. Growth
+/// before a body, which slopes up to it, is none.
+bool is_face(const frame::PointPlanes& points, std::uint32_t a, std::uint32_t b) noexcept {
+  const float up_m = points.z_m[a] - points.z_m[b];
+  constexpr float kSlant = 1.0F / 3;
+  return distance_squared_m2(points, a, b) <= (1 + kSlant * kSlant) * up_m * up_m;
+}
+
+}  // namespace
 
 ObjectFinder::ObjectFinder(const Config& config, const mount::RingProfile& profile,
                            frame::ImageShape shape, std::size_t return_capacity,
@@ -12,69 +25,70 @@ ObjectFinder::ObjectFinder(const Config& config, const mount::RingProfile& profi
     : config_(config),
       shape_(shape),
       reach_(config.gap_m, profile, shape, memory),
-      foot_cut_(config.foot, shape, memory),
-      clusters_(config.clusters, shape, memory),
+      clusters_(shape, memory),
+      nearby_(config.nearby, shape, memory),
+      parts_(memory.take<Part>("objects", shape.cells())),
       object_of_cluster_(memory.take<std::uint16_t>("objects", shape.cells())),
+      object_of_cell_(memory.take<std::uint16_t>("objects", shape.cells())),
+      object_of_return_(memory.take<std::uint16_t>("objects", return_capacity)),
       outermost_(memory.take<Outermost>("objects", kMostObjects)),
-      objects_(memory.take<Object>("objects", kMostObjects)),
-      object_of_return_(memory.take<std::uint16_t>("objects", return_capacity)) {}
+      objects_(memory.take<Object>("objects", kMostObjects)) {}
 
 void ObjectFinder::find(const frame::RangeImage& image, const stage::CellPlanes& planes,
                         std::span<const frame::Label> labels) noexcept {
-  const std::span<const Part> parts = foot_cut_.divide(image, planes, reach_);
-  clusters_.find(image, parts, planes.height_m, reach_);
+  divide(planes);
+  clusters_.find(image.points(), parts_, planes.height_m, reach_);
+  nearby_.join(image.points(), clusters_);
   number();
-  returns_ = image.returns();
-  std::ranges::fill(object_of_return_.first(returns_), std::uint16_t{0});
-  measure(image);
-  take_overflow(image, parts, labels);
+  measure(image.points());
+  take_feet(image.points(), planes.height_m);
+  number_returns(image);
+  take_overflow(image, labels);
+}
+
+void ObjectFinder::divide(const stage::CellPlanes& planes) noexcept {
+  const float low_m = config_.low_m;
+  for (std::size_t cell = 0; cell < parts_.size(); ++cell) {
+    const Part part = planes.height_m[cell] < low_m ? Part::kFoot : Part::kBody;
+    parts_[cell] = planes.label[cell] == frame::Label::kObstacle ? part : Part::kNone;
+  }
 }
 
 void ObjectFinder::number() noexcept {
-  const std::span<const Run> runs = clusters_.runs();
+  const std::span<const std::uint32_t> first = nearby_.first();
   count_ = 0;
   left_out_ = 0;
-  for (std::uint32_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].cluster != i) continue;
-    const Cluster& cluster = clusters_.cluster(i);
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    object_of_cluster_[i] = object_of_cluster_[first[i]];
+    if (first[i] != i) continue;
     object_of_cluster_[i] = 0;
-    const bool stands = runs[i].part == Part::kBody ||
-                        (!cluster.is_beside_body && cluster.top_m >= config_.least_top_m);
-    if (!stands || cluster.cells < config_.fewest_returns) continue;
+    const Cluster& whole = nearby_.whole(i);
+    if (whole.cells < config_.fewest_returns) continue;
     if (count_ == kMostObjects) {
       ++left_out_;
       continue;
     }
-    object_of_cluster_[i] = static_cast<std::uint16_t>(count_ + 1);
-    Object& object = objects_[count_++];
-    object = {};
-    object.returns = cluster.cells;
-    object.bottom_m = cluster.bottom_m;
-    object.top_m = cluster.top_m;
+    objects_[count_] = {};
+    objects_[count_].returns = whole.cells;
+    objects_[count_].bottom_m = whole.bottom_m;
+    objects_[count_].top_m = whole.top_m;
+    object_of_cluster_[i] = static_cast<std::uint16_t>(++count_);
   }
 }
 
-void ObjectFinder::measure(const frame::RangeImage& image) noexcept {
-  const frame::PointPlanes points = image.points();
-  const std::span<const std::uint32_t> return_index = image.return_index();
-  const std::span<const Run> runs = clusters_.runs();
-  for (std::uint32_t i = 0; i < runs.size(); ++i) {
-    const Run& run = runs[i];
+void ObjectFinder::measure(const frame::PointPlanes& points) noexcept {
+  std::ranges::fill(object_of_cell_, std::uint16_t{0});
+  std::uint16_t begun = 0;
+  for (const Run& run : clusters_.runs()) {
     const std::uint16_t number = object_of_cluster_[run.cluster];
     if (number == 0) continue;
-    Object& object = objects_[number - 1U];
     Outermost& outermost = outermost_[number - 1U];
-    if (run.cluster == i) {
-      object.first_return = object.last_return = return_index[run.begin];
+    if (number > begun) {  // objects are numbered in the order of their first runs
       outermost.begin(points, run.begin);
+      begun = number;
     }
     outermost.add(points, run.begin, run.end);
-    for (std::uint32_t cell = run.begin; cell < run.end; ++cell) {
-      const std::uint32_t index = return_index[cell];
-      object.first_return = std::min(object.first_return, index);
-      object.last_return = std::max(object.last_return, index);
-      object_of_return_[index] = number;
-    }
+    std::fill(&object_of_cell_[run.begin], &object_of_cell_[run.end], number);
   }
   for (std::size_t i = 0; i < count_; ++i) {
     objects_[i].footprint = outermost_[i].footprint(points);
@@ -82,11 +96,49 @@ void ObjectFinder::measure(const frame::RangeImage& image) noexcept {
   }
 }
 
-void ObjectFinder::take_overflow(const frame::RangeImage& image, std::span<const Part> parts,
+void ObjectFinder::take_feet(const frame::PointPlanes& points,
+                             std::span<const float> height_m) noexcept {
+  const auto stride = static_cast<std::uint32_t>(shape_.stride());
+  for (int row = shape_.rows - 2; row >= 0; --row) {
+    const auto begin = static_cast<std::uint32_t>(shape_.cell(row, 0));
+    for (std::uint32_t eight = begin; eight < begin + stride; eight += kEightCells) {
+      if (!is_among_eight(Part::kFoot, parts_, eight)) continue;
+      for (std::uint32_t cell = eight; cell < eight + kEightCells; ++cell) {
+        const std::uint16_t number = object_of_cell_[cell + stride];
+        if (parts_[cell] != Part::kFoot || number == 0) continue;
+        if (!is_face(points, cell, cell + stride)) continue;
+        object_of_cell_[cell] = number;
+        Object& object = objects_[number - 1U];
+        ++object.returns;
+        object.bottom_m = std::min(object.bottom_m, height_m[cell]);
+      }
+    }
+  }
+}
+
+void ObjectFinder::number_returns(const frame::RangeImage& image) noexcept {
+  returns_ = image.returns();
+  std::ranges::fill(object_of_return_.first(returns_), std::uint16_t{0});
+  const std::span<const std::uint32_t> return_index = image.return_index();
+  for (std::size_t i = 0; i < count_; ++i) {
+    objects_[i].first_return = std::numeric_limits<std::uint32_t>::max();
+  }
+  for (std::size_t cell = 0; cell < object_of_cell_.size(); ++cell) {
+    const std::uint16_t number = object_of_cell_[cell];
+    if (number == 0) continue;
+    const std::uint32_t index = return_index[cell];
+    Object& object = objects_[number - 1U];
+    object.first_return = std::min(object.first_return, index);
+    object.last_return = std::max(object.last_return, index);
+    object_of_return_[index] = number;
+  }
+}
+
+void ObjectFinder::take_overflow(const frame::RangeImage& image,
                                  std::span<const frame::Label> labels) noexcept {
   for (const frame::OverflowReturn& extra : image.overflow()) {
     if (labels[extra.return_index] != frame::Label::kObstacle) continue;
-    const std::uint16_t number = object_near(image, extra, parts);
+    const std::uint16_t number = object_near(image, extra);
     if (number == 0) continue;
     object_of_return_[extra.return_index] = number;
     Object& object = objects_[number - 1U];
@@ -97,8 +149,7 @@ void ObjectFinder::take_overflow(const frame::RangeImage& image, std::span<const
 }
 
 std::uint16_t ObjectFinder::object_near(const frame::RangeImage& image,
-                                        const frame::OverflowReturn& extra,
-                                        std::span<const Part> parts) const noexcept {
+                                        const frame::OverflowReturn& extra) const noexcept {
   const frame::PointPlanes points = image.points();
   const int row = static_cast<int>(extra.cell) / shape_.stride();
   const int column = static_cast<int>(extra.cell) % shape_.stride();
@@ -109,14 +160,14 @@ std::uint16_t ObjectFinder::object_near(const frame::RangeImage& image,
     for (const int aside : {0, -1, 1}) {
       const int other_column = (column + aside + shape_.columns) % shape_.columns;
       const std::size_t other = shape_.cell(other_row, other_column);
-      if (parts[other] == Part::kNone) continue;
+      if (parts_[other] == Part::kNone) continue;
       const float x_m = points.x_m[other] - extra.point.x_m;
       const float y_m = points.y_m[other] - extra.point.y_m;
       const float z_m = points.z_m[other] - extra.point.z_m;
       const float distance_m2 = x_m * x_m + y_m * y_m + z_m * z_m;
       if (distance_m2 > nearest_m2) continue;
       nearest_m2 = distance_m2;
-      object = object_of_cluster_[clusters_.runs()[clusters_.run_of_cell()[other]].cluster];
+      object = object_of_cell_[other];
     }
   }
   return object;

@@ -9,23 +9,22 @@
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "pipeline/min_cut/cut_report.hpp"
 #include "pipeline/objects/clusters.hpp"
-#include "pipeline/objects/foot_cut.hpp"
 #include "pipeline/objects/footprint.hpp"
+#include "pipeline/objects/nearby_clusters.hpp"
 #include "pipeline/objects/object.hpp"
-#include "pipeline/objects/parts.hpp"
+#include "pipeline/objects/part.hpp"
+#include "pipeline/objects/reach.hpp"
 #include "pipeline/stage/cell_planes.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::objects {
 
-/// Makes objects of the obstacle returns of a labelled image, coarse to fine like the ground: an
-/// exact minimum cut divides low returns into bodies and what grows at their feet (FootCut);
-/// neighbouring cells within reach become clusters, and small ones join what is around them
-/// (Clusters). Clusters of bodies are objects; so is something low by itself (a person who lies on
-/// the road), but not the feet of bodies, which belong to no object.
+/// Makes objects of the obstacle returns of a labelled image, coarse to fine like the ground:
+/// neighbouring cells of bodies within reach become clusters (Clusters), small ones join what is
+/// around them (NearbyClusters), and low returns go to the body that they lie under. So what grows
+/// on the ground joins nothing, and belongs to no object.
 ///
 /// All memory is taken in the constructor; find() does not allocate, lock, throw or look at a
 /// clock. The same image gives the same objects on every machine. One thread at a time.
@@ -39,9 +38,8 @@ class ObjectFinder {
     /// them, more than rows and columns lie apart on a car's side 30 m away.
     float gap_m = 0.5F;
     std::uint32_t fewest_returns = 10;  ///< Clusters with fewer returns are no objects.
-    float least_top_m = 0.20F;  ///< Something low by itself is an object from this height on.
-    FootCut::Config foot;
-    Clusters::Config clusters;
+    float low_m = 0.25F;  ///< Returns lower than this above the ground are feet, others bodies.
+    NearbyClusters::Config nearby;
   };
 
   /// `profile` must have shape.rows rings. `return_capacity` is the most returns of an image.
@@ -62,28 +60,30 @@ class ObjectFinder {
   }
   /// Returns how many clusters are no objects because there were kMostObjects before them.
   [[nodiscard]] std::uint32_t left_out() const noexcept { return left_out_; }
-  /// Returns how far the minimum cut got.
-  [[nodiscard]] const min_cut::CutReport& cut() const noexcept { return foot_cut_.report(); }
 
  private:
+  /// Divides obstacle cells into bodies and feet by their heights.
+  void divide(const stage::CellPlanes& planes) noexcept;
+  /// Makes objects of clusters that belong together.
   void number() noexcept;
-  void measure(const frame::RangeImage& image) noexcept;
+  void measure(const frame::PointPlanes& points) noexcept;
+  /// Gives feet to the body above them, row by row from the top.
+  void take_feet(const frame::PointPlanes& points, std::span<const float> height_m) noexcept;
+  void number_returns(const frame::RangeImage& image) noexcept;
   /// Gives returns that do not own their cell the object of the nearest cell around.
-  void take_overflow(const frame::RangeImage& image, std::span<const Part> parts,
-                     std::span<const frame::Label> labels) noexcept;
+  void take_overflow(const frame::RangeImage& image, std::span<const frame::Label> labels) noexcept;
   [[nodiscard]] std::uint16_t object_near(const frame::RangeImage& image,
-                                          const frame::OverflowReturn& extra,
-                                          std::span<const Part> parts) const noexcept;
+                                          const frame::OverflowReturn& extra) const noexcept;
 
   Config config_;
   frame::ImageShape shape_;
   Reach reach_;
-  FootCut foot_cut_;
   Clusters clusters_;
-  std::span<std::uint16_t> object_of_cluster_;  // by the first run of a cluster; 0: none
+  NearbyClusters nearby_;
+  std::span<Part> parts_;
+  std::span<std::uint16_t> object_of_cluster_, object_of_cell_, object_of_return_;  // 0: none
   std::span<Outermost> outermost_;
   std::span<Object> objects_;
-  std::span<std::uint16_t> object_of_return_;
   std::size_t count_ = 0, returns_ = 0;
   std::uint32_t left_out_ = 0;
 };

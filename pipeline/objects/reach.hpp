@@ -14,13 +14,6 @@
 
 namespace terracut::objects {
 
-/// What an obstacle cell is part of.
-enum class Part : std::uint8_t {
-  kNone = 0,  ///< No obstacle.
-  kFoot = 1,  ///< Low growth, kerbs and rough ground around bodies, or something low by itself.
-  kBody = 2,  ///< Something that stands out of the ground.
-};
-
 /// Tells how far apart returns of neighbouring cells may be and still belong together: `gap_m`, or
 /// more, up to twice that, where beams lie far apart: two steps between rows, or eight between
 /// columns, because a car's side may be seen at a grazing angle (7 degrees).

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/frame/image_shape.hpp"
+#include "firmware_io/frame/point_planes.hpp"
+#include "pipeline/objects/clusters.hpp"
+#include "pipeline/stage/float_lanes.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::objects {
+
+/// Joins small clusters with what lies around them: they may be what is seen of an object through
+/// glass or between leaves. A cluster that stands upright on the ground by itself looks for no
+/// other, because it may be a person beside another one.
+///
+/// The ground is divided into squares as wide as clusters look. Of each cluster it is noted between
+/// which coordinates its returns in a square lie; these boxes are compared with those in the same
+/// and the adjoining squares.
+class NearbyClusters {
+ public:
+  struct Config {
+    std::uint32_t small_cells = 100;  ///< Clusters with fewer cells are small.
+    float join_m = 0.7F;              ///< Small clusters join others that are nearer than this.
+    /// A cluster stands by itself if it begins lower and reaches higher than this above the ground.
+    float bottom_m = 0.5F, upright_m = 1.4F;
+  };
+
+  NearbyClusters(const Config& config, frame::ImageShape shape, memory::FixedMemory& memory);
+
+  /// Finds which clusters belong together. Real-time safe.
+  void join(const frame::PointPlanes& points,
+            const Clusters& clusters) noexcept TERRACUT_NONBLOCKING;
+
+  /// Returns for each cluster the first of those it belongs together with.
+  [[nodiscard]] std::span<const std::uint32_t> first() const noexcept {
+    return first_.first(clusters_);
+  }
+  /// Returns the sum of all clusters that belong together with a first one.
+  [[nodiscard]] const Cluster& whole(std::uint32_t first) const noexcept { return whole_[first]; }
+
+ private:
+  /// A cluster's returns in a square lie between `low_m` and `high_m` (x, y, z).
+  struct Piece {
+    stage::FourFloats low_m, high_m;
+    std::uint32_t cluster, next;  ///< `next`: 1 + the next piece in the square; 0: none.
+  };
+  /// Squares on a side. Places that many squares apart share one, and are told apart by their
+  /// coordinates.
+  static constexpr std::int32_t kSide = 256;
+
+  void divide(const frame::PointPlanes& points, std::span<const Run> runs) noexcept;
+  /// Returns a cluster's piece in a square, a new one at `point_m` if there is none; the last one
+  /// is used for all where there are too many.
+  [[nodiscard]] Piece& piece_in(std::uint32_t square, std::uint32_t cluster,
+                                stage::FourFloats point_m) noexcept;
+  void join_around(const Piece& piece) noexcept;
+  /// Makes first() final, and sums up.
+  void settle(std::span<const Cluster> clusters) noexcept;
+  [[nodiscard]] std::uint32_t root_of(std::uint32_t cluster) noexcept;
+
+  Config config_;
+  std::uint32_t pieces_used_ = 0;
+  std::span<std::uint32_t> first_piece_;  // by square; 1 + the piece; 0: none
+  std::span<Piece> pieces_;
+  std::size_t clusters_ = 0;
+  std::span<std::uint32_t> first_;  // by cluster; before settle() one that is no later than itself
+  std::span<Cluster> whole_;
+};
+
+}  // namespace terracut::objects

@@ -18,6 +18,10 @@ constexpr std::array<FourFloats, 2> kAxesX{FourFloats{k0, k22, k45, k67},
 constexpr std::array<FourFloats, 2> kAxesY{FourFloats{0, k67, k45, k22},
                                            FourFloats{k0, k22, k45, k67}};
 
+constexpr FourFloats absolute(FourFloats a) noexcept {
+  return a < 0 ? -a : a;
+}
+
 }  // namespace
 
 void Outermost::begin(const frame::PointPlanes& points, std::uint32_t cell) noexcept {
@@ -46,10 +50,22 @@ void Outermost::add(const frame::PointPlanes& points, std::uint32_t cell) noexce
   }
 }
 
-void Outermost::add(const frame::PointPlanes& points, std::uint32_t begin,
-                    std::uint32_t end) noexcept {
-  add(points, end - 1);  // between the ends of a run few returns are farther out
-  for (std::uint32_t cell = begin; cell < end; ++cell) add(points, cell);
+bool Outermost::exceed(const Extent& extent) const noexcept {
+  const FourFloats middle_m = (extent.least_m + extent.most_m) * 0.5F;
+  const FourFloats half_m = extent.most_m - middle_m;
+  stage::FourInts outside{};
+  for (std::size_t half = 0; half < kHalves; ++half) {
+    const FourFloats way = middle_m[0] * kAxesX[half] + middle_m[1] * kAxesY[half];
+    const FourFloats aside =
+        half_m[0] * absolute(kAxesX[half]) + half_m[1] * absolute(kAxesY[half]);
+    outside |= (way + aside > most_[half]) | (way - aside < least_[half]);
+  }
+  return stage::is_any(outside);
+}
+
+void Outermost::add(const frame::PointPlanes& points, const Run& run) noexcept {
+  if (!exceed(run.extent)) return;
+  for (std::uint32_t cell = run.begin; cell < run.end; ++cell) add(points, cell);
 }
 
 Footprint Outermost::footprint(const frame::PointPlanes& points) const noexcept {

@@ -7,6 +7,7 @@
 
 #include "firmware_io/frame/point_planes.hpp"
 #include "pipeline/objects/object.hpp"
+#include "pipeline/objects/run.hpp"
 #include "pipeline/stage/float_lanes.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -17,9 +18,8 @@ class Outermost {
  public:
   /// Begins with one return.
   void begin(const frame::PointPlanes& points, std::uint32_t cell) noexcept TERRACUT_NONBLOCKING;
-  /// Adds the returns of the cells [begin, end), one or more.
-  void add(const frame::PointPlanes& points, std::uint32_t begin,
-           std::uint32_t end) noexcept TERRACUT_NONBLOCKING;
+  /// Adds the returns of a run.
+  void add(const frame::PointPlanes& points, const Run& run) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] Footprint footprint(const frame::PointPlanes& points) const noexcept
       TERRACUT_NONBLOCKING;
 
@@ -27,6 +27,8 @@ class Outermost {
   static constexpr std::size_t kAxes = 8, kHalves = 2;
   using Ways = std::array<stage::FourFloats, kHalves>;  ///< Of a return along each axis, metres.
 
+  /// True if some place between these coordinates would be outermost.
+  [[nodiscard]] bool exceed(const Extent& extent) const noexcept;
   void add(const frame::PointPlanes& points, std::uint32_t cell) noexcept;
 
   Ways least_, most_;

@@ -6,10 +6,9 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/frame/image_shape.hpp"
 #include "firmware_io/frame/point_planes.hpp"
 #include "pipeline/objects/clusters.hpp"
-#include "pipeline/stage/float_lanes.hpp"
+#include "pipeline/objects/run.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -31,7 +30,9 @@ class NearbyClusters {
     float bottom_m = 0.5F, upright_m = 1.4F;
   };
 
-  NearbyClusters(const Config& config, frame::ImageShape shape, memory::FixedMemory& memory);
+  /// `most_clusters` and `most_pieces` are how many an image may have.
+  NearbyClusters(const Config& config, std::size_t most_clusters, std::size_t most_pieces,
+                 memory::FixedMemory& memory);
 
   /// Finds which clusters belong together. Real-time safe.
   void join(const frame::PointPlanes& points,
@@ -45,20 +46,19 @@ class NearbyClusters {
   [[nodiscard]] const Cluster& whole(std::uint32_t first) const noexcept { return whole_[first]; }
 
  private:
-  /// A cluster's returns in a square lie between `low_m` and `high_m` (x, y, z).
+  /// A cluster's returns in a square.
   struct Piece {
-    stage::FourFloats low_m, high_m;
+    Extent extent;
     std::uint32_t cluster, next;  ///< `next`: 1 + the next piece in the square; 0: none.
   };
   /// Squares on a side. Places that many squares apart share one, and are told apart by their
   /// coordinates.
-  static constexpr std::int32_t kSide = 256;
+  static constexpr std::uint32_t kSide = 256;
 
   void divide(const frame::PointPlanes& points, std::span<const Run> runs) noexcept;
-  /// Returns a cluster's piece in a square, a new one at `point_m` if there is none; the last one
-  /// is used for all where there are too many.
-  [[nodiscard]] Piece& piece_in(std::uint32_t square, std::uint32_t cluster,
-                                stage::FourFloats point_m) noexcept;
+  /// Adds returns to a cluster's piece in a square; those of the fewest pieces that there is no
+  /// room for join nothing.
+  void add(std::uint32_t square, std::uint32_t cluster, const Extent& extent) noexcept;
   void join_around(const Piece& piece) noexcept;
   /// Makes first() final, and sums up.
   void settle(std::span<const Cluster> clusters) noexcept;

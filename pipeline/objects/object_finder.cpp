@@ -17,6 +17,13 @@ bool is_face(const frame::PointPlanes& points, std::uint32_t a, std::uint32_t b)
   return distance_squared_m2(points, a, b) <= (1 + kSlant * kSlant) * up_m * up_m;
 }
 
+/// Adds returns to an object, of which `first` and `last` are the lowest and the highest index.
+void add(std::uint32_t returns, std::uint32_t first, std::uint32_t last, Object& object) noexcept {
+  object.returns += returns;
+  object.first_return = std::min(object.first_return, first);
+  object.last_return = std::max(object.last_return, last);
+}
+
 }  // namespace
 
 ObjectFinder::ObjectFinder(const Config& config, const mount::RingProfile& profile,
@@ -25,10 +32,10 @@ ObjectFinder::ObjectFinder(const Config& config, const mount::RingProfile& profi
     : config_(config),
       shape_(shape),
       reach_(config.gap_m, profile, shape, memory),
-      clusters_(shape, memory),
-      nearby_(config.nearby, shape, memory),
+      clusters_(shape, shape.cells() / 2, memory),
+      nearby_(config.nearby, shape.cells() / 2, shape.cells() / 4, memory),
       parts_(memory.take<Part>("objects", shape.cells())),
-      object_of_cluster_(memory.take<std::uint16_t>("objects", shape.cells())),
+      object_of_cluster_(memory.take<std::uint16_t>("objects", shape.cells() / 2)),
       object_of_cell_(memory.take<std::uint16_t>("objects", shape.cells())),
       object_of_return_(memory.take<std::uint16_t>("objects", return_capacity)),
       outermost_(memory.take<Outermost>("objects", kMostObjects)),
@@ -40,9 +47,8 @@ void ObjectFinder::find(const frame::RangeImage& image, const stage::CellPlanes&
   clusters_.find(image.points(), parts_, planes.height_m, reach_);
   nearby_.join(image.points(), clusters_);
   number();
-  measure(image.points());
-  take_feet(image.points(), planes.height_m);
-  number_returns(image);
+  measure(image);
+  take_feet(image, planes.height_m);
   take_overflow(image, labels);
 }
 
@@ -69,14 +75,18 @@ void ObjectFinder::number() noexcept {
       continue;
     }
     objects_[count_] = {};
-    objects_[count_].returns = whole.cells;
-    objects_[count_].bottom_m = whole.bottom_m;
-    objects_[count_].top_m = whole.top_m;
+    objects_[count_].first_return = std::numeric_limits<std::uint32_t>::max();
+    objects_[count_].bottom_m = whole.extent.bottom_m();
+    objects_[count_].top_m = whole.extent.top_m();
     object_of_cluster_[i] = static_cast<std::uint16_t>(++count_);
   }
 }
 
-void ObjectFinder::measure(const frame::PointPlanes& points) noexcept {
+void ObjectFinder::measure(const frame::RangeImage& image) noexcept {
+  const frame::PointPlanes points = image.points();
+  const std::span<const std::uint32_t> return_index = image.return_index();
+  returns_ = image.returns();
+  std::ranges::fill(object_of_return_.first(returns_), std::uint16_t{0});
   std::ranges::fill(object_of_cell_, std::uint16_t{0});
   std::uint16_t begun = 0;
   for (const Run& run : clusters_.runs()) {
@@ -87,8 +97,16 @@ void ObjectFinder::measure(const frame::PointPlanes& points) noexcept {
       outermost.begin(points, run.begin);
       begun = number;
     }
-    outermost.add(points, run.begin, run.end);
-    std::fill(&object_of_cell_[run.begin], &object_of_cell_[run.end], number);
+    outermost.add(points, run);
+    std::uint32_t first = return_index[run.begin], last = first;
+    for (std::uint32_t cell = run.begin; cell < run.end; ++cell) {
+      const std::uint32_t index = return_index[cell];
+      object_of_cell_[cell] = number;
+      object_of_return_[index] = number;
+      first = std::min(first, index);
+      last = std::max(last, index);
+    }
+    add(run.end - run.begin, first, last, objects_[number - 1U]);
   }
   for (std::size_t i = 0; i < count_; ++i) {
     objects_[i].footprint = outermost_[i].footprint(points);
@@ -96,41 +114,26 @@ void ObjectFinder::measure(const frame::PointPlanes& points) noexcept {
   }
 }
 
-void ObjectFinder::take_feet(const frame::PointPlanes& points,
+void ObjectFinder::take_feet(const frame::RangeImage& image,
                              std::span<const float> height_m) noexcept {
+  const frame::PointPlanes points = image.points();
   const auto stride = static_cast<std::uint32_t>(shape_.stride());
   for (int row = shape_.rows - 2; row >= 0; --row) {
     const auto begin = static_cast<std::uint32_t>(shape_.cell(row, 0));
     for (std::uint32_t eight = begin; eight < begin + stride; eight += kEightCells) {
-      if (!is_among_eight(Part::kFoot, parts_, eight)) continue;
+      if (among_eight(Part::kFoot, parts_, eight) == 0) continue;
       for (std::uint32_t cell = eight; cell < eight + kEightCells; ++cell) {
         const std::uint16_t number = object_of_cell_[cell + stride];
         if (parts_[cell] != Part::kFoot || number == 0) continue;
         if (!is_face(points, cell, cell + stride)) continue;
         object_of_cell_[cell] = number;
+        const std::uint32_t index = image.return_index()[cell];
+        object_of_return_[index] = number;
         Object& object = objects_[number - 1U];
-        ++object.returns;
+        add(1, index, index, object);
         object.bottom_m = std::min(object.bottom_m, height_m[cell]);
       }
     }
-  }
-}
-
-void ObjectFinder::number_returns(const frame::RangeImage& image) noexcept {
-  returns_ = image.returns();
-  std::ranges::fill(object_of_return_.first(returns_), std::uint16_t{0});
-  const std::span<const std::uint32_t> return_index = image.return_index();
-  for (std::size_t i = 0; i < count_; ++i) {
-    objects_[i].first_return = std::numeric_limits<std::uint32_t>::max();
-  }
-  for (std::size_t cell = 0; cell < object_of_cell_.size(); ++cell) {
-    const std::uint16_t number = object_of_cell_[cell];
-    if (number == 0) continue;
-    const std::uint32_t index = return_index[cell];
-    Object& object = objects_[number - 1U];
-    object.first_return = std::min(object.first_return, index);
-    object.last_return = std::max(object.last_return, index);
-    object_of_return_[index] = number;
   }
 }
 
@@ -141,10 +144,7 @@ void ObjectFinder::take_overflow(const frame::RangeImage& image,
     const std::uint16_t number = object_near(image, extra);
     if (number == 0) continue;
     object_of_return_[extra.return_index] = number;
-    Object& object = objects_[number - 1U];
-    ++object.returns;
-    object.first_return = std::min(object.first_return, extra.return_index);
-    object.last_return = std::max(object.last_return, extra.return_index);
+    add(1, extra.return_index, extra.return_index, objects_[number - 1U]);
   }
 }
 
@@ -155,19 +155,22 @@ std::uint16_t ObjectFinder::object_near(const frame::RangeImage& image,
   const int column = static_cast<int>(extra.cell) % shape_.stride();
   float nearest_m2 = config_.gap_m * config_.gap_m;
   std::uint16_t object = 0;
+  const auto look_at = [&](std::size_t cell) noexcept {
+    if (parts_[cell] == Part::kNone) return;
+    const float x_m = points.x_m[cell] - extra.point.x_m;
+    const float y_m = points.y_m[cell] - extra.point.y_m;
+    const float z_m = points.z_m[cell] - extra.point.z_m;
+    const float distance_m2 = x_m * x_m + y_m * y_m + z_m * z_m;
+    if (distance_m2 > nearest_m2) return;
+    nearest_m2 = distance_m2;
+    object = object_of_cell_[cell];
+  };
+  look_at(extra.cell);
+  if (object != 0) return object;  // the owner of the same cell
   for (int other_row = std::max(row - 1, 0); other_row <= std::min(row + 1, shape_.rows - 1);
        ++other_row) {
     for (const int aside : {0, -1, 1}) {
-      const int other_column = (column + aside + shape_.columns) % shape_.columns;
-      const std::size_t other = shape_.cell(other_row, other_column);
-      if (parts_[other] == Part::kNone) continue;
-      const float x_m = points.x_m[other] - extra.point.x_m;
-      const float y_m = points.y_m[other] - extra.point.y_m;
-      const float z_m = points.z_m[other] - extra.point.z_m;
-      const float distance_m2 = x_m * x_m + y_m * y_m + z_m * z_m;
-      if (distance_m2 > nearest_m2) continue;
-      nearest_m2 = distance_m2;
-      object = object_of_cell_[other];
+      look_at(shape_.cell(other_row, (column + aside + shape_.columns) % shape_.columns));
     }
   }
   return object;

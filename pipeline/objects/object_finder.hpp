@@ -60,17 +60,20 @@ class ObjectFinder {
   }
   /// Returns how many clusters are no objects because there were kMostObjects before them.
   [[nodiscard]] std::uint32_t left_out() const noexcept { return left_out_; }
+  /// Returns how many cells are in no cluster because they are more scattered than there is memory
+  /// for: in runs of fewer than two cells on average.
+  [[nodiscard]] std::uint32_t cells_left_out() const noexcept { return clusters_.cells_left_out(); }
 
  private:
   /// Divides obstacle cells into bodies and feet by their heights.
   void divide(const stage::CellPlanes& planes) noexcept;
   /// Makes objects of clusters that belong together.
   void number() noexcept;
-  void measure(const frame::PointPlanes& points) noexcept;
+  void measure(const frame::RangeImage& image) noexcept;
   /// Gives feet to the body above them, row by row from the top.
-  void take_feet(const frame::PointPlanes& points, std::span<const float> height_m) noexcept;
-  void number_returns(const frame::RangeImage& image) noexcept;
-  /// Gives returns that do not own their cell the object of the nearest cell around.
+  void take_feet(const frame::RangeImage& image, std::span<const float> height_m) noexcept;
+  /// Gives returns that do not own their cell the object of the cell, if near, or of the nearest
+  /// cell around.
   void take_overflow(const frame::RangeImage& image, std::span<const frame::Label> labels) noexcept;
   [[nodiscard]] std::uint16_t object_near(const frame::RangeImage& image,
                                           const frame::OverflowReturn& extra) const noexcept;

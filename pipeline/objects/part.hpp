@@ -17,12 +17,15 @@ enum class Part : std::uint8_t {
 
 inline constexpr std::uint32_t kEightCells = 8;
 
-/// True if one of the cells [cell, cell + 8) is of that part; a row is padded to sixteen cells.
-[[nodiscard]] inline bool is_among_eight(Part part, std::span<const Part> parts,
-                                         std::uint32_t cell) noexcept {
+/// Returns a bit for each of the cells [cell, cell + 8), the lowest for the first: whether it is of
+/// that part. Rows are padded to sixteen cells.
+[[nodiscard]] inline std::uint32_t among_eight(Part part, std::span<const Part> parts,
+                                               std::uint32_t cell) noexcept {
   std::uint64_t eight;
   std::memcpy(&eight, &parts[cell], sizeof(eight));
-  return (eight & (0x0101010101010101U * static_cast<std::uint8_t>(part))) != 0;
+  constexpr std::uint64_t kLowestBits = 0x0101010101010101U;
+  const std::uint64_t is_part = (eight >> static_cast<int>(part == Part::kFoot)) & kLowestBits;
+  return static_cast<std::uint32_t>((is_part * 0x0102040810204080U) >> 56);  // byte i to bit i
 }
 
 }  // namespace terracut::objects

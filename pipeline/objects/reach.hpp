@@ -2,14 +2,13 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <numbers>
 #include <span>
 
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "pipeline/objects/run.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::objects {
@@ -31,23 +30,22 @@ class Reach {
     }
   }
 
-  /// Returns the square of the reach along a row for returns of that horizontal range.
-  [[nodiscard]] float along_row_squared_m2(float range_m) const noexcept {
+  /// Returns the square of the reach along a row for returns of that horizontal range, or of four
+  /// such ranges.
+  template <class Numbers>
+  [[nodiscard]] Numbers along_row_squared_m2(Numbers range_m) const noexcept {
     return squared_m2(8 * column_step_rad_ * range_m);
   }
   /// Returns the same from a row to the next higher one.
   [[nodiscard]] float to_next_row_squared_m2(int row, float range_m) const noexcept {
-    return squared_m2(2 * row_step_rad(row) * range_m);
+    return squared_m2(2 * row_steps_rad_[static_cast<std::size_t>(row)] * range_m);
   }
-  /// Returns the angle from a row to the next higher one; 0 for the highest.
-  [[nodiscard]] float row_step_rad(int row) const noexcept {
-    return row_steps_rad_[static_cast<std::size_t>(row)];
-  }
-  [[nodiscard]] float column_step_rad() const noexcept { return column_step_rad_; }
 
  private:
-  [[nodiscard]] float squared_m2(float steps_m) const noexcept {
-    const float reach_m = std::min(std::max(steps_m, gap_m_), 2 * gap_m_);
+  template <class Numbers>
+  [[nodiscard]] Numbers squared_m2(Numbers steps_m) const noexcept {
+    const Numbers least_m = Numbers{} + gap_m_;
+    const Numbers reach_m = lesser(greater(steps_m, least_m), 2 * least_m);
     return reach_m * reach_m;
   }
 

@@ -71,10 +71,35 @@ TEST_F(ObjectsOfAFrame, ACarBehindAPoleIsOne) {
   EXPECT_LT(found[0].box.length_m, 0.2F) << "a thin pole is an object";
 }
 
+TEST_F(ObjectsOfAFrame, ACarBehindABroadPostIsOneWhereverThePostStands) {
+  for (double y = 1; y < 2; y += 0.1) {
+    EXPECT_EQ(find({{6, 6.1, y, y + 0.2, 0, 4}, {14, 18, -1, 5.5, 0.2, 1.5}}).size(), 2U)
+        << y << " m to the left";
+  }
+}
+
 TEST_F(ObjectsOfAFrame, IsWholeAcrossTheSeam) {
   const auto found = find({{12, 14, -1, 1, 0, 1.5}});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].box.length_m, 2, 0.15);
+}
+
+TEST_F(ObjectsOfAFrame, AreNotLookedForInReturnsTooScatteredToBeKeptAndTheseAreCounted) {
+  find({{12, 14, -1, 1, 0, 1.5}});
+  EXPECT_EQ(finder.cells_left_out(), 0U);
+  // No two neighbours are within reach of each other.
+  cast([](double azimuth_rad, double) {
+    const int column = static_cast<int>(azimuth_rad / (2 * M_PI) * kShape.columns + 0.5);
+    return column % 2 == 0 ? 10 : 20;
+  });
+  for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
+    planes.label[cell] = image.has_return(cell) ? Label::kObstacle : Label::kNone;
+    planes.height_m[cell] = 1;
+  }
+  labels.assign(image.returns(), Label::kObstacle);
+  finder.find(image, planes, labels);
+  EXPECT_GT(finder.cells_left_out(), 0U);
+  EXPECT_LT(finder.cells_left_out(), image.returns());
 }
 
 TEST_F(ObjectsOfAFrame, WheelsBelongToTheirCarAndGrassAroundAPostDoesNot) {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "pipeline/ros_messages/diagnostic_array.hpp"
-#include "pipeline/ros_messages/point_cloud.hpp"
 #include "pipeline/ros_messages/transform.hpp"
 #include "rt/files/part_file.hpp"
 #include "rt/files/room_left.hpp"
@@ -23,11 +22,8 @@ using ros_messages::CloudOf;
 
 bool is_recorded(const ros_messages::Topic& topic, const McapSink::Config& config,
                  const publish::RunFacts& facts) {
-  if (&topic == &ros_messages::kTopics[ros_messages::kTransformsTopic]) {
-    return !facts.sensor_frame_id.empty();
-  }
-  if (!topic.cloud || *topic.cloud == CloudOf::kAll) return true;
-  return !config.points_alone && (*topic.cloud != CloudOf::kRoad || facts.has_road);
+  if (!ros_messages::is_made(topic, facts)) return false;
+  return !topic.cloud || *topic.cloud == CloudOf::kAll || !config.points_alone;
 }
 
 /// Returns a bag's name, which is its folder's: "drive" for "out/drive/".
@@ -127,9 +123,9 @@ Status McapSink::put(const publish::LabelledFrame& frame) {
   const std::int64_t time_ns = ros_messages::publish_time_ns_of(frame.record);
   if (const Status room = make_room(time_ns); !room) return room;
   for (std::size_t channel = 0; channel < topics_.size(); ++channel) {
-    const auto& cloud = ros_messages::kTopics[topics_[channel]].cloud;
-    if (!cloud) continue;
-    ros_messages::write_point_cloud(frame, *cloud, facts_.frame_id, message_);
+    const ros_messages::Topic& topic = ros_messages::kTopics[topics_[channel]];
+    if (topic.write == nullptr) continue;
+    topic.write(frame, facts_.frame_id, message_);
     if (const Status added = file_->add_message(channel, time_ns, message_); !added) return added;
   }
   return {};

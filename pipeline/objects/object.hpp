@@ -40,6 +40,7 @@ struct Object {
   std::uint32_t last_return = 0;
   float bottom_m = 0;  ///< Heights of the lowest and the highest return above the ground.
   float top_m = 0;
+  float ground_z_m = 0;  ///< Height of the ground below it, vehicle frame.
   Footprint footprint;
   Box box;
 };

@@ -78,6 +78,7 @@ void ObjectFinder::number() noexcept {
     objects_[count_].first_return = std::numeric_limits<std::uint32_t>::max();
     objects_[count_].bottom_m = whole.extent.bottom_m();
     objects_[count_].top_m = whole.extent.top_m();
+    objects_[count_].ground_z_m = whole.extent.most_m[2] - whole.extent.top_m();
     object_of_cluster_[i] = static_cast<std::uint16_t>(++count_);
   }
 }

@@ -2,9 +2,11 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "pipeline/objects/object.hpp"
 #include "pipeline/points/labelled_point.hpp"
 #include "pipeline/points/sector_record.hpp"
 #include "pipeline/status/frame_record.hpp"
@@ -15,6 +17,10 @@ namespace terracut::publish {
 struct LabelledFrame {
   status::FrameRecord record;                 ///< Complete except for what happens after labelling.
   std::vector<points::LabelledPoint> points;  ///< Returns of the frame in order of arrival.
+  /// Objects, and the number of each return's object (0: none; object i has the number i + 1);
+  /// empty unless asked for.
+  std::vector<objects::Object> objects;
+  std::vector<std::uint16_t> object_of_point;
 };
 
 /// A labelled sector on its way to the same outputs, before its frame. The time_s of its points is

@@ -13,6 +13,6 @@ struct Schema {
   std::string_view definition;
 };
 
-extern const Schema kPointCloud2, kDiagnosticArray, kTfMessage;
+extern const Schema kPointCloud2, kDiagnosticArray, kTfMessage, kDetection3DArray, kMarkerArray;
 
 }  // namespace terracut::ros_messages

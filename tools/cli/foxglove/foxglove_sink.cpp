@@ -26,10 +26,10 @@ FoxgloveSink::FoxgloveSink(FoxgloveServer server, publish::RunFacts facts)
 Status FoxgloveSink::put(const publish::LabelledFrame& frame) {
   const std::int64_t time_ns = ros_messages::publish_time_ns_of(frame.record);
   for (std::size_t topic = 0; topic < ros_messages::kTopics.size(); ++topic) {
-    const auto& cloud = ros_messages::kTopics[topic].cloud;
-    if (!cloud || !server_.is_wanted(topic)) continue;
+    const auto write = ros_messages::kTopics[topic].write;
+    if (write == nullptr || !server_.is_wanted(topic)) continue;
     auto message = std::make_shared<Bytes>();
-    ros_messages::write_point_cloud(frame, *cloud, facts_.frame_id, *message);
+    write(frame, facts_.frame_id, *message);
     server_.publish(topic, time_ns, std::move(message));
   }
   return {};

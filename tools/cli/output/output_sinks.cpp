@@ -112,14 +112,10 @@ Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(const OutputOptions&
                                                             publish::RunFacts facts,
                                                             ViewedCapture* capture) {
   name_frames(options, facts);
-  std::vector<bool> topics(ros_messages::kTopics.size(), true);
-  for (std::size_t i = 0; i < topics.size(); ++i) {
-    // Without the road surface all ground counts as road, and there is no topic for it.
-    if (ros_messages::kTopics[i].cloud == ros_messages::CloudOf::kRoad) {
-      topics[i] = facts.has_road;
-    }
+  std::vector<bool> topics;
+  for (const ros_messages::Topic& topic : ros_messages::kTopics) {
+    topics.push_back(ros_messages::is_made(topic, facts));
   }
-  topics[ros_messages::kTransformsTopic] = !facts.sensor_frame_id.empty();
   const net::Ipv4Endpoint at = stream::parse_serving_endpoint(options.foxglove).value();
   auto server = FoxgloveServer::start({.at = at,
                                        .name = "terracut: " + facts.sensor,

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/objects/object.hpp"
+#include "pipeline/publish/labelled_frame.hpp"
+
+namespace terracut::ros_messages {
+
+/// A box in the terms of geometry_msgs: metres, vehicle frame.
+struct BoxPose {
+  std::array<double, 3> middle_m;       ///< geometry_msgs/Point.
+  std::array<double, 4> rotation_xyzw;  ///< geometry_msgs/Quaternion, about z; x ahead, w > 0.
+  std::array<double, 3> size_m;         ///< Length, width, height.
+};
+/// Returns the box of an object, from its lowest to its highest return.
+[[nodiscard]] BoxPose box_pose(const objects::Object& object) noexcept;
+
+/// Returns pairs of places that lines join: the edges of all boxes.
+[[nodiscard]] std::vector<std::array<double, 3>> box_lines(
+    std::span<const objects::Object> objects);
+/// The same for the sides of all footprints, on the ground.
+[[nodiscard]] std::vector<std::array<double, 3>> footprint_lines(
+    std::span<const objects::Object> objects);
+
+/// Writes a vision_msgs/Detection3DArray of the frame's objects to `message`, replacing its
+/// content: a box for each, with its number in the frame as `id` and no class.
+void write_detections(const publish::LabelledFrame& frame, std::string_view frame_id,
+                      std::vector<std::byte>& message);
+
+/// Writes a visualization_msgs/MarkerArray of the frame's objects to `message`, replacing its
+/// content: one marker with the edges of all boxes, one with all footprints. They replace those of
+/// the frame before.
+void write_object_markers(const publish::LabelledFrame& frame, std::string_view frame_id,
+                          std::vector<std::byte>& message);
+
+}  // namespace terracut::ros_messages

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/ros_messages/object_messages.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace terracut::ros_messages {
+namespace {
+
+using testing::DoubleNear;
+using testing::Each;
+using testing::ElementsAre;
+
+/// A box of 4 by 2 by 1.5 m whose longer side points to `direction_rad`.
+objects::Object box_turned(double direction_rad) {
+  objects::Object object;
+  object.bottom_m = 0.25F;
+  object.top_m = 1.75F;
+  object.ground_z_m = -0.5F;
+  object.box = {
+      {10, 5},
+      {static_cast<float>(std::cos(direction_rad)), static_cast<float>(std::sin(direction_rad))},
+      4,
+      2};
+  object.footprint.corners = {{{9, 4}, {11, 4}, {11, 6}}};
+  object.footprint.count = 3;
+  return object;
+}
+
+TEST(BoxPose, LiesBetweenTheLowestAndTheHighestReturn) {
+  const BoxPose box = box_pose(box_turned(0));
+  EXPECT_THAT(box.middle_m, ElementsAre(10, 5, 0.5));
+  EXPECT_THAT(box.size_m, ElementsAre(4, 2, 1.5));
+  EXPECT_THAT(box.rotation_xyzw, ElementsAre(0, 0, 0, 1));
+}
+
+TEST(BoxPose, IsTurnedWithTheLongerSideWhicheverWayThatPoints) {
+  for (double direction_rad = -6.2; direction_rad < 6.3; direction_rad += 0.1) {
+    const auto [x, y, z, w] = box_pose(box_turned(direction_rad)).rotation_xyzw;
+    EXPECT_GT(w, 0.7) << direction_rad;
+    EXPECT_NEAR(z * z + w * w, 1, 1e-6);
+    const double turn_rad = 2 * std::atan2(z, w);
+    EXPECT_NEAR(std::sin(turn_rad - direction_rad), 0, 1e-6) << direction_rad;
+  }
+}
+
+TEST(BoxLines, AreTheTwelveEdgesOfEachBox) {
+  const std::array<objects::Object, 2> objects{box_turned(0.3), box_turned(2)};
+  const auto lines = box_lines(objects);
+  ASSERT_EQ(lines.size(), 48U);
+  std::multiset<int> lengths_cm;
+  for (std::size_t i = 0; i < 24; i += 2) {
+    const auto &a = lines[i], &b = lines[i + 1];
+    lengths_cm.insert(
+        static_cast<int>(std::lround(100 * std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]))));
+  }
+  EXPECT_EQ(lengths_cm,
+            (std::multiset<int>{150, 150, 150, 150, 200, 200, 200, 200, 400, 400, 400, 400}));
+}
+
+TEST(FootprintLines, AreItsSidesOnTheGround) {
+  const std::array<objects::Object, 1> objects{box_turned(0)};
+  const auto lines = footprint_lines(objects);
+  ASSERT_EQ(lines.size(), 6U);
+  EXPECT_EQ(lines[0], (std::array{9.0, 4.0, -0.5}));
+  EXPECT_EQ(lines[5], lines[0]) << "closed";
+}
+
+TEST(ObjectMessages, AreAsLongAsTheirDefinitionsSay) {
+  publish::LabelledFrame frame;
+  frame.objects = {box_turned(0), box_turned(1)};
+  std::vector<std::byte> message;
+  write_detections(frame, "abc", message);
+  // A header is 8 + 4 + 4 bytes, an array's length 4. An object: a header, no results, ten numbers
+  // of 8 bytes, "1" of 4 + 2. Numbers begin at multiples of their size.
+  const std::size_t first = 16 + 4 + (16 + 4) + 80 + 6;
+  const std::size_t second = (first + 2) + (16 + 4) + 4 + 80 + 6;
+  EXPECT_EQ(message.size(), 4 + second);
+  write_object_markers(frame, "abc", message);
+  EXPECT_GT(message.size(), 2 * 24 * 24U);
+}
+
+}  // namespace
+}  // namespace terracut::ros_messages

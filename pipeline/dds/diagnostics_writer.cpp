@@ -6,19 +6,13 @@
 #include <vector>
 
 #include "ros_time.hpp"
+#include "sequence_of.hpp"
 
 namespace terracut::dds {
 namespace {
 
 using KeyValue = diagnostic_msgs_msg_dds__KeyValue_;
 using DiagnosticStatus = diagnostic_msgs_msg_dds__DiagnosticStatus_;
-
-/// Makes a sequence of C structures in the memory of a vector.
-template <class Sequence, class Element>
-Sequence sequence_of(std::vector<Element>& elements) {
-  const auto length = static_cast<std::uint32_t>(elements.size());
-  return {length, length, elements.data(), false};
-}
 
 }  // namespace
 

@@ -19,6 +19,12 @@ const MessageType kDiagnosticArray{
 const MessageType kTfMessage{
     &tf2_msgs_msg_dds__TFMessage__desc,
     "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"};
+const MessageType kDetection3DArray{
+    &vision_msgs_msg_dds__Detection3DArray__desc,
+    "RIHS01_793f5eab9595ac1c0da07873cc859db42eae51f0ee76056db8562515d830e018"};
+const MessageType kMarkerArray{
+    &visualization_msgs_msg_dds__MarkerArray__desc,
+    "RIHS01_86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf"};
 const MessageType kFloat64Stamped{
     &autoware_internal_debug_msgs_msg_dds__Float64Stamped__desc,
     "RIHS01_588b194ed7eddc089b6ca098eb093e92f29bdad96ebd906fc9282816335942eb"};

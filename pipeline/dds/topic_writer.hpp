@@ -18,7 +18,8 @@ struct MessageType {
   const dds_topic_descriptor_t* descriptor;
   const char* hash;
 };
-extern const MessageType kPointCloud2, kDiagnosticArray, kTfMessage, kFloat64Stamped;
+extern const MessageType kPointCloud2, kDiagnosticArray, kTfMessage, kDetection3DArray,
+    kMarkerArray, kFloat64Stamped;
 
 /// The quality of service that a writer offers. Reliable and volatile suits ROS 2 readers with
 /// either usual profile, SensorDataQoS or the default.

@@ -18,59 +18,6 @@ void add(CdrWriter& to, const std::array<double, kCount>& numbers) {
   for (const double number : numbers) to.add(number);
 }
 
-void add_colour(CdrWriter& to, const std::array<float, 4>& rgba) {
-  for (const float part : rgba) to.add(part);
-}
-
-/// A visualization_msgs/Marker of lines between pairs of places.
-void add_lines(CdrWriter& to, const publish::LabelledFrame& frame, std::string_view frame_id,
-               std::string_view name, const std::array<float, 4>& rgba,
-               std::span<const Place> places_m) {
-  constexpr std::int32_t kLineList = 5, kAdd = 0;
-  constexpr double kWidth_m = 0.05;
-  add_header(to, stamp_ns_of(frame.record), frame_id);
-  to.add(name);
-  to.add(std::int32_t{0});  // id
-  to.add(kLineList);
-  to.add(kAdd);
-  add(to, std::array{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0});  // pose
-  add(to, std::array{kWidth_m, 0.0, 0.0});                 // scale
-  add_colour(to, rgba);
-  add_time(to, 0);  // lifetime: until it is replaced
-  to.add(false);    // frame_locked
-  to.add_length(places_m.size());
-  for (const Place& place_m : places_m) add(to, place_m);
-  to.add_length(0);  // colors
-  to.add(std::string_view());
-  add_header(to, 0, "");  // texture
-  to.add(std::string_view());
-  to.add_length(0);
-  to.add_length(0);            // uv_coordinates
-  to.add(std::string_view());  // text
-  to.add(std::string_view());  // mesh_resource
-  to.add(std::string_view());  // mesh_file
-  to.add_length(0);
-  to.add(false);  // mesh_use_embedded_materials
-}
-
-}  // namespace
-
-BoxPose box_pose(const Object& object) noexcept {
-  const objects::Box& box = object.box;
-  // Both directions of the longer side are its direction; the one that looks ahead has w > 0.
-  const double sign = box.along.x_m < 0 ? -1 : 1;
-  const double cosine = sign * static_cast<double>(box.along.x_m);
-  const double sine = sign * static_cast<double>(box.along.y_m);
-  const double w = std::sqrt((1 + cosine) / 2);
-  const auto bottom_m = static_cast<double>(object.bottom_m);
-  const auto top_m = static_cast<double>(object.top_m);
-  return {.middle_m = {static_cast<double>(box.middle.x_m), static_cast<double>(box.middle.y_m),
-                       static_cast<double>(object.ground_z_m) + (bottom_m + top_m) / 2},
-          .rotation_xyzw = {0, 0, sine / (2 * w), w},
-          .size_m = {static_cast<double>(box.length_m), static_cast<double>(box.width_m),
-                     top_m - bottom_m}};
-}
-
 std::vector<Place> box_lines(std::span<const Object> objects) {
   constexpr std::array<std::array<int, 2>, 4> kCorners{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
   std::vector<Place> lines;
@@ -108,6 +55,58 @@ std::vector<Place> footprint_lines(std::span<const Object> objects) {
   return lines;
 }
 
+/// A visualization_msgs/Marker of lines between pairs of places.
+void add_lines(CdrWriter& to, const publish::LabelledFrame& frame, std::string_view frame_id,
+               const ObjectLines& lines) {
+  constexpr std::int32_t kAdd = 0;
+  add_header(to, stamp_ns_of(frame.record), frame_id);
+  to.add(std::string_view(lines.name));
+  to.add(std::int32_t{0});  // id
+  to.add(kLineList);
+  to.add(kAdd);
+  add(to, std::array{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0});  // pose
+  add(to, std::array{kLineWidth_m, 0.0, 0.0});             // scale
+  for (const float part : lines.rgba) to.add(part);
+  add_time(to, 0);  // lifetime: until it is replaced
+  to.add(false);    // frame_locked
+  to.add_length(lines.places_m.size());
+  for (const Place& place_m : lines.places_m) add(to, place_m);
+  to.add_length(0);  // colors
+  to.add(std::string_view());
+  add_header(to, 0, "");  // texture
+  to.add(std::string_view());
+  to.add_length(0);
+  to.add_length(0);            // uv_coordinates
+  to.add(std::string_view());  // text
+  to.add(std::string_view());  // mesh_resource
+  to.add(std::string_view());  // mesh_file
+  to.add_length(0);
+  to.add(false);  // mesh_use_embedded_materials
+}
+
+}  // namespace
+
+BoxPose box_pose(const Object& object) noexcept {
+  const objects::Box& box = object.box;
+  // Both directions of the longer side are its direction; the one that looks ahead has w > 0.
+  const double sign = box.along.x_m < 0 ? -1 : 1;
+  const double cosine = sign * static_cast<double>(box.along.x_m);
+  const double sine = sign * static_cast<double>(box.along.y_m);
+  const double w = std::sqrt((1 + cosine) / 2);
+  const auto bottom_m = static_cast<double>(object.bottom_m);
+  const auto top_m = static_cast<double>(object.top_m);
+  return {.middle_m = {static_cast<double>(box.middle.x_m), static_cast<double>(box.middle.y_m),
+                       static_cast<double>(object.ground_z_m) + (bottom_m + top_m) / 2},
+          .rotation_xyzw = {0, 0, sine / (2 * w), w},
+          .size_m = {static_cast<double>(box.length_m), static_cast<double>(box.width_m),
+                     top_m - bottom_m}};
+}
+
+std::array<ObjectLines, 2> object_lines(std::span<const Object> objects) {
+  return {{{"boxes", {1.0F, 0.75F, 0.2F, 1.0F}, box_lines(objects)},
+           {"footprints", {1.0F, 0.45F, 0.2F, 1.0F}, footprint_lines(objects)}}};
+}
+
 void write_detections(const publish::LabelledFrame& frame, std::string_view frame_id,
                       std::vector<std::byte>& message) {
   CdrWriter to(message);
@@ -128,10 +127,9 @@ void write_detections(const publish::LabelledFrame& frame, std::string_view fram
 void write_object_markers(const publish::LabelledFrame& frame, std::string_view frame_id,
                           std::vector<std::byte>& message) {
   CdrWriter to(message);
-  to.add_length(2);
-  add_lines(to, frame, frame_id, "boxes", {1.0F, 0.75F, 0.2F, 1.0F}, box_lines(frame.objects));
-  add_lines(to, frame, frame_id, "footprints", {1.0F, 0.45F, 0.2F, 1.0F},
-            footprint_lines(frame.objects));
+  const auto all_lines = object_lines(frame.objects);
+  to.add_length(all_lines.size());
+  for (const ObjectLines& lines : all_lines) add_lines(to, frame, frame_id, lines);
 }
 
 }  // namespace terracut::ros_messages

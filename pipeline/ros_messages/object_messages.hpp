@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -21,12 +23,16 @@ struct BoxPose {
 /// Returns the box of an object, from its lowest to its highest return.
 [[nodiscard]] BoxPose box_pose(const objects::Object& object) noexcept;
 
-/// Returns pairs of places that lines join: the edges of all boxes.
-[[nodiscard]] std::vector<std::array<double, 3>> box_lines(
-    std::span<const objects::Object> objects);
-/// The same for the sides of all footprints, on the ground.
-[[nodiscard]] std::vector<std::array<double, 3>> footprint_lines(
-    std::span<const objects::Object> objects);
+/// Lines to be shown as a visualization_msgs/Marker.
+struct ObjectLines {
+  const char* name;
+  std::array<float, 4> rgba;
+  std::vector<std::array<double, 3>> places_m;  ///< Pairs of places, which a line joins each.
+};
+inline constexpr std::int32_t kLineList = 5;  ///< visualization_msgs/Marker::LINE_LIST
+inline constexpr double kLineWidth_m = 0.05;
+/// Returns the edges of all boxes, and the sides of all footprints, on the ground.
+[[nodiscard]] std::array<ObjectLines, 2> object_lines(std::span<const objects::Object> objects);
 
 /// Writes a vision_msgs/Detection3DArray of the frame's objects to `message`, replacing its
 /// content: a box for each, with its number in the frame as `id` and no class.

@@ -49,9 +49,9 @@ TEST(BoxPose, IsTurnedWithTheLongerSideWhicheverWayThatPoints) {
   }
 }
 
-TEST(BoxLines, AreTheTwelveEdgesOfEachBox) {
+TEST(ObjectLines, BoxesAreTheTwelveEdgesOfEachBox) {
   const std::array<objects::Object, 2> objects{box_turned(0.3), box_turned(2)};
-  const auto lines = box_lines(objects);
+  const auto lines = object_lines(objects)[0].places_m;
   ASSERT_EQ(lines.size(), 48U);
   std::multiset<int> lengths_cm;
   for (std::size_t i = 0; i < 24; i += 2) {
@@ -63,9 +63,9 @@ TEST(BoxLines, AreTheTwelveEdgesOfEachBox) {
             (std::multiset<int>{150, 150, 150, 150, 200, 200, 200, 200, 400, 400, 400, 400}));
 }
 
-TEST(FootprintLines, AreItsSidesOnTheGround) {
+TEST(ObjectLines, FootprintsAreItsSidesOnTheGround) {
   const std::array<objects::Object, 1> objects{box_turned(0)};
-  const auto lines = footprint_lines(objects);
+  const auto lines = object_lines(objects)[1].places_m;
   ASSERT_EQ(lines.size(), 6U);
   EXPECT_EQ(lines[0], (std::array{9.0, 4.0, -0.5}));
   EXPECT_EQ(lines[5], lines[0]) << "closed";

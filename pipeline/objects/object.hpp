@@ -31,6 +31,16 @@ struct Box {
   Corner middle;
   Corner along{1, 0};  ///< Direction of the longer side, length 1.
   float length_m = 0, width_m = 0;
+
+  /// Returns its corners, counterclockwise.
+  [[nodiscard]] std::array<Corner, 4> corners() const noexcept {
+    const auto corner = [this](float ahead, float aside) -> Corner {
+      const float ahead_m = ahead * length_m / 2, aside_m = aside * width_m / 2;
+      return {middle.x_m + ahead_m * along.x_m - aside_m * along.y_m,
+              middle.y_m + ahead_m * along.y_m + aside_m * along.x_m};
+    };
+    return {corner(1, 1), corner(-1, 1), corner(-1, -1), corner(1, -1)};
+  }
 };
 
 /// Returns that belong together and stand out of the ground.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -98,6 +99,31 @@ void draw_scale_bar(Canvas& canvas, const BirdEyeView& view) {
             line - kThick - (kGlyphHeight + 2) * kTextScale, text, kTextScale, kTextColour);
 }
 
+void draw_box(Canvas& canvas, const objects::Box& box) {
+  const std::array<objects::Corner, 4> corners = box.corners();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const objects::Corner &from = corners[i], &to = corners[(i + 1) % corners.size()];
+    canvas.picture.line(canvas.column(static_cast<double>(from.y_m)),
+                        canvas.line(static_cast<double>(from.x_m)),
+                        canvas.column(static_cast<double>(to.y_m)),
+                        canvas.line(static_cast<double>(to.x_m)), 2 * kOversampling, kObjectColour);
+  }
+}
+
+Picture draw(const ColouredFrame& frame, std::span<const objects::Object> objects,
+             const BirdEyeView& view) {
+  const double pixels_per_m = kOversampling * std::clamp(view.pixels_per_m, 2.0, 40.0);
+  const int side =
+      static_cast<int>(std::lround(std::clamp(view.side_m, 10.0, 400.0) * pixels_per_m));
+  Canvas canvas{Picture(side, side, kPictureBackground), pixels_per_m};
+  draw_returns(canvas, frame);
+  for (const objects::Object& object : objects) draw_box(canvas, object.box);
+  draw_range_rings(canvas, view);
+  draw_vehicle(canvas);
+  draw_scale_bar(canvas, view);
+  return canvas.picture.halved();
+}
+
 }  // namespace
 
 Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view) {
@@ -108,19 +134,11 @@ Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view) {
   // Mistakes are drawn over everything else: such a picture is made to show them.
   std::vector<std::uint8_t> mistaken;
   for (const Mistake mistake : frame.mistakes) mistaken.push_back(mistake != Mistake::kNone);
-  return bird_eye_picture(ColouredFrame{frame.image, colours, mistaken}, view);
+  return draw(ColouredFrame{frame.image, colours, mistaken}, frame.objects, view);
 }
 
 Picture bird_eye_picture(const ColouredFrame& frame, const BirdEyeView& view) {
-  const double pixels_per_m = kOversampling * std::clamp(view.pixels_per_m, 2.0, 40.0);
-  const int side =
-      static_cast<int>(std::lround(std::clamp(view.side_m, 10.0, 400.0) * pixels_per_m));
-  Canvas canvas{Picture(side, side, kPictureBackground), pixels_per_m};
-  draw_returns(canvas, frame);
-  draw_range_rings(canvas, view);
-  draw_vehicle(canvas);
-  draw_scale_bar(canvas, view);
-  return canvas.picture.halved();
+  return draw(frame, {}, view);
 }
 
 }  // namespace terracut::pictures

@@ -17,9 +17,9 @@ struct BirdEyeView {
   double ring_spacing_m = 10;  ///< Distance between the range rings, > 0.
 };
 
-/// Draws the frame from above, x (forward) up: colours of frame_colours.hpp, range rings, the
-/// vehicle as an arrow, and at the lower left a scale bar of one ring spacing with its length.
-/// Higher returns cover lower ones.
+/// Draws the frame from above, x (forward) up: colours of frame_colours.hpp, boxes of objects,
+/// range rings, the vehicle as an arrow, and at the lower left a scale bar of one ring spacing with
+/// its length. Higher returns cover lower ones.
 [[nodiscard]] Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view = {});
 
 /// A labelled frame with a colour chosen for each return.

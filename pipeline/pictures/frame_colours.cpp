@@ -74,6 +74,7 @@ std::vector<LegendEntry> legend_of(const LabelledFrame& frame) {
     obstacle.colours.push_back(by_height(height_m));
   }
   legend.push_back(std::move(obstacle));
+  if (!frame.objects.empty()) legend.push_back({"object", {kObjectColour}});
   return legend;
 }
 

@@ -43,6 +43,17 @@ void Picture::rectangle(int left, int top, int width, int height, Colour colour)
   }
 }
 
+void Picture::line(double from_x, double from_y, double to_x, double to_y, int width,
+                   Colour colour) noexcept {
+  const double x = to_x - from_x, y = to_y - from_y;
+  const int steps = 1 + static_cast<int>(std::max(std::abs(x), std::abs(y)));
+  for (int step = 0; step <= steps; ++step) {
+    const double share = static_cast<double>(step) / steps;
+    rectangle(static_cast<int>(std::lround(from_x + share * x)) - width / 2,
+              static_cast<int>(std::lround(from_y + share * y)) - width / 2, width, width, colour);
+  }
+}
+
 void Picture::circle(double centre_x, double centre_y, double radius, double width, Colour colour,
                      double opacity) noexcept {
   const double reach = width / 2 + 0.5;

@@ -36,6 +36,9 @@ class Picture {
   void blend(int x, int y, Colour colour, double opacity) noexcept;
   /// Fills the pixels [left, left + width) x [top, top + height) with `colour`.
   void rectangle(int left, int top, int width, int height, Colour colour) noexcept;
+  /// Draws a straight line of square pixels of the given width.
+  void line(double from_x, double from_y, double to_x, double to_y, int width,
+            Colour colour) noexcept;
   /// Draws a smooth-edged ring line of the given width, or a disc if radius <= width / 2.
   void circle(double centre_x, double centre_y, double radius, double width, Colour colour,
               double opacity) noexcept;

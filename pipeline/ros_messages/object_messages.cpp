@@ -19,20 +19,15 @@ void add(CdrWriter& to, const std::array<double, kCount>& numbers) {
 }
 
 std::vector<Place> box_lines(std::span<const Object> objects) {
-  constexpr std::array<std::array<int, 2>, 4> kCorners{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
   std::vector<Place> lines;
   for (const Object& object : objects) {
+    const std::array<objects::Corner, 4> corners = object.box.corners();
     const auto corner = [&](std::size_t number, float height_m) -> Place {
-      const objects::Box& box = object.box;
-      const auto& [ahead, aside] = kCorners[number % kCorners.size()];
-      const float ahead_m = static_cast<float>(ahead) * box.length_m / 2;
-      const float aside_m = static_cast<float>(aside) * box.width_m / 2;
-      return {
-          static_cast<double>(box.middle.x_m + ahead_m * box.along.x_m - aside_m * box.along.y_m),
-          static_cast<double>(box.middle.y_m + ahead_m * box.along.y_m + aside_m * box.along.x_m),
-          static_cast<double>(object.ground_z_m + height_m)};
+      const auto& [x_m, y_m] = corners[number % corners.size()];
+      return {static_cast<double>(x_m), static_cast<double>(y_m),
+              static_cast<double>(object.ground_z_m + height_m)};
     };
-    for (std::size_t i = 0; i < kCorners.size(); ++i) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
       lines.insert(lines.end(), {corner(i, object.bottom_m), corner(i + 1, object.bottom_m),
                                  corner(i, object.top_m), corner(i + 1, object.top_m),
                                  corner(i, object.bottom_m), corner(i, object.top_m)});

@@ -99,6 +99,22 @@ TEST_F(Pictures, BirdsEyeViewPutsForwardUpAndLeftLeft) {
   EXPECT_EQ(colour_at(picture, view, -25, -15), background);
 }
 
+TEST_F(Pictures, BirdsEyeViewShowsTheBoxesOfObjects) {
+  output::SmallFrame small;
+  small.add(0, 0, 25, 15, 0, Label::kObstacle);
+  LabelledFrame frame = small.frame();
+  objects::Object car;
+  car.box = {{20, -10}, {0.8F, 0.6F}, 5, 2};
+  frame.objects = std::span(&car, 1);
+  const BirdEyeView view{.side_m = 100, .pixels_per_m = 10};
+  const Picture picture = bird_eye_picture(frame, view);
+  EXPECT_EQ(colour_at(picture, view, 20, -10), kPictureBackground) << "its middle";
+  EXPECT_EQ(colour_at(picture, view, 20 + 2.5 * 0.8, -10 + 2.5 * 0.6), kObjectColour)
+      << "the middle of the side in front";
+  EXPECT_EQ(colour_at(picture, view, 20 + 0.6, -10 - 0.8), kObjectColour) << "of the right side";
+  EXPECT_EQ(legend_of(frame).back().text, "object");
+}
+
 TEST_F(Pictures, BirdsEyeViewShowsTheHighestOfReturnsThatFallTogether) {
   const BirdEyeView view{.side_m = 40, .pixels_per_m = 10};
   output::SmallFrame high_first, high_last;

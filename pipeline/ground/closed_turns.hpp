@@ -55,6 +55,9 @@ class ClosedTurns final : public TurnMethod {
       TERRACUT_NONBLOCKING override {
     return method_->labels();
   }
+  [[nodiscard]] std::span<const float> heights_m() const noexcept TERRACUT_NONBLOCKING override {
+    return method_->heights_m();
+  }
   [[nodiscard]] const stage::SegmentationReport& report() const noexcept
       TERRACUT_NONBLOCKING override {
     return report_;

@@ -35,6 +35,13 @@ class FrameMethod {
   /// Returns one label per return, in order of arrival (RangeImage::return_index()).
   [[nodiscard]] virtual std::span<const frame::Label> labels() const noexcept
       TERRACUT_NONBLOCKING = 0;
+  /// True if the method gives heights; most methods do not.
+  [[nodiscard]] virtual bool gives_heights() const noexcept { return false; }
+  /// Returns the height above the ground of each return, metres, in the order of labels(); empty
+  /// unless gives_heights().
+  [[nodiscard]] virtual std::span<const float> heights_m() const noexcept TERRACUT_NONBLOCKING {
+    return {};
+  }
   /// Returns for each cell its label and the height that led to the label; for pictures.
   [[nodiscard]] virtual const stage::CellPlanes& planes() const noexcept = 0;
 };

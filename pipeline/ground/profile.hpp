@@ -29,6 +29,8 @@ struct SegmenterConfig {
   min_cut::GridCut::Config min_cut;
   stage::ReturnLabels::Config returns;
   road::RoadSurface::Config road;
+  /// Also gives the height above the ground of every return. No parameter: labels do not change.
+  bool gives_heights = false;
 
   /// Returns the height above the ground below which returns are counted as ghosts
   /// (stage::SegmentationReport::below), metres.

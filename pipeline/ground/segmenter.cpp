@@ -16,6 +16,7 @@ Segmenter::Segmenter(const SegmenterConfig& config, const mount::RingProfile& pr
       fine_(config, profile, shape, memory),
       return_labels_(config.returns, config.elevation_map.obstacle_height_m, return_capacity,
                      memory) {
+  if (config.gives_heights) return_heights_.emplace(return_capacity, memory);
   if (config.road.enabled) road_surface_.emplace(config.road, shape, memory);
 }
 
@@ -43,6 +44,12 @@ stage::SegmentationReport Segmenter::segment(const frame::RangeImage& image,
     if (is_late || report.cut.discarded) report.last_stage = stage::Stage::kAdjacentPoints;
   }
   return_labels_.assign(image, planes_);
+  if (return_heights_) {
+    return_heights_->assign(image, planes_,
+                            [this](int column, float z_m, float ground_range_m) noexcept {
+                              return coarse_.height_of(column, z_m, ground_range_m);
+                            });
+  }
   if (road_surface_) road_surface_->mark(image, planes_, return_labels_.mutable_labels());
   stage::done(stage::Stage::kLabels, observer);
 

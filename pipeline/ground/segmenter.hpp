@@ -8,6 +8,7 @@
 #include "pipeline/ground/coarse_stages.hpp"
 #include "pipeline/ground/fine_stages.hpp"
 #include "pipeline/ground/frame_method.hpp"
+#include "pipeline/stage/return_heights.hpp"
 
 namespace terracut::ground {
 
@@ -35,6 +36,10 @@ class Segmenter final : public FrameMethod {
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept override {
     return return_labels_.labels();
   }
+  [[nodiscard]] bool gives_heights() const noexcept override { return return_heights_.has_value(); }
+  [[nodiscard]] std::span<const float> heights_m() const noexcept override {
+    return return_heights_ ? return_heights_->heights_m() : std::span<const float>();
+  }
   /// Returns for each cell its label and the height that led to the label; for pictures and
   /// measurements.
   [[nodiscard]] const stage::CellPlanes& planes() const noexcept override { return planes_; }
@@ -46,7 +51,8 @@ class Segmenter final : public FrameMethod {
   CoarseStages coarse_;
   FineStages fine_;
   stage::ReturnLabels return_labels_;
-  std::optional<road::RoadSurface> road_surface_;  // empty unless enabled
+  std::optional<stage::ReturnHeights> return_heights_;  // empty unless asked for
+  std::optional<road::RoadSurface> road_surface_;       // empty unless enabled
 };
 
 /// Returns a function that makes Segmenters.

@@ -25,7 +25,9 @@ StreamSegmenter::StreamSegmenter(const SegmenterConfig& config, Pace pace,
       coarse_(config, profile, shape, memory),
       fine_(config, profile, shape, memory),
       return_labels_(config.returns, config.elevation_map.obstacle_height_m, return_capacity,
-                     memory) {}
+                     memory) {
+  if (config.gives_heights) return_heights_.emplace(return_capacity, memory);
+}
 
 void StreamSegmenter::advance(const frame::MeasuredReturns& turn, int complete_columns,
                               const min_cut::CutBudget& budget,
@@ -114,13 +116,16 @@ void StreamSegmenter::label_returns(stage::StageObserver* observer) noexcept {
   const frame::MeasuredReturns& turn = *unlabelled_[0];
   const bool is_newest = unlabelled_[1] == nullptr && turn.turn() == newest_;
   const int end = fine_.labelled_columns() + (is_newest ? 0 : shape_.columns);
+  const auto height_of = [this](int column, float z_m, float ground_range_m) noexcept {
+    return coarse_.height_of(column, z_m, ground_range_m);
+  };
   if (next_tile_ == 0) return_labels_.begin();
+  if (next_tile_ == 0 && return_heights_) return_heights_->begin();
   for (; next_tile_ < turn.tiles() && turn.tile(next_tile_).most < end; ++next_tile_) {
-    report_.late +=
-        return_labels_.assign_tile(turn, next_tile_, points_.planes(), points_.reader(), planes_,
-                                   [this](int column, float z_m, float ground_range_m) noexcept {
-                                     return coarse_.height_of(column, z_m, ground_range_m);
-                                   });
+    report_.late += return_labels_.assign_tile(turn, next_tile_, points_.planes(), points_.reader(),
+                                               planes_, height_of);
+    if (!return_heights_) continue;
+    return_heights_->assign_tile(turn, next_tile_, points_.reader(), planes_, height_of);
   }
   count_to(std::clamp(end, 0, shape_.columns));
   const bool is_whole = !is_newest || is_whole_;

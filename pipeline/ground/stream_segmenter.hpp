@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "firmware_io/frame/point_ring.hpp"
 #include "pipeline/ground/coarse_stages.hpp"
 #include "pipeline/ground/fine_stages.hpp"
 #include "pipeline/ground/turn_method.hpp"
+#include "pipeline/stage/return_heights.hpp"
 
 namespace terracut::ground {
 
@@ -64,6 +66,9 @@ class StreamSegmenter final : public TurnMethod {
       TERRACUT_NONBLOCKING override {
     return return_labels_.labels();
   }
+  [[nodiscard]] std::span<const float> heights_m() const noexcept TERRACUT_NONBLOCKING override {
+    return return_heights_ ? return_heights_->heights_m() : std::span<const float>();
+  }
   void watch_near_ground(NearGround* ground) noexcept TERRACUT_NONBLOCKING override {
     near_ground_ = ground;
   }
@@ -99,6 +104,7 @@ class StreamSegmenter final : public TurnMethod {
   CoarseStages coarse_;
   FineStages fine_;
   stage::ReturnLabels return_labels_;
+  std::optional<stage::ReturnHeights> return_heights_;  // empty unless asked for
 
   bool has_begun_ = false;  // there is a newest turn
   std::int64_t newest_ = 0;

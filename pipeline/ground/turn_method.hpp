@@ -52,6 +52,11 @@ class TurnMethod {
   /// labelled().
   [[nodiscard]] virtual std::span<const frame::Label> labels() const noexcept
       TERRACUT_NONBLOCKING = 0;
+  /// Returns the heights above the ground of the returns that have labels(), metres, in the same
+  /// order; empty if the method does not give heights, or was not asked for them.
+  [[nodiscard]] virtual std::span<const float> heights_m() const noexcept TERRACUT_NONBLOCKING {
+    return {};
+  }
   /// From the next turn on, fills `ground` with the near ground of each turn that is labelled;
   /// null: no longer.
   virtual void watch_near_ground(NearGround* ground) noexcept TERRACUT_NONBLOCKING = 0;

@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/run/cloud_pipeline.hpp"
 
+#include <limits>
+
 namespace terracut::run {
 
 CloudPipeline::CloudPipeline(const cloud::SensorRows& rows, const mount::RingProfile& profile,
@@ -15,6 +17,18 @@ CloudPipeline::CloudPipeline(const cloud::SensorRows& rows, const mount::RingPro
 void CloudPipeline::reserve(std::size_t points) {
   placement_.reserve(points);
   point_labels_.reserve(points);
+  if (method_->gives_heights()) point_heights_m_.reserve(points);
+}
+
+void CloudPipeline::find_point_heights(std::size_t points) {
+  point_heights_m_.clear();
+  if (!method_->gives_heights()) return;
+  const std::span<const float> of_returns = heights_m();
+  point_heights_m_.resize(points, std::numeric_limits<float>::quiet_NaN());
+  const std::span<const std::uint32_t> point_of_return = placement_.point_of_return();
+  for (std::size_t i = 0; i < of_returns.size(); ++i) {
+    point_heights_m_[point_of_return[i]] = of_returns[i];
+  }
 }
 
 Status CloudPipeline::label(const cloud::CloudView& cloud, status::FrameRecord& record,
@@ -23,6 +37,7 @@ Status CloudPipeline::label(const cloud::CloudView& cloud, status::FrameRecord& 
   record.segmentation = method_->segment(image(), budget, &clock_);
   record.stages = clock_.take();
   placement_.labels_of_points(labels(), point_labels_);
+  find_point_heights(cloud.points.size());
   record.segmentation.count(point_labels_);
   // Points that are no return have the label kNone, so they count as neither ground nor obstacle.
   const auto no_place = static_cast<std::uint32_t>(placed().no_place);

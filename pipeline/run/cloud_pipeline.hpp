@@ -48,6 +48,13 @@ class CloudPipeline {
   [[nodiscard]] const std::vector<frame::Label>& point_labels() const noexcept {
     return point_labels_;
   }
+  /// Returns the height of each point above the ground, metres, in order; NaN for points that are
+  /// no return or have no place in the image; empty if the method gives no heights.
+  [[nodiscard]] const std::vector<float>& point_heights_m() const noexcept {
+    return point_heights_m_;
+  }
+  /// Returns the height of each return, by return index; empty if the method gives none.
+  [[nodiscard]] std::span<const float> heights_m() const noexcept { return method_->heights_m(); }
   /// Returns one label per return, by return index of image().
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_->labels(); }
   [[nodiscard]] const frame::RangeImage& image() const noexcept { return placement_.image(); }
@@ -61,11 +68,14 @@ class CloudPipeline {
       std::span<const std::uint32_t> truth);
 
  private:
+  void find_point_heights(std::size_t points);
+
   memory::FixedMemory memory_;
   cloud::CloudToImage placement_;
   std::unique_ptr<ground::FrameMethod> method_;  ///< Never null.
   StageClock clock_;
   std::vector<frame::Label> point_labels_;
+  std::vector<float> point_heights_m_;
   std::vector<std::uint32_t> return_truth_;
 };
 

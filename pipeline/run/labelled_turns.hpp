@@ -52,6 +52,8 @@ class LabelledTurns {
 
   /// Returns one label per return of the turn, in order of arrival.
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_->labels(); }
+  /// Returns the heights of these returns above the ground, metres; empty if the method gives none.
+  [[nodiscard]] std::span<const float> heights_m() const noexcept { return method_->heights_m(); }
   /// Returns the report of the turn.
   [[nodiscard]] const stage::SegmentationReport& report() const noexcept {
     return method_->report();

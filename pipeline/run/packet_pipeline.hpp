@@ -52,6 +52,8 @@ class PacketPipeline {
   [[nodiscard]] Frame* next() noexcept;
   /// Returns one label per return of the frame returned last, by return index.
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return turns_.labels(); }
+  /// Returns the heights of these returns above the ground, metres; empty if the method gives none.
+  [[nodiscard]] std::span<const float> heights_m() const noexcept { return turns_.heights_m(); }
   /// Returns why the last datagram was rejected; nothing if it was not rejected.
   [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept {
     return decoder().rejected();

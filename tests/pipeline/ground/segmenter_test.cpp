@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "tests/support/allocation_counter.hpp"
@@ -190,9 +192,85 @@ TEST_F(SegmenterOnSyntheticFrames, RotatingTheWorldRotatesTheLabels) {
   EXPECT_LE(different, 5) << "rounding may move a return at the very edge of the wall";
 }
 
+SegmenterConfig with_heights(SegmenterConfig config = terracut_profile()) {
+  config.gives_heights = true;
+  return config;
+}
+
+TEST_F(SegmenterOnSyntheticFrames, EveryReturnHasItsHeightAboveLevelGround) {
+  // In the paper's, a cell that shows a wall alone has its foot for ground.
+  for (const auto& [config, most_m] :
+       {std::pair{terracut_profile(), 0.03F}, std::pair{paper_profile(), 0.05F}}) {
+    segment(test::ground_with_wall(12, 4, 2.0), with_heights(config));
+    const std::span<const float> heights_m = segmenter->heights_m();
+    ASSERT_EQ(heights_m.size(), image.returns());
+    float worst_m = 0;
+    for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
+      if (!image.has_return(cell)) continue;
+      const float height_m = heights_m[image.return_index()[cell]];
+      worst_m = std::max(worst_m, std::fabs(height_m - image.z_m()[cell]));
+    }
+    EXPECT_LT(worst_m, most_m);
+  }
+}
+
+TEST_F(SegmenterOnSyntheticFrames, HeightsAreAboveTheGroundWhereItSlopes) {
+  // A road that rises by 6 m in 100 m, and a wall across it.
+  constexpr double kSlope = 0.06, kWall_m = 15, kSensor_m = 1.73;
+  segment(
+      [](double azimuth_rad, double elevation_rad) {
+        const double forward = std::cos(elevation_rad) * std::cos(azimuth_rad);
+        const double sinks = kSlope * forward - std::sin(elevation_rad);
+        const double ground = sinks > 0 ? kSensor_m / sinks : -1.0;
+        const double wall = forward > 0 ? kWall_m / forward : 1e9;
+        const double above_m = kSensor_m + wall * std::sin(elevation_rad) - kSlope * wall * forward;
+        return (ground < 0 || wall < ground) && above_m < 2 ? wall : ground;
+      },
+      with_heights());
+  // The ground below the wall is as it was seen before the wall, and so a little too low.
+  int on_wall = 0, on_ground = 0;
+  double off_on_wall_m = 0, off_on_ground_m = 0;
+  for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
+    if (!image.has_return(cell) || image.ground_range_m()[cell] > 20) continue;
+    const float above_m = image.z_m()[cell] - static_cast<float>(kSlope) * image.x_m()[cell];
+    const float off_m = std::fabs(segmenter->heights_m()[image.return_index()[cell]] - above_m);
+    ASSERT_LT(off_m, 0.15F) << image.x_m()[cell] << " " << image.y_m()[cell];
+    const bool is_on_wall = above_m > 0.01F;
+    ++(is_on_wall ? on_wall : on_ground);
+    (is_on_wall ? off_on_wall_m : off_on_ground_m) += off_m;
+  }
+  EXPECT_GT(on_wall, 500);
+  EXPECT_GT(on_ground, 10'000);
+  EXPECT_LT(off_on_wall_m / on_wall, 0.08);
+  EXPECT_LT(off_on_ground_m / on_ground, 0.02);
+}
+
+TEST_F(SegmenterOnSyntheticFrames, AReturnOfATakenCellHasItsOwnHeight) {
+  test::cast_frame(profile, test::flat_ground(), image);
+  for (int column = 0; column < 500; ++column) {
+    ASSERT_TRUE(image.place(20, column, {0, -10, column % 2 == 0 ? 0.01F : 1.0F, 10, 0}));
+  }
+  resegment(with_heights());
+  ASSERT_EQ(segmenter->heights_m().size(), image.returns());
+  for (const frame::OverflowReturn& extra : image.overflow()) {
+    EXPECT_NEAR(segmenter->heights_m()[extra.return_index], extra.point.z_m, 0.03F);
+  }
+}
+
+TEST_F(SegmenterOnSyntheticFrames, HeightsChangeNoLabelAndAreThereOnlyWhereTheyAreAskedFor) {
+  const auto wall = test::ground_with_wall(9, 4, 1.5, 0.05);
+  const auto view = segment(wall);
+  const std::vector<frame::Label> without(view.begin(), view.end());
+  EXPECT_FALSE(segmenter->gives_heights());
+  EXPECT_TRUE(segmenter->heights_m().empty());
+  const auto with = segment(wall, with_heights());
+  EXPECT_TRUE(segmenter->gives_heights());
+  EXPECT_TRUE(std::ranges::equal(with, without));
+}
+
 TEST_F(SegmenterOnSyntheticFrames, NothingIsAllocatedPerFrame) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer brings its own allocator";
-  segment(test::ground_with_wall(12, 4, 2.0));
+  segment(test::ground_with_wall(12, 4, 2.0), with_heights());
   const std::uint64_t before = test::allocations_of_this_thread();
   for (int frame = 0; frame < 3; ++frame) (void)segmenter->segment(image);
   EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);

@@ -139,6 +139,7 @@ class StreamSegmenterOnTurns : public testing::Test {
       EXPECT_EQ(segmenter_->labels().size(), turn->returns());
       EXPECT_EQ(std::ranges::count(segmenter_->labels(), frame::Label::kNone), 0);
       reports_.push_back(segmenter_->report());
+      heights_m_.assign(segmenter_->heights_m().begin(), segmenter_->heights_m().end());
       segmenter_->release();
     }
   }
@@ -156,6 +157,7 @@ class StreamSegmenterOnTurns : public testing::Test {
   std::unique_ptr<StreamSegmenter> segmenter_;
   std::vector<std::pair<std::int64_t, std::vector<frame::Label>>> labelled_;
   std::vector<stage::SegmentationReport> reports_;
+  std::vector<float> heights_m_;  // of the turn labelled last
 };
 
 TEST_F(StreamSegmenterOnTurns, OfAStillWorldHaveTheLabelsOfOneTurnClosedWithItself) {
@@ -313,6 +315,72 @@ TEST_F(StreamSegmenterOnTurns, AReturnThatComesLateIsJudgedByItsHeightAndCounted
   }
 }
 
+SegmenterConfig with_heights() {
+  SegmenterConfig config = terracut_profile();
+  config.gives_heights = true;
+  return config;
+}
+
+TEST_F(StreamSegmenterOnTurns, HaveAHeightAboveTheGroundBesideEachLabel) {
+  std::mt19937 random(15);
+  begin(with_heights());
+  cast(test::ground_with_wall(12, 4, 2.0));
+  for (int turn = 0; turn < 3; ++turn) arrive(random);
+  ASSERT_EQ(labelled_.size(), 2U);
+  ASSERT_EQ(heights_m_.size(), labelled_.back().second.size());
+  std::size_t n = 0;
+  float worst_m = 0;
+  for (int column = 0; column < kShape.columns; ++column) {
+    for (int row = 0; row < kShape.rows; ++row) {
+      const std::size_t cell = kShape.cell(row, column);
+      if (!image_.has_return(cell)) continue;
+      worst_m = std::max(worst_m, std::fabs(heights_m_[n++] - image_.z_m()[cell]));
+    }
+  }
+  EXPECT_EQ(n, heights_m_.size());
+  EXPECT_LT(worst_m, 0.03F);
+}
+
+TEST_F(StreamSegmenterOnTurns, HaveTheSameLabelsWithHeightsAndNoHeightsUnlessAskedFor) {
+  std::vector<std::vector<frame::Label>> labels;
+  std::vector<float> heights_m;
+  for (const SegmenterConfig& config : {terracut_profile(), with_heights(), with_heights()}) {
+    begin(config);
+    labelled_.clear();
+    std::mt19937 of_world(16);
+    cast(rough_ground(of_world));
+    for (int turn = 0; turn < 3; ++turn) arrive(of_world);
+    labels.push_back(labelled_.back().second);
+    EXPECT_EQ(heights_m_.empty(), !config.gives_heights);
+    if (!heights_m.empty()) {
+      EXPECT_EQ(heights_m_, heights_m);
+    }
+    heights_m = heights_m_;
+  }
+  EXPECT_EQ(labels[1], labels[0]);
+}
+
+TEST_F(StreamSegmenterOnTurns, AReturnThatComesLateHasItsHeight) {
+  std::mt19937 random(17);
+  begin(with_heights());
+  cast(test::ground_with_wall(12, 4, 2.0));
+  arrive(random);
+  std::size_t late = kShape.cell(10, 100);
+  while (!image_.has_return(late)) ++late;
+  frame::MeasuredReturns& turn = next_turn();
+  for (int column = 0; column < kShape.columns; column += kTile) {
+    add_tile(turn, column, late);
+    segmenter_->advance(turn, column + kTile, {}, nullptr);
+    take_labels();
+    if (column == 30 * kTile) add_tile(turn, 96, late, true);
+  }
+  segmenter_->end_turn(turn, {}, nullptr);
+  segmenter_->close({}, nullptr);
+  take_labels();
+  EXPECT_EQ(reports_.back().late, 1U);
+  EXPECT_EQ(std::ranges::count_if(heights_m_, [](float h) { return !std::isfinite(h); }), 0);
+}
+
 TEST_F(StreamSegmenterOnTurns, KeepTheirCoarseLabelsWhereTheBudgetHasExpired) {
   std::mt19937 random(13);
   begin();
@@ -339,7 +407,7 @@ TEST_F(StreamSegmenterOnTurns, KeepTheirCoarseLabelsWhereTheBudgetHasExpired) {
 TEST_F(StreamSegmenterOnTurns, AllocateNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer brings its own allocator";
   std::mt19937 random(14);
-  begin();
+  begin(with_heights());
   cast(rough_ground(random));
   arrive(random);
   frame::MeasuredReturns& turn = next_turn();

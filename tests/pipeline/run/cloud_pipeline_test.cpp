@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -20,10 +21,12 @@ using frame::Label;
 
 class CloudPipelineTest : public testing::Test {
  protected:
-  std::unique_ptr<CloudPipeline> pipeline() const {
+  std::unique_ptr<CloudPipeline> pipeline(bool heights = false) const {
+    ground::SegmenterConfig method = ground::terracut_profile();
+    method.gives_heights = heights;
     return std::make_unique<CloudPipeline>(
         rows_, scan::ring_profile(rows_.rings.table, mount::Mount{.height_m = 1.73}),
-        ground::maker_of(ground::terracut_profile()));
+        ground::maker_of(method));
   }
 
   std::vector<scan::ScanPoint> cloud_ = synthetic::scan(synthetic::table());
@@ -57,6 +60,23 @@ TEST_F(CloudPipelineTest, APointThatIsNoReturnHasNoLabelAndIsNotCounted) {
   EXPECT_EQ(way->placed().no_place, 1U);
   EXPECT_EQ(record.info.returns, points - 1);
   EXPECT_EQ(record.segmentation.labelled(), points - 1);
+}
+
+TEST_F(CloudPipelineTest, EveryPointThatIsAReturnHasAHeightWhereHeightsAreAskedFor) {
+  cloud_[7].x_m = std::numeric_limits<float>::quiet_NaN();
+  status::FrameRecord record;
+  const auto without = pipeline();
+  ASSERT_TRUE(without->label({cloud_}, record));
+  EXPECT_TRUE(without->point_heights_m().empty());
+  const auto way = pipeline(true);
+  ASSERT_TRUE(way->label({cloud_}, record));
+  EXPECT_EQ(way->point_labels(), without->point_labels());
+  const std::vector<float>& heights_m = way->point_heights_m();
+  ASSERT_EQ(heights_m.size(), cloud_.size());
+  EXPECT_TRUE(std::isnan(heights_m[7]));
+  EXPECT_EQ(std::ranges::count_if(heights_m, [](float h) { return std::isnan(h); }), 1);
+  EXPECT_EQ(way->heights_m().size(), way->labels().size());
+  EXPECT_EQ(heights_m[9], way->heights_m()[8]) << "the return after the point that is none";
 }
 
 TEST_F(CloudPipelineTest, LabelsAndTruthOfReturnsAreThoseOfTheirPoints) {

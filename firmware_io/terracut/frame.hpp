@@ -49,6 +49,9 @@ struct Frame {
   std::span<const Label> labels;  ///< Empty if the frame was not labelled.
   /// Time of each return since the first packet; empty except from a LiveRun.
   std::span<const float> time_s = {};
+  /// Height of each return above the ground found below it, which need not be level; finite. Empty
+  /// unless asked for (Config::heights).
+  std::span<const float> height_above_ground_m = {};
 };
 
 /// Some four degrees of a revolution, labelled while the sensor turns on: the returns of successive
@@ -61,6 +64,7 @@ struct Sector {
   std::int64_t labelled_ns = 0;      ///< When its labels were known.
   std::span<const Point> points;
   std::span<const Label> labels;
+  std::span<const float> height_above_ground_m = {};  ///< As in Frame.
 };
 
 }  // namespace terracut

@@ -33,6 +33,7 @@ Expected<streams::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Co
 live::LiveConfig live_config_of(const LiveRun::Config& config, int columns) {
   live::LiveConfig of_run;
   of_run.decoder.columns = columns;
+  of_run.method.gives_heights = config.heights;
   of_run.thread.deadline_ns = static_cast<std::int64_t>(config.deadline_ms * 1e6);
   of_run.thread.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
   of_run.thread.keeps_points = true;
@@ -84,7 +85,8 @@ struct LiveRun::Engine {
                   .packets_lost = taken.record.info.losses.network_gap_packets,
                   .points = std::span<const Point>(points).first(taken.items.size()),
                   .labels = std::span<const Label>(labels).first(taken.items.size()),
-                  .time_s = std::span<const float>(times_s).first(taken.items.size())};
+                  .time_s = std::span<const float>(times_s).first(taken.items.size()),
+                  .height_above_ground_m = taken.heights_m};
       on_frame(frame);
       slots.give_back(true);
       ++figures.frames;
@@ -101,7 +103,8 @@ struct LiveRun::Engine {
                  .last_packet_ns = taken.record.last_packet_ns,
                  .labelled_ns = taken.record.labels_ns,
                  .points = std::span<const Point>(points).first(taken.items.size()),
-                 .labels = std::span<const Label>(labels).first(taken.items.size())});
+                 .labels = std::span<const Label>(labels).first(taken.items.size()),
+                 .height_above_ground_m = taken.heights_m});
       slots.give_back(true);
       ++figures.sectors;
     }

@@ -12,7 +12,7 @@ Status write_labels(const std::filesystem::path& file, std::span<const Label> la
 }
 
 Status write_pcd(const std::filesystem::path& file, const Frame& frame) {
-  return output::write_pcd(file, frame.points, frame.labels);
+  return output::write_pcd(file, frame.points, frame.labels, frame.height_above_ground_m);
 }
 
 }  // namespace terracut

@@ -13,12 +13,22 @@
 
 namespace terracut {
 
+namespace {
+
+ground::SegmenterConfig method_of(const PacketPipeline::Config& config) noexcept {
+  ground::SegmenterConfig method = config_of(config.profile);
+  method.gives_heights = config.heights;
+  return method;
+}
+
+}  // namespace
+
 struct PacketPipeline::Engine {
   Engine(const Calibration& calibration, const Config& config,
          const decode::Decoder::Config& decoder)
       : pipeline(calibration.table().unit,
                  calib::ring_profile(calibration.table().unit, mount_of(config.mount)), decoder,
-                 ground::turn_maker_of(config_of(config.profile)), memory,
+                 ground::turn_maker_of(method_of(config)), memory,
                  run::PacketPipeline::Makes::kPoints),
         room(pipeline.decoder().return_capacity()) {}
 
@@ -56,6 +66,7 @@ const Frame* PacketPipeline::next() noexcept {
   if (frame == nullptr) return nullptr;
   engine_->frame = public_frame(frame->record.info, *frame->image, engine_->room);
   engine_->frame.labels = engine_->pipeline.labels();
+  engine_->frame.height_above_ground_m = engine_->pipeline.heights_m();
   return &engine_->frame;
 }
 

@@ -39,6 +39,7 @@ Status check(const Mount& mount) {
 
 Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {
   ground::SegmenterConfig method = config_of(config.profile);
+  method.gives_heights = config.heights;
   for (const std::string& setting : config.parameters) {
     if (const Status set = ground::apply_setting(method, setting); !set) {
       return tl::unexpected(set.error());
@@ -175,6 +176,11 @@ Expected<std::span<const Label>> Segmenter::label(const Cloud& cloud) {
                                                    cloud.points.size(), cloud.rows));
   }
   return engine_->label({cloud.points, cloud.laser, cloud.rows});
+}
+
+std::span<const float> Segmenter::height_above_ground_m() const noexcept {
+  if (!engine_->pipeline) return {};
+  return engine_->pipeline->point_heights_m();
 }
 
 std::optional<FoundMount> Segmenter::found_mount() const noexcept {

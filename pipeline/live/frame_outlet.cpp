@@ -51,7 +51,7 @@ void FrameOutlet::work() {
 void FrameOutlet::hand_out_sectors() {
   if (sectors_ == nullptr) return;
   for (SectorPool::Frame sector; sectors_->take(sector);) {
-    const bool served = !stream_ || !stream_->serves_sectors || stream(sector.record, sector.items);
+    const bool served = !stream_ || !stream_->serves_sectors || stream(sector);
     sectors_->give_back(served && publish(sector));
   }
 }
@@ -62,23 +62,26 @@ bool FrameOutlet::publish(const SectorPool::Frame& sector) {
            const auto shared = std::make_shared<publish::LabelledSector>();
            shared->record = sector.record;
            shared->points.assign(sector.items.begin(), sector.items.end());
+           shared->heights_m.assign(sector.heights_m.begin(), sector.heights_m.end());
            publisher_.put_sector(shared);
            return {};
          })
       .has_value();
 }
 
-bool FrameOutlet::stream(const status::FrameRecord& record,
-                         std::span<const points::LabelledPoint> points) {
+bool FrameOutlet::stream(const Slots::Frame& frame) {
+  const status::FrameRecord& record = frame.record;
   const bool late = record.labels_ns - record.info.last_packet_ns > stream_->deadline_ns;
-  return stream({stream::header_of(record, stream_->sensor, late, points.size()), points},
+  return stream({stream::header_of(record, stream_->sensor, late, frame.items.size()), frame.items,
+                 frame.heights_m},
                 while_closed_);
 }
 
-bool FrameOutlet::stream(const points::SectorRecord& record,
-                         std::span<const points::LabelledPoint> points) {
+bool FrameOutlet::stream(const SectorPool::Frame& sector) {
+  const points::SectorRecord& record = sector.record;
   const bool late = record.labels_ns - record.first_packet_ns > stream_->deadline_ns;
-  return stream({stream::header_of(record, stream_->sensor, late, points.size()), points},
+  return stream({stream::header_of(record, stream_->sensor, late, sector.items.size()),
+                 sector.items, sector.heights_m},
                 sectors_while_closed_);
 }
 
@@ -93,12 +96,13 @@ bool FrameOutlet::stream(const stream::LabelledFrame& frame,
 }
 
 bool FrameOutlet::hand_out(const Slots::Frame& frame) {
-  const bool served = !stream_ || stream(frame.record, frame.items);
+  const bool served = !stream_ || stream(frame);
   if (!publisher_.has_sinks()) return served;
   const Status published = rt::caught([&]() -> Status {
     const auto shared = publisher_.buffer();
     shared->record = frame.record;
     shared->points.assign(frame.items.begin(), frame.items.end());
+    shared->heights_m.assign(frame.heights_m.begin(), frame.heights_m.end());
     publisher_.put(shared);
     return {};
   });

@@ -63,10 +63,8 @@ class FrameOutlet {
   /// Hands out the sectors that came.
   void hand_out_sectors();
   [[nodiscard]] bool publish(const SectorPool::Frame& sector);
-  [[nodiscard]] bool stream(const status::FrameRecord& record,
-                            std::span<const points::LabelledPoint> points);
-  [[nodiscard]] bool stream(const points::SectorRecord& record,
-                            std::span<const points::LabelledPoint> points);
+  [[nodiscard]] bool stream(const Slots::Frame& frame);
+  [[nodiscard]] bool stream(const SectorPool::Frame& sector);
   /// If the stream's address is in use, counts the frame in `while_closed`.
   [[nodiscard]] bool stream(const stream::LabelledFrame& frame,
                             std::atomic<std::uint64_t>& while_closed);

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -29,23 +30,29 @@ class FramePool {
   struct Frame {
     Record record;  ///< Complete except for what happens after labelling.
     std::span<const T> items;
+    std::span<const float> heights_m;  ///< One per item, above the ground; empty if not passed on.
   };
+  /// Whether returns come with their heights above the ground.
+  enum class Heights : std::uint8_t { kLeftOut, kKept };
 
   /// Takes room for `slots` frames of at most `capacity` returns.
   FramePool(std::string_view name, std::size_t slots, std::size_t capacity,
-            memory::FixedMemory& memory)
+            memory::FixedMemory& memory, Heights heights = Heights::kLeftOut)
       : full_(name, slots, memory), free_(name, slots, memory) {
     slots_ = memory.take<Slot>(name, slots);
     for (std::uint32_t i = 0; i < slots; ++i) {
       slots_[i].room = memory.take<T>(name, capacity);
+      if (heights == Heights::kKept) slots_[i].height_room = memory.take<float>(name, capacity);
       (void)free_.try_push(i);
     }
   }
 
   /// To be called on the labelling thread: passes a frame on. `fill(std::span<T>)` writes the
-  /// `returns` items of the frame. Real-time safe if `fill` is.
+  /// `returns` items of the frame. `heights_m` are copied if they are kept. Real-time safe if
+  /// `fill` is.
   template <class Fill>
-  void pass_on(const Record& record, std::size_t returns, Fill&& fill) noexcept {
+  void pass_on(const Record& record, std::size_t returns, Fill&& fill,
+               std::span<const float> heights_m = {}) noexcept {
     std::uint32_t i = 0;
     if (!free_.try_pop(i)) {
       unused_.fetch_add(1, std::memory_order_relaxed);
@@ -56,6 +63,8 @@ class FramePool {
     slot.record = record;
     slot.returns = returns;
     fill(slot.room.first(returns));
+    slot.heights = std::min(heights_m.size(), slot.height_room.size());
+    std::copy_n(heights_m.begin(), slot.heights, slot.height_room.begin());
     (void)full_.try_push(i);  // never fails: the queue has room for all slots
   }
 
@@ -63,7 +72,7 @@ class FramePool {
   [[nodiscard]] bool take(Frame& frame) noexcept {
     if (!full_.try_pop(taken_)) return false;
     const Slot& slot = slots_[taken_];
-    frame = {slot.record, slot.room.first(slot.returns)};
+    frame = {slot.record, slot.room.first(slot.returns), slot.height_room.first(slot.heights)};
     return true;
   }
   /// Gives the taken frame's slot back. `used` is true if the frame reached its destination.
@@ -85,6 +94,8 @@ class FramePool {
     Record record;
     std::size_t returns = 0;
     std::span<T> room;
+    std::size_t heights = 0;
+    std::span<float> height_room;
   };
 
   queues::SpscQueue<std::uint32_t> full_, free_;

@@ -199,15 +199,17 @@ class LiveLabeller {
   void hand_on_sectors(const frame::MeasuredReturns& turn, std::size_t first_tile,
                        std::int64_t now_ns) noexcept {
     const std::span<const frame::Label> labels = turns_.labels();
+    const std::span<const float> heights_m = turns_.heights_m();
     for (std::size_t t = first_tile; t < noted_tiles_; ++t) {
       const frame::MeasuredReturns::Tile& tile = turn.tile(t);
       const std::uint32_t first = tile.first_return[0], returns = turn.end_of(t) - first;
       if (returns == 0) continue;
-      to_.sectors->pass_on({next_frame_, first, tile.first_ns, tile.last_ns, now_ns}, returns,
-                           [&](std::span<points::LabelledPoint> room) noexcept {
-                             points::pack_labelled_tile(turn, t, *to_.reader,
-                                                        labels.subspan(first, returns), room);
-                           });
+      to_.sectors->pass_on(
+          {next_frame_, first, tile.first_ns, tile.last_ns, now_ns}, returns,
+          [&](std::span<points::LabelledPoint> room) noexcept {
+            points::pack_labelled_tile(turn, t, *to_.reader, labels.subspan(first, returns), room);
+          },
+          heights_m.empty() ? heights_m : heights_m.subspan(first, returns));
     }
     to_.points_ready->wake();
   }
@@ -248,7 +250,8 @@ class LiveLabeller {
     if (to_.points != nullptr) {
       to_.points->pass_on(
           record, labels.size(),
-          [&](std::span<points::LabelledPoint> room) noexcept { pack(turn, labels, room); });
+          [&](std::span<points::LabelledPoint> room) noexcept { pack(turn, labels, room); },
+          turns_.heights_m());
       to_.points_ready->wake();
     }
     watch_near_ground(turn.info.number + 1);

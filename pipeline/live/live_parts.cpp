@@ -39,6 +39,7 @@ std::optional<recorder::FlightRecorder> recorder_of(const LiveConfig& config,
 LiveThread::Config thread_config(const LiveConfig& config, const streams::SensorOnAir& sensor) {
   constexpr double kSlowest_hz = 5;  // assumed if the sensor has not reported its spin rate
   LiveThread::Config of_thread = config.thread;
+  of_thread.keeps_heights = config.method.gives_heights;
   of_thread.frame_period_ns =
       static_cast<std::int64_t>(1e9 / std::max(sensor.spin_hz, kSlowest_hz));
   return of_thread;

@@ -39,7 +39,7 @@ struct LiveConfig {
   decode::Decoder::Config decoder;  ///< LiveParts sets `reorder_packets`, `motion` and `buffers`.
   int reorder_packets = 0;          ///< 0, because one cable keeps packets in order.
   ground::SegmenterConfig method = ground::terracut_profile();
-  LiveThread::Config thread;    ///< LiveParts sets `frame_period_ns`.
+  LiveThread::Config thread;    ///< LiveParts sets `frame_period_ns` and `keeps_heights`.
   double recorder_seconds = 0;  ///< How long packets are kept for dumps; 0: not kept.
   std::optional<VehicleConfig> vehicle;
 };

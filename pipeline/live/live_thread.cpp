@@ -35,13 +35,19 @@ LiveThread::LiveThread(const Config& config, run::LabelledTurns& turns, net::Liv
       near_ground_(memory) {
   const std::size_t capacity = turns.decoder().return_capacity();
   if (config.keeps_labels) labels_.emplace("label slots", kLabelSlots, capacity, memory);
-  if (config.keeps_points) points_.emplace("point slots", kPointSlots, capacity, memory);
+  if (config.keeps_points) {
+    points_.emplace("point slots", kPointSlots, capacity, memory,
+                    config.keeps_heights ? FramePool<points::LabelledPoint>::Heights::kKept
+                                         : FramePool<points::LabelledPoint>::Heights::kLeftOut);
+  }
   if (!config.keeps_points && !config.keeps_sectors) return;
   reader_ = turns.decoder().make_reader(memory);
   if (!config.keeps_sectors) return;
   // A turn that follows no other one is labelled at once, so there is room for a whole one.
   const std::size_t returns_of_tile = reader_->rows().size() * frame::kTileFirings;
-  sectors_.emplace("sector slots", capacity / returns_of_tile, returns_of_tile, memory);
+  sectors_.emplace(
+      "sector slots", capacity / returns_of_tile, returns_of_tile, memory,
+      config.keeps_heights ? SectorPool::Heights::kKept : SectorPool::Heights::kLeftOut);
 }
 
 std::vector<threads::Grant> LiveThread::start() {

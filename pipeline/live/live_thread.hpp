@@ -46,6 +46,7 @@ class LiveThread {
     bool keeps_labels = false;                      ///< Provides labels().
     bool keeps_points = false;                      ///< Provides points().
     bool keeps_sectors = false;                     ///< Provides sectors().
+    bool keeps_heights = false;                     ///< Points come with their heights.
     bool compares_tables = false;                   ///< Provides told_table().
     threads::ThreadRequest thread;
   };

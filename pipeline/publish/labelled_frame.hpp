@@ -17,6 +17,8 @@ namespace terracut::publish {
 struct LabelledFrame {
   status::FrameRecord record;                 ///< Complete except for what happens after labelling.
   std::vector<points::LabelledPoint> points;  ///< Returns of the frame in order of arrival.
+  /// Height of each return above the ground, metres; empty unless asked for.
+  std::vector<float> heights_m;
   /// Objects, and the number of each return's object (0: none; object i has the number i + 1);
   /// empty unless asked for.
   std::vector<objects::Object> objects;
@@ -28,6 +30,7 @@ struct LabelledFrame {
 struct LabelledSector {
   points::SectorRecord record;
   std::vector<points::LabelledPoint> points;  ///< Returns of the sector in order of arrival.
+  std::vector<float> heights_m;               ///< As in LabelledFrame.
 };
 
 /// A frame or a sector that all outputs share and nobody changes.

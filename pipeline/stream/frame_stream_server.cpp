@@ -13,6 +13,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "pipeline/stream/send_buffer.hpp"
@@ -41,7 +42,22 @@ void set_tcp_options(int socket) noexcept {
 }
 
 [[nodiscard]] std::size_t bytes_of(const FrameWireHeader& header) noexcept {
-  return sizeof(FrameWireHeader) + header.points * sizeof(WirePoint);
+  return sizeof(FrameWireHeader) + std::size_t{header.points} * header.point_bytes;
+}
+
+/// Writes points as they are sent, each with its height if a point has room for one; NaN where
+/// there is no height.
+void write_points(const LabelledFrame& message, std::size_t point_bytes,
+                  std::span<std::byte> room) noexcept {
+  std::byte* to = room.data();
+  for (std::size_t i = 0; i < message.points.size(); ++i, to += point_bytes) {
+    const WirePoint point = wire_point(message.points[i]);
+    std::memcpy(to, &point, sizeof point);
+    if (point_bytes == sizeof point) continue;
+    const float height_m = i < message.heights_m.size() ? message.heights_m[i]
+                                                        : std::numeric_limits<float>::quiet_NaN();
+    std::memcpy(to + sizeof point, &height_m, sizeof height_m);
+  }
 }
 
 Status check(const FrameStreamConfig& config) {
@@ -82,17 +98,18 @@ Expected<FrameStreamServer> FrameStreamServer::open(const FrameStreamConfig& con
 FrameStreamServer::FrameStreamServer(const FrameStreamConfig& config, ListeningSocket listener,
                                      files::OwnedDescriptor events, memory::FixedMemory& memory)
     : config_(config),
+      point_bytes_(config.has_heights ? kPointBytesWithHeight : sizeof(WirePoint)),
       listener_(std::move(listener)),
       events_(std::move(events)),
       peers_(config.max_peers),
       slots_(memory.take<Slot>("stream of frames", config.max_peers)) {
   for (Slot& slot : slots_) {
-    slot = {memory.take<WirePoint>("stream of frames", config.max_points), 0};
+    slot = {memory.take<std::byte>("stream of frames", config.max_points * point_bytes_), 0};
   }
   const bool is_unix = config.address.is_unix();
   const std::size_t wanted = config.send_buffer_bytes > 0
                                  ? config.send_buffer_bytes
-                                 : sizeof(FrameWireHeader) + config.max_points * sizeof(WirePoint);
+                                 : sizeof(FrameWireHeader) + config.max_points * point_bytes_;
   const files::OwnedDescriptor trial(
       ::socket(is_unix ? AF_UNIX : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   send_buffer_ = send_buffer_grant(wanted, request_send_buffer(trial.get(), wanted));
@@ -125,8 +142,7 @@ void FrameStreamServer::hand_out(const LabelledFrame& message, bool by_sectors) 
     }
     if (slot == kNoSlot) {
       slot = free_slot();
-      std::transform(message.points.begin(), message.points.end(), slots_[slot].room.begin(),
-                     wire_point);
+      write_points(message, point_bytes_, slots_[slot].room);
       ++slots_[slot].holders;  // held here until all readers have been served
     }
     begin(peer, slot, message.header);
@@ -248,6 +264,7 @@ std::size_t FrameStreamServer::free_slot() const noexcept {
 void FrameStreamServer::begin(Peer& peer, std::size_t slot,
                               const FrameWireHeader& header) noexcept {
   peer.header = header;
+  peer.header.point_bytes = static_cast<std::uint16_t>(point_bytes_);
   peer.header.missed = static_cast<std::uint32_t>(peer.figures.missed);
   peer.slot = slot;
   ++slots_[slot].holders;
@@ -265,7 +282,7 @@ void FrameStreamServer::give(Peer& peer) noexcept {
   while (peer.given_bytes < all_bytes) {
     const std::span header = std::as_writable_bytes(std::span(&peer.header, 1));
     const std::span points =
-        std::as_writable_bytes(slots_[peer.slot].room.first(peer.header.points));
+        slots_[peer.slot].room.first(peer.header.points * std::size_t{peer.header.point_bytes});
     const std::size_t of_header = std::min(peer.given_bytes, header.size());
     const std::size_t of_points = peer.given_bytes - of_header;
     std::array<::iovec, 2> parts{{{header.data() + of_header, header.size() - of_header},

@@ -29,12 +29,14 @@ struct FrameStreamConfig {
   std::int64_t stall_limit_ns = 30'000'000'000;
   std::size_t send_buffer_bytes = 0;  ///< The kernel's buffer per reader; 0: enough for a frame.
   bool serves_sectors = false;        ///< Readers that ask for sectors get them.
+  bool has_heights = false;           ///< Points come with their heights above the ground.
 };
 
 /// A frame, or a sector of one, to be sent to the stream's readers.
 struct LabelledFrame {
   FrameWireHeader header;  ///< From header_of().
   std::span<const points::LabelledPoint> points{};
+  std::span<const float> heights_m{};  ///< One per point; sent with FrameStreamConfig::has_heights.
 };
 
 /// Counts since the start. A message is a frame or, for readers by sectors, a sector or the header
@@ -118,7 +120,7 @@ class FrameStreamServer {
   static constexpr std::size_t kNoSlot = static_cast<std::size_t>(-1);
 
   struct Slot {
-    std::span<WirePoint> room;
+    std::span<std::byte> room;
     std::size_t holders = 0;
   };
   struct Peer {
@@ -154,6 +156,7 @@ class FrameStreamServer {
   [[nodiscard]] std::size_t backlog(const Peer& peer) const noexcept;
 
   FrameStreamConfig config_;
+  std::size_t point_bytes_;
   ListeningSocket listener_;
   files::OwnedDescriptor events_;      ///< epoll
   std::size_t send_buffer_bytes_ = 0;  ///< 0: chosen by TCP.

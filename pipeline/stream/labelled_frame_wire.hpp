@@ -45,6 +45,10 @@ static_assert(offsetof(WirePoint, intensity) == 12 && offsetof(WirePoint, label)
           point.time_s};
 }
 
+/// How many bytes a point has if it comes with its height above the ground: WirePoint, then a
+/// float.
+inline constexpr std::uint16_t kPointBytesWithHeight = sizeof(WirePoint) + sizeof(float);
+
 /// Bits of FrameWireHeader::flags. Readers ignore bits they do not know.
 inline constexpr std::uint32_t kFrameComplete = 1U << 0;  ///< Every firing was seen, seam to seam.
 inline constexpr std::uint32_t kFrameLate = 1U << 1;      ///< Labelled after its deadline.

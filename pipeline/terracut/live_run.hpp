@@ -43,6 +43,7 @@ class LiveRun {
     int priority = 80;  ///< SCHED_FIFO priority, [1, 99]; 0: shared scheduling.
     bool lock_memory = true;
     std::optional<double> patience_s;  ///< Time to wait for the sensor; empty: no limit.
+    bool heights = false;              ///< Frames and sectors come with height_above_ground_m.
     /// If set, run() also calls this for each sector, before on_frame for its frame. A sector is
     /// valid during the call.
     OnSector on_sector;

@@ -15,8 +15,9 @@ namespace terracut {
 [[nodiscard]] Status write_labels(const std::filesystem::path& file, std::span<const Label> labels);
 
 /// Writes a binary PCD of x, y, z, intensity, ring and label (classes as above), one point per
-/// return. The file appears whole or not at all. Fails with kWriteFailed, or kInvalidArgument if
-/// there are not as many labels as points.
+/// return, and of height_above_ground if the frame has it. The file appears whole or not at all.
+/// Fails with kWriteFailed, or kInvalidArgument if there are not as many labels, or heights, as
+/// points.
 [[nodiscard]] Status write_pcd(const std::filesystem::path& file, const Frame& frame);
 
 }  // namespace terracut

@@ -24,6 +24,7 @@ class PacketPipeline {
     Mount mount;
     Profile profile = Profile::kTerracut;
     int reorder_packets = 2;  ///< See Decoder::Config::reorder_packets.
+    bool heights = false;     ///< Frames come with height_above_ground_m.
   };
 
   /// Fails with kInvalidArgument for a setting out of range, kCapacityExceeded without memory.

@@ -90,6 +90,7 @@ class Segmenter {
     /// Parameters of the method that differ from the profile's, "KEY=VALUE";
     /// docs/reference/parameters.md lists them.
     std::vector<std::string> parameters = {};
+    bool heights = false;  ///< Provides height_above_ground_m().
   };
 
   /// Fails with kInvalidArgument if the mount or a parameter is out of range or unknown.
@@ -111,6 +112,11 @@ class Segmenter {
   /// Labels points in a driver's memory. Also fails with kMalformed if x, y or z is missing or
   /// there is less data than the sizes state.
   [[nodiscard]] Expected<std::span<const Label>> label(const PointBuffer& buffer);
+
+  /// Returns the height of each point labelled last above the ground found below it, metres, in the
+  /// cloud's order; NaN for points that are no return and for those of a laser that the first cloud
+  /// did not have. Valid until the next label(); empty without Config::heights.
+  [[nodiscard]] std::span<const float> height_above_ground_m() const noexcept;
 
   /// Returns the mount used for the last labels, if it was found; empty without Config::find_mount.
   [[nodiscard]] std::optional<FoundMount> found_mount() const noexcept;

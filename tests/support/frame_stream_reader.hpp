@@ -22,6 +22,7 @@ namespace terracut::test {
 struct ReceivedFrame {
   stream::FrameWireHeader header;
   std::vector<stream::WirePoint> points;
+  std::vector<float> heights_m;  ///< Of points that have one.
 };
 
 /// The other end of a FrameStreamServer, as a C++ program downstream may have it: senders with
@@ -64,10 +65,14 @@ class FrameStreamReader {
     const auto got = fill(rest_, patience_ms);
     if (!got) return tl::unexpected(got.error());
     if (*got < rest_.size()) return fail(ErrorCode::kMalformed, "the stream ended within a frame");
+    const bool has_heights = header.point_bytes >= stream::kPointBytesWithHeight;
     frame.points.resize(header.points);
+    frame.heights_m.resize(has_heights ? header.points : 0);
     for (std::size_t n = 0; n < frame.points.size(); ++n) {
-      std::memcpy(&frame.points[n], rest_.data() + more_header + n * header.point_bytes,
-                  sizeof(stream::WirePoint));
+      const std::byte* const at = rest_.data() + more_header + n * header.point_bytes;
+      std::memcpy(&frame.points[n], at, sizeof(stream::WirePoint));
+      if (!has_heights) continue;
+      std::memcpy(&frame.heights_m[n], at + sizeof(stream::WirePoint), sizeof(float));
     }
     return true;
   }

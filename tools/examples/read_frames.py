@@ -5,7 +5,7 @@
 
 Prints a line a frame; with --pcd also writes each as a binary PCD file. With --sectors, of a run with --stream-sectors, frames come in
 parts of some four degrees, each as soon as it is labelled. Needs nothing but Python 3.8: copy decode_header() and receive_frames() into a program of your own. With numpy, the points are
-numpy.frombuffer(points, POINT_DTYPE).
+numpy.frombuffer(points, POINT_DTYPE); of a run with --heights, POINT_DTYPE + HEIGHT_DTYPE.
 """
 import argparse
 import os
@@ -17,6 +17,8 @@ HEADER = struct.Struct("<4sHHIIqqqHBBIII")
 POINT = struct.Struct("<fffBBHf")
 POINT_DTYPE = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"),
                ("intensity", "u1"), ("label", "u1"), ("row", "<u2"), ("time", "<f4")]
+HEIGHT = struct.Struct("<f")
+HEIGHT_DTYPE = [("height_above_ground", "<f4")]
 HEADER_FIELDS = ("magic", "version", "header_bytes", "number", "points", "first_packet_ns",
                  "last_packet_ns", "labels_ns", "point_bytes", "sensor", "level", "flags",
                  "missed", "first_return")
@@ -74,8 +76,14 @@ def decode_header(data):
     return header
 
 
+def point_size(header):
+    """Returns how many bytes a point of receive_frames() has: a height follows it where the sender has heights."""
+    with_height = POINT.size + HEIGHT.size
+    return with_height if header["point_bytes"] >= with_height else POINT.size
+
+
 def receive_frames(connection):
-    """Yields (header, points): points as bytes, POINT.size a point, until the sender ends."""
+    """Yields (header, points): points as bytes, point_size(header) a point, until the sender ends."""
     while True:
         preamble = receive(connection, 8)
         if not preamble:
@@ -91,15 +99,16 @@ def receive_frames(connection):
         header = decode_header(preamble + receive_all(connection, header_bytes - 8))
         stride = header["point_bytes"]
         points = receive_all(connection, header["points"] * stride)
-        if stride > POINT.size:  # fields that a newer sender has added are skipped
-            points = b"".join(points[n:n + POINT.size] for n in range(0, len(points), stride))
+        size = point_size(header)
+        if stride > size:  # fields that a newer sender has added are skipped
+            points = b"".join(points[n:n + size] for n in range(0, len(points), stride))
         yield header, points
 
 
 def describe(header, points):
     """Returns a frame, or a sector, as one line for people."""
     is_sector = header["flags"] & SECTOR
-    labels = points[13::POINT.size]
+    labels = points[13::point_size(header)]
     obstacles = labels.count(OBSTACLE)
     ground = labels.count(GROUND) + labels.count(OTHER_GROUND)
     which = "frame %d" % header["number"]
@@ -123,13 +132,15 @@ def describe(header, points):
     return line
 
 
-def write_pcd(path, points):
-    """Writes binary PCD v0.7 with the fields x y z intensity label ring time; whole or not at all."""
-    count = len(points) // POINT.size
+def write_pcd(path, points, size=POINT.size):
+    """Writes binary PCD v0.7 with the fields x y z intensity label ring time, and height_above_ground where points of
+    `size` bytes have it; whole or not at all."""
+    count = len(points) // size
+    height = (" height_above_ground", " 4", " F", " 1") if size > POINT.size else ("",) * 4
     header = ("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
-              "FIELDS x y z intensity label ring time\nSIZE 4 4 4 1 1 2 4\nTYPE F F F U U U F\n"
-              "COUNT 1 1 1 1 1 1 1\nWIDTH %d\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n"
-              "POINTS %d\nDATA binary\n" % (count, count))
+              "FIELDS x y z intensity label ring time%s\nSIZE 4 4 4 1 1 2 4%s\nTYPE F F F U U U F%s\n"
+              "COUNT 1 1 1 1 1 1 1%s\nWIDTH %d\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n"
+              "POINTS %d\nDATA binary\n" % (*height, count, count))
     with open(path + ".part", "wb") as file:
         file.write(header.encode("ascii"))
         file.write(points)
@@ -154,7 +165,7 @@ def main():
                     name = "%06d" % header["number"]
                     if header["flags"] & SECTOR:
                         name += "-%06d" % header["first_return"]
-                    write_pcd(os.path.join(arguments.pcd, name + ".pcd"), points)
+                    write_pcd(os.path.join(arguments.pcd, name + ".pcd"), points, point_size(header))
                 if frames == arguments.count:
                     break
     except (OSError, ValueError, StreamError) as error:

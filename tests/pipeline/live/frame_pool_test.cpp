@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <thread>
 
@@ -43,6 +44,24 @@ TEST(FramePoolTest, BringFramesInOrderWithTheirItems) {
   EXPECT_FALSE(slots.take(frame));
   EXPECT_EQ(slots.unused(), 0U);
   EXPECT_EQ(slots.waiting(), 0U);
+}
+
+TEST(FramePoolTest, BringHeightsWhereTheyAreKept) {
+  memory::FixedMemory memory;
+  const std::array heights_m{1.0F, 2.0F, 3.0F};
+  for (const Slots::Heights heights : {Slots::Heights::kKept, Slots::Heights::kLeftOut}) {
+    Slots slots("slots", 1, 10, memory, heights);
+    Slots::Frame frame;
+    slots.pass_on(
+        {}, 3, [](std::span<int> room) noexcept { std::ranges::fill(room, 7); }, heights_m);
+    ASSERT_TRUE(slots.take(frame));
+    EXPECT_EQ(frame.items.size(), 3U);
+    EXPECT_EQ(std::ranges::equal(frame.heights_m, heights_m), heights == Slots::Heights::kKept);
+    slots.give_back(true);
+    pass_on(slots, 2);
+    ASSERT_TRUE(slots.take(frame));
+    EXPECT_TRUE(frame.heights_m.empty());
+  }
 }
 
 TEST(FramePoolTest, CountWhatFoundNoRoomAndKeepWhatHadRoom) {

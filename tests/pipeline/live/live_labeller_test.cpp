@@ -101,6 +101,12 @@ class MadeSource {
   net::ReceiveCounters counters_;
 };
 
+ground::SegmenterConfig method_with_heights() {
+  ground::SegmenterConfig method = ground::terracut_profile();
+  method.gives_heights = true;
+  return method;
+}
+
 class LiveFrames : public testing::Test {
  protected:
   using Labeller = LiveLabeller<MadeSource, HeldClock, HeldWait>;
@@ -190,7 +196,7 @@ class LiveFrames : public testing::Test {
     return config;
   }
   run::LabelledTurns turns_{calibration_, profile_, decoder_config(),
-                            ground::turn_maker_of(ground::terracut_profile()), memory_};
+                            ground::turn_maker_of(method_with_heights()), memory_};
   std::vector<std::vector<Packet>> sent_;
   MadeSource source_{time_, turns_.decoder()};
   FrameRecords queue_{memory_};
@@ -439,11 +445,13 @@ TEST_F(LiveFrames, TheLastTurnIsLabelledInTimeWherePacketsComeOnThatAreNotDecode
 
 TEST_F(LiveFrames, SectorsPutTogetherAreTheFrameThatFollowsThem) {
   using Points = FramePool<points::LabelledPoint>;
-  Points whole_ones("points", 2, turns_.decoder().return_capacity(), memory_);
-  SectorPool sectors("sectors", 400, 64 * frame::kTileFirings, memory_);
+  Points whole_ones("points", 2, turns_.decoder().return_capacity(), memory_,
+                    Points::Heights::kKept);
+  SectorPool sectors("sectors", 400, 64 * frame::kTileFirings, memory_, SectorPool::Heights::kKept);
   begin(0, 10'000, &sectors, &whole_ones);
   send(drive(4));
   std::vector<std::vector<points::LabelledPoint>> of_frame(5);
+  std::vector<std::vector<float>> heights_of_frame(5);
   int before_its_last_packet = 0;
   const auto take_sectors = [&] {
     for (SectorPool::Frame sector; sectors.take(sector); sectors.give_back(true)) {
@@ -455,6 +463,8 @@ TEST_F(LiveFrames, SectorsPutTogetherAreTheFrameThatFollowsThem) {
       const std::int64_t end_ns = kStart_ns + (record.frame + 1) * kFramePeriod_ns;
       before_its_last_packet += record.labels_ns < end_ns ? 1 : 0;
       points.insert(points.end(), sector.items.begin(), sector.items.end());
+      std::vector<float>& heights_m = heights_of_frame.at(record.frame);
+      heights_m.insert(heights_m.end(), sector.heights_m.begin(), sector.heights_m.end());
     }
   };
   std::uint32_t frames = 0;
@@ -465,6 +475,8 @@ TEST_F(LiveFrames, SectorsPutTogetherAreTheFrameThatFollowsThem) {
       EXPECT_EQ(whole.record.info.number, frames);
       std::vector<points::LabelledPoint>& points = of_frame.at(frames);
       ASSERT_EQ(points.size(), whole.items.size());
+      ASSERT_EQ(whole.heights_m.size(), whole.items.size());
+      EXPECT_TRUE(std::ranges::equal(heights_of_frame.at(frames), whole.heights_m));
       for (std::size_t i = 0; i < points.size(); ++i) {
         points[i].time_s = whole.items[i].time_s;  // told with the frame alone
         ASSERT_EQ(points[i], whole.items[i]) << i;

@@ -72,6 +72,24 @@ TEST_P(FrameStream, HandsOverHeaderAndPointsAsTheyWereGiven) {
   EXPECT_EQ(frame.header.flags, kFrameComplete | kFrameLate | kFrameNoEgoMotion);
 }
 
+TEST_P(FrameStream, PointsComeWithTheirHeightsWhereTheStreamHasThem) {
+  open({.max_points = 1000, .has_heights = true});
+  FrameStreamReader only = reader();
+  const auto points = points_of_frame(7, 1000);
+  std::vector<float> heights_m(points.size());
+  for (std::size_t n = 0; n < heights_m.size(); ++n) heights_m[n] = 0.25F * static_cast<float>(n);
+  LabelledFrame given = frame_of(7, points);
+  given.heights_m = heights_m;
+  ASSERT_TRUE(server().serve(given));
+  ReceivedFrame frame;
+  ASSERT_TRUE(receive(only, frame).value_or(false));
+  EXPECT_EQ(frame.header.version, kFrameWireVersion);
+  EXPECT_EQ(frame.header.point_bytes, 24);
+  EXPECT_EQ(frame.points, on_wire(points));
+  EXPECT_EQ(frame.heights_m, heights_m);
+  EXPECT_EQ(figures().bytes, sizeof(FrameWireHeader) + 1000 * 24);
+}
+
 TEST_P(FrameStream, EveryReaderGetsTheWholeFrame) {
   open({.max_points = kManyPoints});
   std::vector<FrameStreamReader> readers;

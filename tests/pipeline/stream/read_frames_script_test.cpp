@@ -109,6 +109,27 @@ TEST_P(ReadFramesScript, WritesPcdFilesWithThePointsAsTheyWere) {
   EXPECT_EQ(content.substr(content.size() - bytes.size()), bytes);
 }
 
+TEST_P(ReadFramesScript, WritesTheHeightsOfPointsThatHaveThem) {
+  server_.reset();
+  open({.max_points = 1000, .has_heights = true});
+  auto script = run("--count 1 --pcd " + folder_.string());
+  ASSERT_TRUE(reader_came());
+  const auto points = points_of_frame(3, 1000);
+  const std::vector<float> heights_m(points.size(), 1.25F);
+  LabelledFrame given = frame_of(3, points);
+  given.heights_m = heights_m;
+  ASSERT_TRUE(server().serve(given));
+  const Outcome outcome = end_of(script);
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, testing::HasSubstr("1000 points  334 ground  666 obstacle"));
+  std::ifstream file(folder_ / "000003.pcd", std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(content,
+              testing::HasSubstr(" ring time height_above_ground\nSIZE 4 4 4 1 1 2 4 4\n"));
+  const std::string_view last(reinterpret_cast<const char*>(heights_m.data()), sizeof(float));
+  EXPECT_THAT(content, testing::EndsWith(std::string(last)));
+}
+
 TEST_P(ReadFramesScript, EndsWithoutComplaintWhenTheServerEnds) {
   auto script = run("");
   ASSERT_TRUE(reader_came());

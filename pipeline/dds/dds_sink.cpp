@@ -17,11 +17,15 @@ using ros_messages::CloudOf;
 using ros_messages::CloudPoint;
 
 /// Returns the fields as C structures. Their texts are not const, but nobody writes to them.
-std::vector<sensor_msgs_msg_dds__PointField_> cloud_fields(bool with_label) {
+std::vector<sensor_msgs_msg_dds__PointField_> cloud_fields(bool with_label, bool with_height) {
   std::vector<sensor_msgs_msg_dds__PointField_> fields;
   for (const ros_messages::CloudField& field : ros_messages::kCloudFields) {
     if (field.name == "label" && !with_label) continue;
     fields.push_back({const_cast<char*>(field.name.data()), field.offset, field.datatype, 1});
+  }
+  const ros_messages::CloudField& height = ros_messages::kHeightField;
+  if (with_height) {
+    fields.push_back({const_cast<char*>(height.name.data()), height.offset, height.datatype, 1});
   }
   return fields;
 }
@@ -30,11 +34,6 @@ std::vector<sensor_msgs_msg_dds__PointField_> cloud_fields(bool with_label) {
 float time_of_first_s_of(const publish::LabelledFrame& frame) noexcept {
   const std::int64_t stamp_ns = ros_messages::stamp_ns_of(frame.record);
   return static_cast<float>(frame.record.info.first_packet_ns - stamp_ns) * 1e-9F;
-}
-
-std::uint8_t* put_point(const CloudPoint& point, std::uint8_t* to) noexcept {
-  std::memcpy(to, &point, sizeof(point));
-  return to + sizeof(point);
 }
 
 }  // namespace
@@ -48,8 +47,9 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
   sink->frame_id_ = facts.frame_id;
   sink->sensor_frame_id_ = facts.sensor_frame_id.empty() ? facts.frame_id : facts.sensor_frame_id;
   sink->T_lidar_vehicle_ = mount::inverse(mount::T_vehicle_lidar(facts.mount));
-  sink->fields_ = cloud_fields(true);
-  sink->raw_fields_ = cloud_fields(false);
+  sink->fields_ = cloud_fields(true, false);
+  sink->fields_with_height_ = cloud_fields(true, true);
+  sink->raw_fields_ = cloud_fields(false, false);
   Writer diagnostics;
   struct Wanted {
     Writer& writer;
@@ -95,7 +95,7 @@ Status DdsSink::write_mount(const publish::RunFacts& facts) {
 Status DdsSink::put(const publish::LabelledFrame& frame) {
   await_readers();
   const auto put_cloud = [&](Writer& writer, CloudOf which) {
-    put_points(writer, frame.points, ros_messages::stamp_ns_of(frame.record),
+    put_points(writer, frame.points, frame.heights_m, ros_messages::stamp_ns_of(frame.record),
                time_of_first_s_of(frame), which);
   };
   // Obstacles are published first, because planners stop for them.
@@ -119,21 +119,20 @@ void DdsSink::await_readers() {
 }
 
 Status DdsSink::put_sector(const publish::LabelledSector& sector) {
-  put_points(sectors_, sector.points, sector.record.first_packet_ns, 0, CloudOf::kAll);
+  put_points(sectors_, sector.points, sector.heights_m, sector.record.first_packet_ns, 0,
+             CloudOf::kAll);
   return {};
 }
 
 void DdsSink::put_points(Writer& writer, std::span<const points::LabelledPoint> points,
-                         std::int64_t stamp_ns, float time_of_first_s, CloudOf which) {
+                         std::span<const float> heights_m, std::int64_t stamp_ns,
+                         float time_of_first_s, CloudOf which) {
   if (!writer || writer->readers() == 0) return;
-  bytes_.resize(points.size() * sizeof(CloudPoint));
-  std::uint8_t* to = bytes_.data();
-  for (const points::LabelledPoint& point : points) {
-    if (!ros_messages::belongs_to(which, point.label)) continue;
-    to = put_point(ros_messages::cloud_point(point, time_of_first_s), to);
-  }
-  bytes_.resize(static_cast<std::size_t>(to - bytes_.data()));
-  write(*writer, stamp_ns, frame_id_, fields_);
+  const std::size_t step = ros_messages::point_bytes(!heights_m.empty());
+  bytes_.resize(points.size() * step);
+  bytes_.resize(ros_messages::copy_points(which, points, heights_m, time_of_first_s,
+                                          std::as_writable_bytes(std::span(bytes_))));
+  write(*writer, stamp_ns, frame_id_, heights_m.empty() ? fields_ : fields_with_height_, step);
 }
 
 void DdsSink::put_raw(const publish::LabelledFrame& frame) {
@@ -148,21 +147,23 @@ void DdsSink::put_raw(const publish::LabelledFrame& frame) {
     raw.y_m = static_cast<float>(at_m[1]);
     raw.z_m = static_cast<float>(at_m[2]);
     raw.label = 0;
-    to = put_point(raw, to);
+    std::memcpy(to, &raw, sizeof(raw));
+    to += sizeof(raw);
   }
-  write(*raw_, ros_messages::stamp_ns_of(frame.record), sensor_frame_id_, raw_fields_);
+  write(*raw_, ros_messages::stamp_ns_of(frame.record), sensor_frame_id_, raw_fields_,
+        sizeof(CloudPoint));
 }
 
 void DdsSink::write(TopicWriter& writer, std::int64_t stamp_ns, std::string& frame_id,
-                    std::vector<sensor_msgs_msg_dds__PointField_>& fields) {
+                    std::vector<sensor_msgs_msg_dds__PointField_>& fields, std::size_t step) {
   const auto bytes = static_cast<std::uint32_t>(bytes_.size());
   sensor_msgs_msg_dds__PointCloud2_ cloud{};
   cloud.header = {ros_time(stamp_ns), frame_id.data()};
   cloud.height = 1;
-  cloud.width = bytes / sizeof(CloudPoint);
+  cloud.width = bytes / static_cast<std::uint32_t>(step);
   cloud.fields._buffer = fields.data();
   cloud.fields._length = cloud.fields._maximum = static_cast<std::uint32_t>(fields.size());
-  cloud.point_step = sizeof(CloudPoint);
+  cloud.point_step = static_cast<std::uint32_t>(step);
   cloud.row_step = bytes;
   cloud.data._buffer = bytes_.data();
   cloud.data._length = cloud.data._maximum = bytes;

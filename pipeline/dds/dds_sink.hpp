@@ -58,14 +58,15 @@ class DdsSink final : public publish::FrameSink {
   explicit DdsSink(Participant participant) noexcept : participant_(std::move(participant)) {}
   [[nodiscard]] Status write_mount(const publish::RunFacts& facts);
   void await_readers();
-  /// Publishes those of the points that belong to a cloud. `time_of_first_s` is added to their
-  /// times.
+  /// Publishes those of the points that belong to a cloud, with their heights if there are any.
+  /// `time_of_first_s` is added to their times.
   void put_points(Writer& writer, std::span<const points::LabelledPoint> points,
-                  std::int64_t stamp_ns, float time_of_first_s, ros_messages::CloudOf which);
+                  std::span<const float> heights_m, std::int64_t stamp_ns, float time_of_first_s,
+                  ros_messages::CloudOf which);
   void put_raw(const publish::LabelledFrame& frame);
-  /// Publishes the points that have been put into bytes_.
+  /// Publishes the points that have been put into bytes_, of `step` bytes each.
   void write(TopicWriter& writer, std::int64_t stamp_ns, std::string& frame_id,
-             std::vector<sensor_msgs_msg_dds__PointField_>& fields);
+             std::vector<sensor_msgs_msg_dds__PointField_>& fields, std::size_t step);
 
   Participant participant_;
   Config config_;
@@ -73,7 +74,7 @@ class DdsSink final : public publish::FrameSink {
   mount::RigidTransform T_lidar_vehicle_{};
   Writer points_, sectors_, ground_, obstacles_, road_, raw_, tf_static_;
   std::optional<DiagnosticsWriter> diagnostics_;
-  std::vector<sensor_msgs_msg_dds__PointField_> fields_, raw_fields_;
+  std::vector<sensor_msgs_msg_dds__PointField_> fields_, fields_with_height_, raw_fields_;
   std::vector<std::uint8_t> bytes_;  ///< Bytes of the points of one message.
   int behind_ = 0;  ///< Number of successive frames that some reader acknowledged too late.
   std::atomic<std::uint64_t> unacknowledged_{0}, refused_{0};

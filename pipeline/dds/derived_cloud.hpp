@@ -52,8 +52,10 @@ class DerivedCloud {
   }
 
   /// Copies all points in their order and adds a field at the end: label, uint8, with the classes
-  /// of .label files (pipeline/output/label_sink.hpp).
-  const RosCloud& with_labels(const RosCloud& from, std::span<const frame::Label> labels);
+  /// of .label files (pipeline/output/label_sink.hpp). Where there are `heights_m`, one per point,
+  /// height_above_ground, float32, follows.
+  const RosCloud& with_labels(const RosCloud& from, std::span<const frame::Label> labels,
+                              std::span<const float> heights_m = {});
 
  private:
   void begin(const RosCloud& from);

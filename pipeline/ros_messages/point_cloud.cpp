@@ -10,17 +10,36 @@
 namespace terracut::ros_messages {
 namespace {
 
-void add_fields(CdrWriter& to) {
-  to.add_length(std::size(kCloudFields));
-  for (const CloudField& field : kCloudFields) {
-    to.add(field.name);
-    to.add(field.offset);
-    to.add(field.datatype);
-    to.add(std::uint32_t{1});  // count
-  }
+void add_field(const CloudField& field, CdrWriter& to) {
+  to.add(field.name);
+  to.add(field.offset);
+  to.add(field.datatype);
+  to.add(std::uint32_t{1});  // count
+}
+
+void add_fields(bool with_height, CdrWriter& to) {
+  to.add_length(std::size(kCloudFields) + (with_height ? 1 : 0));
+  for (const CloudField& field : kCloudFields) add_field(field, to);
+  if (with_height) add_field(kHeightField, to);
 }
 
 }  // namespace
+
+std::size_t copy_points(CloudOf which, std::span<const points::LabelledPoint> points,
+                        std::span<const float> heights_m, float time_of_first_s,
+                        std::span<std::byte> to) noexcept {
+  std::byte* next = to.data();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!belongs_to(which, points[i].label)) continue;
+    const CloudPoint out = cloud_point(points[i], time_of_first_s);
+    std::memcpy(next, &out, sizeof out);
+    next += sizeof out;
+    if (heights_m.empty()) continue;
+    std::memcpy(next, &heights_m[i], sizeof(float));
+    next += sizeof(float);
+  }
+  return static_cast<std::size_t>(next - to.data());
+}
 
 void write_point_cloud(const publish::LabelledFrame& frame, CloudOf which,
                        std::string_view frame_id, std::vector<std::byte>& message) {
@@ -31,21 +50,19 @@ void write_point_cloud(const publish::LabelledFrame& frame, CloudOf which,
       frame.points,
       [&](const points::LabelledPoint& point) { return belongs_to(which, point.label); }));
 
+  const bool with_height = !frame.heights_m.empty();
+  const std::size_t step = point_bytes(with_height);
+
   CdrWriter to(message);
   add_header(to, stamp_ns, frame_id);
   to.add(std::uint32_t{1});  // height 1: the points are in order of arrival, not an image
   to.add(static_cast<std::uint32_t>(points));
-  add_fields(to);
+  add_fields(with_height, to);
   to.add(false);  // is_bigendian
-  to.add(static_cast<std::uint32_t>(sizeof(CloudPoint)));
-  to.add(static_cast<std::uint32_t>(sizeof(CloudPoint) * points));  // row_step
-  std::byte* next = to.add_byte_sequence(sizeof(CloudPoint) * points).data();
-  for (const points::LabelledPoint& point : frame.points) {
-    if (!belongs_to(which, point.label)) continue;
-    const CloudPoint out = cloud_point(point, time_of_first_s);
-    std::memcpy(next, &out, sizeof out);
-    next += sizeof out;
-  }
+  to.add(static_cast<std::uint32_t>(step));
+  to.add(static_cast<std::uint32_t>(step * points));  // row_step
+  (void)copy_points(which, frame.points, frame.heights_m, time_of_first_s,
+                    to.add_byte_sequence(step * points));
   to.add(true);  // is_dense: every point is a return
 }
 

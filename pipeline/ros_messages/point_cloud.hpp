@@ -41,6 +41,13 @@ inline constexpr CloudField kCloudFields[]{{"x", offsetof(CloudPoint, x_m), kFlo
                                            {"label", offsetof(CloudPoint, label), kUint8},
                                            {"time", offsetof(CloudPoint, time_s), kFloat32}};
 
+/// The field behind a CloudPoint where points come with their heights above the ground, metres.
+inline constexpr CloudField kHeightField{"height_above_ground", sizeof(CloudPoint), kFloat32};
+/// Returns the bytes of a point of our clouds.
+[[nodiscard]] constexpr std::size_t point_bytes(bool with_height) noexcept {
+  return sizeof(CloudPoint) + (with_height ? sizeof(float) : 0);
+}
+
 /// The choice of a frame's points that a cloud holds.
 enum class CloudOf : std::uint8_t { kAll, kGround, kObstacles, kRoad };
 
@@ -73,8 +80,16 @@ enum class CloudOf : std::uint8_t { kAll, kGround, kObstacles, kRoad };
           .time_s = point.time_s + time_of_first_s};
 }
 
+/// Writes the points that `which` selects to `to`, in order of arrival, each with its height if
+/// there are `heights_m`, one per point. `to` must have room for all points. Returns how many bytes
+/// were written.
+std::size_t copy_points(CloudOf which, std::span<const points::LabelledPoint> points,
+                        std::span<const float> heights_m, float time_of_first_s,
+                        std::span<std::byte> to) noexcept;
+
 /// Writes a sensor_msgs/PointCloud2 of the points that `which` selects, in order of arrival, to
-/// `message`, replacing the content of `message`.
+/// `message`, replacing the content of `message`. Points have kHeightField if the frame has
+/// heights.
 void write_point_cloud(const publish::LabelledFrame& frame, CloudOf which,
                        std::string_view frame_id, std::vector<std::byte>& message);
 

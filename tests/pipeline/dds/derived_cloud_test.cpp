@@ -87,5 +87,24 @@ TEST(DerivedCloud, HasALabelBehindEveryPointInPlaceOfTheirOwn) {
   EXPECT_EQ(classes, (std::vector{40, 99, 0, 99, 49, 40}));
 }
 
+TEST(DerivedCloud, HasAHeightBehindEachLabelInTheByteOrderOfTheCloud) {
+  SixPoints six;
+  const std::vector heights_m{1.0F, 2.0F, 3.0F, 4.0F, 5.0F, -2.0F};
+  for (const bool is_bigendian : {true, false}) {
+    six.cloud.is_bigendian = is_bigendian;
+    DerivedCloud derived;
+    const RosCloud& labelled = derived.with_labels(six.cloud, six.labels, heights_m);
+    EXPECT_EQ(labelled.point_step, 12U);
+    ASSERT_EQ(labelled.fields._length, 3U);
+    EXPECT_STREQ(labelled.fields._buffer[2].name, "height_above_ground");
+    EXPECT_EQ(labelled.fields._buffer[2].offset, 8U);
+    EXPECT_EQ(labelled.fields._buffer[2].datatype, 7U);
+    const std::vector<int> bytes = bytes_of(labelled);
+    ASSERT_EQ(bytes.size(), 72U);
+    const std::vector<int> last(bytes.end() - 4, bytes.end());
+    EXPECT_EQ(last, is_bigendian ? (std::vector{0xC0, 0, 0, 0}) : (std::vector{0, 0, 0, 0xC0}));
+  }
+}
+
 }  // namespace
 }  // namespace terracut::dds

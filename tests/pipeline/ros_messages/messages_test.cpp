@@ -97,6 +97,22 @@ TEST(PointCloud, PointsHaveTheirTimeAfterTheStamp) {
   EXPECT_EQ(last_point(message).time_s, -0.5F);
 }
 
+TEST(PointCloud, PointsHaveTheirHeightBehindThemWhereTheFrameHasIt) {
+  publish::LabelledFrame frame = small_frame();
+  Bytes without, with;
+  write_point_cloud(frame, CloudOf::kGround, "vehicle", without);
+  frame.heights_m = {1.5F, 0.25F, -0.5F, 0};
+  write_point_cloud(frame, CloudOf::kGround, "vehicle", with);
+  EXPECT_EQ(at<float>(with, with.size() - 1 - 4), -0.5F);
+  EXPECT_EQ(at<float>(with, with.size() - 1 - 4 - 28), 0.25F);
+  EXPECT_EQ(at<float>(with, with.size() - 1 - 28), 7.0F) << "x of the last";
+  const auto text_of = [](const Bytes& message) {
+    return std::string(reinterpret_cast<const char*>(message.data()), message.size());
+  };
+  EXPECT_NE(text_of(with).find("height_above_ground"), std::string::npos);
+  EXPECT_EQ(text_of(without).find("height_above_ground"), std::string::npos);
+}
+
 TEST(PointCloud, OfNoPointsIsOne) {
   Bytes message;
   write_point_cloud({}, CloudOf::kAll, "vehicle", message);

@@ -62,6 +62,7 @@ struct MethodOptions {
   Profile profile = Profile::kTerracut;
   stage::Stage last_stage = stage::Stage::kMinCut;
   std::vector<std::string> settings;  ///< KEY=VALUE, checked; docs/reference/parameters.md
+  bool heights = false;  ///< Also gives each return's height above the ground, to every output.
 };
 
 enum class McapClouds : std::uint8_t { kAll, kPoints };

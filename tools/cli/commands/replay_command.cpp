@@ -138,9 +138,10 @@ class Replay {
   [[nodiscard]] Status write_points(const std::string& name, const run::Frame& frame,
                                     std::span<const std::uint32_t> truth) {
     const auto labels = capture_.labels();
-    const Status written = outputs_.write_frame(name, *frame.image, labels, truth);
+    const auto heights_m = capture_.heights_m();
+    const Status written = outputs_.write_frame(name, *frame.image, labels, heights_m, truth);
     if (!written) return written;
-    return outputs_.publish(frame.record, *frame.image, labels, capture_.timing(frame));
+    return outputs_.publish(frame.record, *frame.image, labels, heights_m, capture_.timing(frame));
   }
 
   ExitCode conclude() {

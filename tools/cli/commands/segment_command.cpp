@@ -120,7 +120,7 @@ ExitCode run_segment(const Options& options) {
     Status written = outputs.write_labels(reader.name(i), pipeline.point_labels());
     if (written) {
       written = outputs.write_frame(reader.name(i), pipeline.image(), pipeline.labels(),
-                                    pipeline.truth_of_returns(truth));
+                                    pipeline.heights_m(), pipeline.truth_of_returns(truth));
     }
     if (written) {
       // Makes up stamps, which files do not have: players of recordings expect increasing stamps.
@@ -128,7 +128,7 @@ ExitCode run_segment(const Options& options) {
       record.info.first_packet_ns =
           reader.stamp_ns().value_or(record.info.number * kFramePeriod_ns);
       record.info.last_packet_ns = record.info.first_packet_ns;
-      written = outputs.publish(record, pipeline.image(), pipeline.labels());
+      written = outputs.publish(record, pipeline.image(), pipeline.labels(), pipeline.heights_m());
     }
     if (!written) return refuse(written.error());
     progress.update(static_cast<double>(i + 1));

@@ -44,6 +44,8 @@ class LabelledCapture {
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
     return pipeline_->labels();
   }
+  /// Returns the heights of these returns above the ground, metres; empty unless asked for.
+  [[nodiscard]] std::span<const float> heights_m() const noexcept { return pipeline_->heights_m(); }
   /// Returns the measuring times of the returns of `frame`.
   [[nodiscard]] points::FrameTiming timing(const run::Frame& frame) const noexcept {
     return points::FrameTiming::of(frame.record.info, decoder().beam_turns());

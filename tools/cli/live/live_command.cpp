@@ -245,7 +245,8 @@ class Writers {
         .address = stream::parse_stream_address(options.stream).value(),
         .unix_mode = options.stream_mode,
         .max_points = parts.turns.decoder().return_capacity(),
-        .serves_sectors = options.stream_sectors};
+        .serves_sectors = options.stream_sectors,
+        .has_heights = options.method.heights};
     const auto open = [this, config]() -> Expected<stream::FrameStreamServer> {
       auto server = stream::FrameStreamServer::open(config, stream_memory_);
       if (!server) return server;

@@ -140,6 +140,7 @@ void CloudNode::label(Job job) {
   news_.add(job.record);
   if (job.record.level != status::Level::kSkipped) {
     job.labels = labeller_.point_labels();
+    job.heights_m = labeller_.point_heights_m();
     if (!labelled_.push(std::move(job))) news_.count(NoAnswer::kUnanswered);
   }
   labeller_.watch_mount();
@@ -169,7 +170,7 @@ void CloudNode::write_answers() {
     const auto since = [&](std::int64_t then_ns) {
       return then_ns == 0 ? 0.0 : measure::milliseconds(record.labels_ns - then_ns);
     };
-    const Status written = answers_.write(*job->cloud, job->labels,
+    const Status written = answers_.write(*job->cloud, job->labels, job->heights_m,
                                           {since(record.closing_packet_ns), since(before_ns)});
     before_ns = record.labels_ns;
     if (written) continue;

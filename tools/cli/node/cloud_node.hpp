@@ -39,6 +39,7 @@ class CloudNode {
     dds::TakenCloud cloud;
     status::FrameRecord record;
     std::vector<frame::Label> labels;
+    std::vector<float> heights_m{};  ///< Empty unless asked for.
   };
 
   void end();

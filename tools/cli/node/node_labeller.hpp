@@ -53,6 +53,12 @@ class NodeLabeller {
     return pipeline_->point_labels();
   }
 
+  /// Returns the height of each point above the ground, in the cloud's order; empty unless asked
+  /// for.
+  [[nodiscard]] const std::vector<float>& point_heights_m() const noexcept {
+    return pipeline_->point_heights_m();
+  }
+
   /// Compares the mount with the ground of the cloud labelled last; takes milliseconds.
   void watch_mount();
   [[nodiscard]] const status::MountFigures& mount() const noexcept { return watch_->figures(); }

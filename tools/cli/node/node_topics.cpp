@@ -54,7 +54,7 @@ Expected<NodeAnswers> NodeAnswers::open(const dds::Participant& participant,
 }
 
 Status NodeAnswers::write(const dds::RosCloud& cloud, std::span<const Label> labels,
-                          const Times& times) {
+                          std::span<const float> heights_m, const Times& times) {
   Status first;
   const auto put = [&](dds::TopicWriter& writer, const void* message) {
     Status written = writer.write(message);
@@ -71,7 +71,7 @@ Status NodeAnswers::write(const dds::RosCloud& cloud, std::span<const Label> lab
   if (is_read(road_)) {
     put(*road_, &derived_.select(cloud, labels, [](Label l) { return l == Label::kGround; }));
   }
-  if (is_read(points_)) put(*points_, &derived_.with_labels(cloud, labels));
+  if (is_read(points_)) put(*points_, &derived_.with_labels(cloud, labels, heights_m));
   const auto put_time = [&](std::optional<dds::TopicWriter>& writer, double time_ms) {
     const autoware_internal_debug_msgs_msg_dds__Float64Stamped_ message{cloud.header.stamp,
                                                                         time_ms};

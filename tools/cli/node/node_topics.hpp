@@ -28,7 +28,7 @@ class NodeAnswers {
   };
   /// Writes an answer; skips topics without readers. Returns the first error.
   [[nodiscard]] Status write(const dds::RosCloud& cloud, std::span<const frame::Label> labels,
-                             const Times& times);
+                             std::span<const float> heights_m, const Times& times);
 
  private:
   NodeAnswers() = default;

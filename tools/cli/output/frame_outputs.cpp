@@ -44,12 +44,12 @@ Status FrameOutputs::write_labels(const std::string& name, std::span<const Label
 }
 
 Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImage& image,
-                                 std::span<const Label> labels,
+                                 std::span<const Label> labels, std::span<const float> heights_m,
                                  std::span<const std::uint32_t> truth) {
   if (!options_.pcd.empty()) {
     const Status written =
         pcd_.place(name + ".pcd").and_then([&](const std::filesystem::path& path) {
-          return output::write_pcd(path, image, labels);
+          return output::write_pcd(path, image, labels, heights_m);
         });
     if (!written) return written;
   }
@@ -92,11 +92,13 @@ Status FrameOutputs::open(const publish::RunFacts& facts) {
 }
 
 Status FrameOutputs::publish(const status::FrameRecord& record, const frame::RangeImage& image,
-                             std::span<const Label> labels, const points::FrameTiming& timing) {
+                             std::span<const Label> labels, std::span<const float> heights_m,
+                             const points::FrameTiming& timing) {
   if (!publisher_) return {};
   const auto shared = publisher_->buffer();
   shared->record = record;
   shared->points.resize(labels.size());
+  shared->heights_m.assign(heights_m.begin(), heights_m.end());
   (void)points::pack_labelled_points(image, labels, shared->points, timing);
   publisher_->put(shared);
   return publisher_->outcome();

@@ -45,16 +45,18 @@ class FrameOutputs {
   [[nodiscard]] Status write_labels(const std::string& name, std::span<const frame::Label> labels);
 
   /// Writes NAME.pcd, NAME.birdseye.png and NAME.range.png; with truth also NAME.mistakes.png.
-  /// `image` has points if need_points(); `labels` and `truth` (SemanticKITTI ids, or empty) are by
-  /// return index.
+  /// `image` has points if need_points(); `labels`, `heights_m` (or empty) and `truth`
+  /// (SemanticKITTI ids, or empty) are by return index.
   [[nodiscard]] Status write_frame(const std::string& name, const frame::RangeImage& image,
                                    std::span<const frame::Label> labels,
+                                   std::span<const float> heights_m,
                                    std::span<const std::uint32_t> truth);
 
   /// Hands the frame to the outputs that open() opened, and waits for slow ones. Returns their
   /// first error. `timing` gives the times of the frame's returns.
   [[nodiscard]] Status publish(const status::FrameRecord& record, const frame::RangeImage& image,
                                std::span<const frame::Label> labels,
+                               std::span<const float> heights_m,
                                const points::FrameTiming& timing = {});
 
   /// Completes the outputs that open() opened; call it after the last frame.

@@ -228,8 +228,10 @@ constexpr std::array kSettings{
 
     Setting{.key = "output.labels", .option = "--labels", .commands = kFrames | C::kLive, .help = "Folder for NNNNNN.label, SemanticKITTI predictions",
             .writes = Kind::kFrames, .ending = ".label", .field = [](O& o) -> F { return &o.output.labels; }},
-    Setting{.key = "output.pcd", .option = "--pcd", .commands = kFrames, .help = "Folder for NNNNNN.pcd: x y z intensity ring label",
+    Setting{.key = "output.pcd", .option = "--pcd", .commands = kFrames, .help = "Folder for NNNNNN.pcd: x y z intensity ring label, with --heights height_above_ground",
             .writes = Kind::kFrames, .ending = ".pcd", .field = [](O& o) -> F { return &o.output.pcd; }},
+    Setting{.key = "output.heights", .option = "--heights", .commands = kPublished | C::kView | C::kNode | C::kBench, .help = "Each return's height above the ground, too, in metres, wherever its label goes but to label files (docs/reference/outputs.md)",
+            .bare = "yes", .excludes = "--method", .field = [](O& o) -> F { return &o.method.heights; }},
     Setting{.key = "output.png", .option = "--png", .commands = kFrames, .help = "Folder for pictures: from above and as the sensor sees it",
             .writes = Kind::kFrames, .ending = ".png", .field = [](O& o) -> F { return &o.output.png; }},
     Setting{.option = "--overwrite", .commands = kFrames | C::kLive | C::kCompare, .help = "In these folders, take away what was made of another input, too; of the same input it is always replaced",

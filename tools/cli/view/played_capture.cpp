@@ -75,6 +75,8 @@ void PlayedCapture::take(publish::LabelledFrame& frame) {
   frame.points.resize(frame_->image->returns());
   (void)points::pack_labelled_points(*frame_->image, capture_.labels(), frame.points,
                                      capture_.timing(*frame_));
+  const std::span<const float> heights_m = capture_.heights_m();
+  frame.heights_m.assign(heights_m.begin(), heights_m.end());
   if (!ahead_) ahead_ = frame.record.info.number - number_of(span_.end_ns);
   frame.record.info.number -= *ahead_;
 }

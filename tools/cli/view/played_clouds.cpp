@@ -78,6 +78,8 @@ void PlayedClouds::take(publish::LabelledFrame& frame) {
   frame.record = record_;
   frame.points.resize(pipeline_->image().returns());
   (void)points::pack_labelled_points(pipeline_->image(), pipeline_->labels(), frame.points);
+  const std::span<const float> heights_m = pipeline_->heights_m();
+  frame.heights_m.assign(heights_m.begin(), heights_m.end());
 }
 
 Status PlayedClouds::go_to(double seek_s) {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "terracut/object.hpp"
+
 namespace terracut {
 
 /// The label of a return.
@@ -52,6 +54,10 @@ struct Frame {
   /// Height of each return above the ground found below it, which need not be level; finite. Empty
   /// unless asked for (Config::heights).
   std::span<const float> height_above_ground_m = {};
+  /// Objects of obstacle returns, and the number of each return's object (0: none; object i has the
+  /// number i + 1); empty unless asked for.
+  std::span<const Object> objects = {};
+  std::span<const std::uint16_t> object_of_return = {};
 };
 
 /// Some four degrees of a revolution, labelled while the sensor turns on: the returns of successive

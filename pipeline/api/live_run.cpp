@@ -12,6 +12,7 @@
 #include "firmware_io/net/live_source.hpp"
 #include "firmware_io/streams/hear_sensor.hpp"
 #include "pipeline/live/live_parts.hpp"
+#include "pipeline/points/objects_of_points.hpp"
 #include "pipeline/run/mount_on_air.hpp"
 #include "rt/memory/locked_memory.hpp"
 
@@ -33,7 +34,7 @@ Expected<streams::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Co
 live::LiveConfig live_config_of(const LiveRun::Config& config, int columns) {
   live::LiveConfig of_run;
   of_run.decoder.columns = columns;
-  of_run.method.gives_heights = config.heights;
+  of_run.method.gives_heights = config.heights || config.objects;
   of_run.thread.deadline_ns = static_cast<std::int64_t>(config.deadline_ms * 1e6);
   of_run.thread.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
   of_run.thread.keeps_points = true;
@@ -46,12 +47,13 @@ live::LiveConfig live_config_of(const LiveRun::Config& config, int columns) {
 
 struct LiveRun::Engine {
   Engine(std::unique_ptr<memory::FixedMemory> memory_of_source, net::LiveSource&& opened,
-         streams::SensorOnAir&& heard, std::optional<FoundMount> mount, OnSector for_sectors)
+         streams::SensorOnAir&& heard, std::optional<FoundMount> mount, const Config& config)
       : source_memory(std::move(memory_of_source)),
         source(std::move(opened)),
         sensor(std::move(heard)),
         found_mount(mount),
-        on_sector(std::move(for_sectors)) {}
+        gives_objects(config.objects),
+        on_sector(config.on_sector) {}
 
   Status build(const live::LiveConfig& config, const Mount& mount, bool locks_memory,
                std::vector<threads::Grant>& grants) {
@@ -63,6 +65,10 @@ struct LiveRun::Engine {
     points.resize(parts->turns.decoder().return_capacity());
     labels.resize(points.size());
     times_s.resize(points.size());
+    if (gives_objects) {
+      objects = std::make_unique<points::ObjectsOfPoints>(profile, parts->turns.decoder().shape(),
+                                                          points.size());
+    }
     return {};
   }
 
@@ -87,6 +93,11 @@ struct LiveRun::Engine {
                   .labels = std::span<const Label>(labels).first(taken.items.size()),
                   .time_s = std::span<const float>(times_s).first(taken.items.size()),
                   .height_above_ground_m = taken.heights_m};
+      if (objects != nullptr) {
+        objects->find(taken.items, taken.heights_m);
+        frame.objects = objects->objects();
+        frame.object_of_return = objects->object_of_point();
+      }
       on_frame(frame);
       slots.give_back(true);
       ++figures.frames;
@@ -129,7 +140,9 @@ struct LiveRun::Engine {
   net::LiveSource source;
   streams::SensorOnAir sensor;
   std::optional<FoundMount> found_mount;
-  OnSector on_sector;  ///< May be empty.
+  bool gives_objects;
+  OnSector on_sector;                                ///< May be empty.
+  std::unique_ptr<points::ObjectsOfPoints> objects;  ///< Null unless asked for.
   std::unique_ptr<live::LiveParts> parts;
   std::vector<Point> points;
   std::vector<Label> labels;
@@ -169,7 +182,7 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
   std::vector<threads::Grant> grants;
   if (config.lock_memory) grants = memory::hold_memory({});
   auto engine = std::make_unique<Engine>(std::move(source_memory), *std::move(source),
-                                         *std::move(sensor), mount, config.on_sector);
+                                         *std::move(sensor), mount, config);
   const auto built = made([&] {
     return engine->build(of_run, mount ? mount->mount : config.mount, config.lock_memory, grants);
   });

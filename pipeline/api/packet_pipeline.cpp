@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "terracut/packet_pipeline.hpp"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "firmware_io/api/points.hpp"
 #include "pipeline/api/profile.hpp"
 #include "pipeline/ground/stream_segmenter.hpp"
+#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
 
 namespace terracut {
@@ -17,7 +19,7 @@ namespace {
 
 ground::SegmenterConfig method_of(const PacketPipeline::Config& config) noexcept {
   ground::SegmenterConfig method = config_of(config.profile);
-  method.gives_heights = config.heights;
+  method.gives_heights = config.heights || config.objects;
   return method;
 }
 
@@ -30,10 +32,17 @@ struct PacketPipeline::Engine {
                  calib::ring_profile(calibration.table().unit, mount_of(config.mount)), decoder,
                  ground::turn_maker_of(method_of(config)), memory,
                  run::PacketPipeline::Makes::kPoints),
-        room(pipeline.decoder().return_capacity()) {}
+        room(pipeline.decoder().return_capacity()) {
+    if (config.objects) {
+      const decode::Decoder& frames = pipeline.decoder();
+      objects.emplace(calib::ring_profile(calibration.table().unit, mount_of(config.mount)),
+                      frames.shape(), frames.return_capacity(), memory);
+    }
+  }
 
   memory::FixedMemory memory;
   run::PacketPipeline pipeline;
+  std::optional<objects::ImageObjects> objects;  ///< Exists if they were asked for.
   std::vector<Point> room;
   Frame frame;
 };
@@ -67,6 +76,12 @@ const Frame* PacketPipeline::next() noexcept {
   engine_->frame = public_frame(frame->record.info, *frame->image, engine_->room);
   engine_->frame.labels = engine_->pipeline.labels();
   engine_->frame.height_above_ground_m = engine_->pipeline.heights_m();
+  if (engine_->objects) {
+    engine_->objects->find(*frame->image, engine_->pipeline.labels(),
+                           engine_->pipeline.heights_m());
+    engine_->frame.objects = engine_->objects->objects();
+    engine_->frame.object_of_return = engine_->objects->object_of_return();
+  }
   return &engine_->frame;
 }
 

@@ -20,6 +20,7 @@
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/ground/segmenter.hpp"
+#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
@@ -39,7 +40,7 @@ Status check(const Mount& mount) {
 
 Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {
   ground::SegmenterConfig method = config_of(config.profile);
-  method.gives_heights = config.heights;
+  method.gives_heights = config.heights || config.objects;
   for (const std::string& setting : config.parameters) {
     if (const Status set = ground::apply_setting(method, setting); !set) {
       return tl::unexpected(set.error());
@@ -87,6 +88,13 @@ struct Segmenter::Engine {
     bool is_done_ = false;
   };
 
+  struct Objects {
+    Objects(const mount::RingProfile& profile, const frame::RangeImage& image)
+        : finder(profile, image.shape(), image.return_capacity(), memory) {}
+    memory::FixedMemory memory;
+    objects::ImageObjects finder;
+  };
+
   explicit Engine(const Config& wanted) : config(wanted), mount(mount_of(wanted.mount)) {}
 
   Expected<std::span<const Label>> label(const cloud::CloudView& view) {
@@ -107,6 +115,10 @@ struct Segmenter::Engine {
     if (const Status labelled = pipeline->label(view, record); !labelled) {
       return tl::unexpected(labelled.error());
     }
+    if (objects) {
+      objects->finder.find(pipeline->image(), pipeline->labels(), pipeline->heights_m());
+      object_of_point = pipeline->numbers_of_points(objects->finder.object_of_return());
+    }
     // Reserves only here, after labelling: `view` may point into these buffers, which reserve() may
     // move.
     cloud.points.reserve(most_points);
@@ -126,8 +138,9 @@ struct Segmenter::Engine {
   }
 
   void make_pipeline() {
-    pipeline.emplace(*rows, scan::ring_profile(rows->rings.table, mount),
-                     ground::maker_of(*method_of(config)));
+    const mount::RingProfile profile = scan::ring_profile(rows->rings.table, mount);
+    pipeline.emplace(*rows, profile, ground::maker_of(*method_of(config)));
+    if (config.objects) objects.emplace(profile, pipeline->image());
     most_points = std::max(most_points, pipeline->image().return_capacity());
     pipeline->reserve(most_points);
   }
@@ -155,6 +168,8 @@ struct Segmenter::Engine {
   std::size_t most_points = 0;                     ///< The most points a cloud may have.
   std::optional<run::CloudPipeline> pipeline;      ///< Set by the first cloud.
   std::optional<MountOfFirstClouds> first_clouds;  ///< Set while the mount is looked for.
+  std::optional<Objects> objects;                  ///< Set with the pipeline, if asked for.
+  std::span<const std::uint16_t> object_of_point;
 };
 
 Segmenter::Segmenter(std::unique_ptr<Engine> engine) noexcept : engine_(std::move(engine)) {}
@@ -181,6 +196,15 @@ Expected<std::span<const Label>> Segmenter::label(const Cloud& cloud) {
 std::span<const float> Segmenter::height_above_ground_m() const noexcept {
   if (!engine_->pipeline) return {};
   return engine_->pipeline->point_heights_m();
+}
+
+std::span<const Object> Segmenter::objects() const noexcept {
+  if (!engine_->objects) return {};
+  return engine_->objects->finder.objects();
+}
+
+std::span<const std::uint16_t> Segmenter::object_of_point() const noexcept {
+  return engine_->object_of_point;
 }
 
 std::optional<FoundMount> Segmenter::found_mount() const noexcept {

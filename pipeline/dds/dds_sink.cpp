@@ -76,6 +76,12 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
     wanted.writer.emplace(*std::move(writer));
   }
   if (diagnostics) sink->diagnostics_.emplace(*std::move(diagnostics));
+  if (!config.objects.empty()) {
+    auto objects = ObjectWriter::open(sink->participant_, config.objects, config.object_markers,
+                                      config.quality);
+    if (!objects) return tl::unexpected(objects.error());
+    sink->objects_.emplace(*std::move(objects));
+  }
   if (Status told = sink->write_mount(facts); !told) return tl::unexpected(told.error());
   return sink;
 }
@@ -98,7 +104,10 @@ Status DdsSink::put(const publish::LabelledFrame& frame) {
     put_points(writer, frame.points, frame.heights_m, ros_messages::stamp_ns_of(frame.record),
                time_of_first_s_of(frame), which);
   };
-  // Obstacles are published first, because planners stop for them.
+  // Objects and obstacles are published first, because planners stop for them.
+  if (objects_ && !objects_->write(frame, frame_id_)) {
+    refused_.fetch_add(1, std::memory_order_relaxed);
+  }
   put_cloud(obstacles_, CloudOf::kObstacles);
   put_cloud(ground_, CloudOf::kGround);
   put_cloud(road_, CloudOf::kRoad);

@@ -10,12 +10,14 @@
 namespace terracut::live {
 
 FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
-                         SectorPool* sectors, const threads::WakeEvent& ready)
+                         SectorPool* sectors, const threads::WakeEvent& ready,
+                         std::unique_ptr<points::ObjectsOfPoints> objects)
     : stream_(std::move(stream)),
       publisher_(publisher),
       slots_(slots),
       sectors_(sectors),
       ready_(ready),
+      objects_(std::move(objects)),
       // A failure of this thread needs no handler: the slots count the frames that nobody takes.
       thread_([this] { work(); }, [](std::string_view) {}) {}
 
@@ -103,6 +105,13 @@ bool FrameOutlet::hand_out(const Slots::Frame& frame) {
     shared->record = frame.record;
     shared->points.assign(frame.items.begin(), frame.items.end());
     shared->heights_m.assign(frame.heights_m.begin(), frame.heights_m.end());
+    if (objects_ != nullptr) {
+      objects_->find(shared->points, shared->heights_m);
+      const auto objects = objects_->objects();
+      const auto numbers = objects_->object_of_point();
+      shared->objects.assign(objects.begin(), objects.end());
+      shared->object_of_point.assign(numbers.begin(), numbers.end());
+    }
     publisher_.put(shared);
     return {};
   });

@@ -29,9 +29,11 @@ namespace terracut::output {
 }
 
 /// Writes one frame's labels as a SemanticKITTI prediction: one little-endian uint32 per return, in
-/// the order of `labels` (order of arrival for packets, order of points for scans). The file
-/// appears whole or not at all.
+/// the order of `labels` (order of arrival for packets, order of points for scans). The lower 16
+/// bits are the class, the upper 16 the number of the return's object in the frame, if there are
+/// `objects`, one number per label; 0: none. The file appears whole or not at all.
 [[nodiscard]] Status write_label_file(const std::filesystem::path& path,
-                                      std::span<const frame::Label> labels);
+                                      std::span<const frame::Label> labels,
+                                      std::span<const std::uint16_t> objects = {});
 
 }  // namespace terracut::output

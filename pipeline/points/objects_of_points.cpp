@@ -15,10 +15,8 @@ ObjectsOfPoints::ObjectsOfPoints(const mount::RingProfile& profile, frame::Image
                                  std::size_t most_points)
     : most_points_(most_points),
       image_(shape, most_points, memory_),
-      planes_(shape, memory_),
-      finder_({}, profile, shape, most_points, memory_) {
+      objects_(profile, shape, most_points, memory_) {
   labels_.reserve(most_points);
-  object_of_point_.reserve(most_points);
 }
 
 void ObjectsOfPoints::find(std::span<const LabelledPoint> points,
@@ -27,13 +25,7 @@ void ObjectsOfPoints::find(std::span<const LabelledPoint> points,
   place(points);
   labels_.resize(points.size());
   std::ranges::transform(points, labels_.begin(), &LabelledPoint::label);
-  for (std::size_t cell = 0; cell < planes_.label.size(); ++cell) {
-    const std::uint32_t index = image_.has_return(cell) ? image_.return_index()[cell] : 0;
-    planes_.label[cell] = image_.has_return(cell) ? labels_[index] : frame::Label::kNone;
-    planes_.height_m[cell] = image_.has_return(cell) ? heights_m[index] : frame::kNoHeight_m;
-  }
-  finder_.find(image_, planes_, labels_);
-  object_of_point_.assign(finder_.object_of_return().begin(), finder_.object_of_return().end());
+  objects_.find(image_, labels_, heights_m);
 }
 
 void ObjectsOfPoints::place(std::span<const LabelledPoint> points) noexcept {

@@ -11,15 +11,14 @@
 #include "firmware_io/frame/image_shape.hpp"
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "pipeline/objects/object_finder.hpp"
+#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/points/labelled_point.hpp"
-#include "pipeline/stage/cell_planes.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::points {
 
 /// Finds the objects in a labelled turn that has left the threads with a deadline: puts its points
-/// back into an image, by their rows and azimuths, and looks there (objects::ObjectFinder). Points
+/// back into an image, by their rows and azimuths, and looks there (objects::ImageObjects). Points
 /// may be deskewed.
 ///
 /// Takes its memory in the constructor; allocates nothing later. One thread at a time.
@@ -35,11 +34,11 @@ class ObjectsOfPoints {
 
   /// Returns the objects; object i has the number i + 1.
   [[nodiscard]] std::span<const objects::Object> objects() const noexcept {
-    return finder_.objects();
+    return objects_.objects();
   }
   /// Returns the number of each point's object; 0: none.
   [[nodiscard]] std::span<const std::uint16_t> object_of_point() const noexcept {
-    return object_of_point_;
+    return objects_.object_of_return();  // the number of a return is that of its point
   }
 
  private:
@@ -48,10 +47,8 @@ class ObjectsOfPoints {
   memory::FixedMemory memory_;
   std::size_t most_points_;
   frame::RangeImage image_;
-  stage::CellPlanes planes_;
-  objects::ObjectFinder finder_;
+  objects::ImageObjects objects_;
   std::vector<frame::Label> labels_;
-  std::vector<std::uint16_t> object_of_point_;
 };
 
 }  // namespace terracut::points

@@ -48,6 +48,16 @@ Status CloudPipeline::label(const cloud::CloudView& cloud, status::FrameRecord& 
   return {};
 }
 
+std::span<const std::uint16_t> CloudPipeline::numbers_of_points(
+    std::span<const std::uint16_t> of_returns) {
+  point_numbers_.assign(of_returns.empty() ? 0 : point_labels_.size(), 0);
+  const std::span<const std::uint32_t> point_of_return = placement_.point_of_return();
+  for (std::size_t i = 0; i < of_returns.size(); ++i) {
+    point_numbers_[point_of_return[i]] = of_returns[i];
+  }
+  return point_numbers_;
+}
+
 std::span<const std::uint32_t> CloudPipeline::truth_of_returns(
     std::span<const std::uint32_t> truth) {
   return_truth_.clear();

@@ -62,6 +62,10 @@ class CloudPipeline {
   [[nodiscard]] const scan::ScanToImage::Summary& placed() const noexcept {
     return placement_.placed();
   }
+  /// Converts numbers by return index to numbers of the cloud's points, 0 for points without a
+  /// return; empty for empty `of_returns`.
+  [[nodiscard]] std::span<const std::uint16_t> numbers_of_points(
+      std::span<const std::uint16_t> of_returns);
   /// Converts the truth of the cloud's points to that of its returns, by return index; empty for
   /// empty `truth`.
   [[nodiscard]] std::span<const std::uint32_t> truth_of_returns(
@@ -77,6 +81,7 @@ class CloudPipeline {
   std::vector<frame::Label> point_labels_;
   std::vector<float> point_heights_m_;
   std::vector<std::uint32_t> return_truth_;
+  std::vector<std::uint16_t> point_numbers_;
 };
 
 }  // namespace terracut::run

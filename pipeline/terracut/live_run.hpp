@@ -44,6 +44,8 @@ class LiveRun {
     bool lock_memory = true;
     std::optional<double> patience_s;  ///< Time to wait for the sensor; empty: no limit.
     bool heights = false;              ///< Frames and sectors come with height_above_ground_m.
+    /// Frames come with their objects, found on the thread of run(), and with heights.
+    bool objects = false;
     /// If set, run() also calls this for each sector, before on_frame for its frame. A sector is
     /// valid during the call.
     OnSector on_sector;

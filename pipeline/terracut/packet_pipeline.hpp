@@ -25,6 +25,7 @@ class PacketPipeline {
     Profile profile = Profile::kTerracut;
     int reorder_packets = 2;  ///< See Decoder::Config::reorder_packets.
     bool heights = false;     ///< Frames come with height_above_ground_m.
+    bool objects = false;     ///< Frames come with their objects, and with heights.
   };
 
   /// Fails with kInvalidArgument for a setting out of range, kCapacityExceeded without memory.

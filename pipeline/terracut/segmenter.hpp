@@ -91,6 +91,7 @@ class Segmenter {
     /// docs/reference/parameters.md lists them.
     std::vector<std::string> parameters = {};
     bool heights = false;  ///< Provides height_above_ground_m().
+    bool objects = false;  ///< Provides objects(), and height_above_ground_m().
   };
 
   /// Fails with kInvalidArgument if the mount or a parameter is out of range or unknown.
@@ -117,6 +118,13 @@ class Segmenter {
   /// cloud's order; NaN for points that are no return and for those of a laser that the first cloud
   /// did not have. Valid until the next label(); empty without Config::heights.
   [[nodiscard]] std::span<const float> height_above_ground_m() const noexcept;
+
+  /// Returns the objects of the cloud labelled last, in the vehicle frame (calibration.hpp). Valid
+  /// until the next label(); empty without Config::objects.
+  [[nodiscard]] std::span<const Object> objects() const noexcept;
+  /// Returns the number of the object of each point labelled last, in the cloud's order; 0: none;
+  /// object i has the number i + 1. Valid and empty like objects().
+  [[nodiscard]] std::span<const std::uint16_t> object_of_point() const noexcept;
 
   /// Returns the mount used for the last labels, if it was found; empty without Config::find_mount.
   [[nodiscard]] std::optional<FoundMount> found_mount() const noexcept;

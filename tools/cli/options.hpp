@@ -63,6 +63,9 @@ struct MethodOptions {
   stage::Stage last_stage = stage::Stage::kMinCut;
   std::vector<std::string> settings;  ///< KEY=VALUE, checked; docs/reference/parameters.md
   bool heights = false;  ///< Also gives each return's height above the ground, to every output.
+  bool objects = false;  ///< Also gives the objects of each frame; they need heights.
+
+  [[nodiscard]] bool gives_heights() const noexcept { return heights || objects; }
 };
 
 enum class McapClouds : std::uint8_t { kAll, kPoints };
@@ -86,6 +89,7 @@ struct DdsOptions {
   DdsPreset preset = DdsPreset::kRos;
   std::string points, ground, obstacles, road;  ///< Topics; empty: the preset's; "off": none.
   std::string diagnostics = "/diagnostics";     ///< Topic; "off": none.
+  std::string objects = "~/objects";            ///< Topic, where there are objects; "off": none.
   std::string sectors;                          ///< Topic of labelled sectors; empty: none.
   std::string raw;  ///< Topic of unlabelled clouds, as a driver sends them; empty: labelled.
   bool reliable = true;

@@ -103,8 +103,13 @@ class Replay {
     sinks_ = outputs_.open({.sensor = capture_.capture().sensor_line,
                             .rows = capture_.decoder().shape().rows,
                             .mount = capture_.sensor_mount(),
-                            .has_road = method_config_of(options_.method).segmenter.road.enabled});
+                            .has_road = method_config_of(options_.method).segmenter.road.enabled,
+                            .has_objects = options_.method.objects});
     if (!sinks_) return refuse(sinks_.error());
+    if (options_.method.objects) {
+      outputs_.find_objects(capture_.profile(), capture_.decoder().shape(),
+                            capture_.decoder().return_capacity());
+    }
     Report& report = capture_.report();
     for (int pass = 0; options_.replay.loops == 0 || pass < options_.replay.loops; ++pass) {
       if (pass > 0) {
@@ -130,7 +135,8 @@ class Replay {
     const std::string name = fmt::format("{:06}", info.number);
     const std::span<const std::uint32_t> truth = truth_.read(name, info.returns);
     if (!truth.empty()) capture_.report().score(labels, truth);
-    sinks_ = outputs_.write_labels(name, labels);
+    if (frame.image != nullptr) outputs_.look(*frame.image, labels, capture_.heights_m());
+    sinks_ = outputs_.write_labels(name, labels, outputs_.object_of_return());
     if (sinks_ && frame.image != nullptr) sinks_ = write_points(name, frame, truth);
     progress_.update(static_cast<double>(capture_.report().totals.frames));
   }
@@ -179,9 +185,10 @@ ExitCode run_replay(const Options& options) {
                                              "NNNNNN.label, as `terracut simulate` writes it",
                                              options.output.truth.string()));
   }
-  auto capture = LabelledCapture::open(options, FrameOutputs::need_points(options.output)
-                                                    ? LabelledCapture::Makes::kPoints
-                                                    : LabelledCapture::Makes::kLabels);
+  auto capture = LabelledCapture::open(
+      options, FrameOutputs::need_points(options.output) || options.method.objects
+                   ? LabelledCapture::Makes::kPoints
+                   : LabelledCapture::Makes::kLabels);
   if (!capture) return refuse_work(capture.error());
   catch_stop_signals();
   return Replay(options, **capture).run();

@@ -77,11 +77,15 @@ ExitCode run_segment(const Options& options) {
   Report::ScanPoints points;  // over all scans
   std::vector<std::uint32_t> truth;
   FrameOutputs outputs(options.output);
+  if (options.method.objects) {
+    outputs.find_objects(*profile, pipeline.image().shape(), pipeline.image().return_capacity());
+  }
   const Status outputs_open =
       outputs.open({.sensor = sensor_line,
                     .rows = pipeline.image().shape().rows,
                     .mount = profile->mount,
-                    .has_road = method_config_of(options.method).segmenter.road.enabled});
+                    .has_road = method_config_of(options.method).segmenter.road.enabled,
+                    .has_objects = options.method.objects});
   if (!outputs_open) return refuse(outputs_open.error());
   Report report{"segment", options.scans.string(), "", sensor_line, options.method};
   if (!options.output.json.empty()) report.entries.emplace(options.output.json);
@@ -117,7 +121,9 @@ ExitCode run_segment(const Options& options) {
     points.no_ring += pipeline.placed().no_ring;
     report.add(record);
     if (!truth.empty()) report.score(pipeline.point_labels(), truth);
-    Status written = outputs.write_labels(reader.name(i), pipeline.point_labels());
+    outputs.look(pipeline.image(), pipeline.labels(), pipeline.heights_m());
+    Status written = outputs.write_labels(reader.name(i), pipeline.point_labels(),
+                                          pipeline.numbers_of_points(outputs.object_of_return()));
     if (written) {
       written = outputs.write_frame(reader.name(i), pipeline.image(), pipeline.labels(),
                                     pipeline.heights_m(), pipeline.truth_of_returns(truth));

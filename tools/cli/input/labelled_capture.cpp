@@ -49,8 +49,8 @@ Status LabelledCapture::prepare(Makes makes) {
       turn_method_of(options_.method), memory_, makes);
   pipeline_->watch_near_ground(near_ground_.get());
   clock_of_device_.emplace(options_.capture.clock_offset_s);
-  sensor_mount_ = profile->mount;
-  mount_.emplace(sensor_mount_, *mount);
+  profile_ = *profile;
+  mount_.emplace(profile_.mount, *mount);
   report_ = {"replay", options_.capture.file.string(), capture_->sensor_line,
              capture_->calibration_line, options_.method};
   if (motion_) report_.motion_samples = 0;

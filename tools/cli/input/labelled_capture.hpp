@@ -74,8 +74,10 @@ class LabelledCapture {
 
   [[nodiscard]] const OpenCapture& capture() const noexcept { return *capture_; }
   [[nodiscard]] const decode::Decoder& decoder() const noexcept { return pipeline_->decoder(); }
+  /// Returns how the sensor's lasers meet the ground, by the mount in use.
+  [[nodiscard]] const mount::RingProfile& profile() const noexcept { return profile_; }
   /// Returns the mount in use.
-  [[nodiscard]] const mount::Mount& sensor_mount() const noexcept { return sensor_mount_; }
+  [[nodiscard]] const mount::Mount& sensor_mount() const noexcept { return profile_.mount; }
   /// Returns which figures of the mount were stated and which were found.
   [[nodiscard]] const MountChoice& mount() const noexcept { return *mount_choice_; }
 
@@ -90,7 +92,7 @@ class LabelledCapture {
   Options options_;
   std::optional<OpenCapture> capture_;
   std::optional<MountChoice> mount_choice_;
-  mount::Mount sensor_mount_;
+  mount::RingProfile profile_;
   memory::FixedMemory motion_memory_, memory_;
   std::optional<RecordedMotion> motion_;
   std::optional<run::PacketPipeline> pipeline_;

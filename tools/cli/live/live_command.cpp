@@ -185,17 +185,18 @@ class Writers {
   explicit Writers(DumpAnswers& answers) noexcept : answers_(answers) {}
 
   /// Opens the outputs. An output that fails is tried again as long as the run goes on.
-  void open(const Options& options, const streams::SensorOnAir& sensor, const mount::Mount& mount,
-            live::LiveParts& parts) {
+  void open(const Options& options, const streams::SensorOnAir& sensor,
+            const mount::RingProfile& profile, live::LiveParts& parts) {
     const auto deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6);
     publisher_.emplace(
         retried_sinks(options.output,
                       {.sensor = describe(sensor),
                        .rows = parts.turns.decoder().shape().rows,
-                       .mount = mount,
+                       .mount = profile.mount,
                        .deadline_ns = deadline_ns,
                        .gives_sectors = true,
-                       .has_road = method_config_of(options.method).segmenter.road.enabled}),
+                       .has_road = method_config_of(options.method).segmenter.road.enabled,
+                       .has_objects = options.method.objects}),
         publish::WhenFull::kDropOldest, warn_of_failure);
     if (parts.thread.points()) {
       std::optional<live::FrameOutlet::Stream> stream;
@@ -203,8 +204,14 @@ class Writers {
         stream = {publish::Reopened<stream::FrameStreamServer>(stream_at(options, parts)),
                   sensor.model, deadline_ns, options.stream_sectors};
       }
+      std::unique_ptr<points::ObjectsOfPoints> objects;
+      if (options.method.objects) {
+        const decode::Decoder& decoder = parts.turns.decoder();
+        objects = std::make_unique<points::ObjectsOfPoints>(profile, decoder.shape(),
+                                                            decoder.return_capacity());
+      }
       outlet_.emplace(std::move(stream), *publisher_, *parts.thread.points(),
-                      parts.thread.sectors(), parts.thread.points_ready());
+                      parts.thread.sectors(), parts.thread.points_ready(), std::move(objects));
     }
     if (parts.thread.labels()) labels_.emplace(options.output, *parts.thread.labels());
     if (parts.recorder) {
@@ -246,7 +253,7 @@ class Writers {
         .unix_mode = options.stream_mode,
         .max_points = parts.turns.decoder().return_capacity(),
         .serves_sectors = options.stream_sectors,
-        .has_heights = options.method.heights};
+        .has_heights = options.method.gives_heights()};
     const auto open = [this, config]() -> Expected<stream::FrameStreamServer> {
       auto server = stream::FrameStreamServer::open(config, stream_memory_);
       if (!server) return server;
@@ -362,7 +369,7 @@ ExitCode run_live(const Options& options) {
   LiveWatch watch(options, profile->mount, mount, parts, display);
 
   Writers writers(dump_answers);
-  writers.open(options, *sensor, profile->mount, parts);
+  writers.open(options, *sensor, *profile, parts);
   say_refusals(parts.start());
   watch.open(describe(*sensor), source->name(), writers.outlet(), writers.publisher());
   const Status ran = rt::caught([&]() -> Status {

@@ -26,6 +26,7 @@ DdsTopics dds_topics_of(const DdsOptions& options) {
       topics = {.ground = "/ground_points", .obstacles = "/nonground_points"};
       break;
   }
+  topics.objects = options.objects == "off" ? "" : options.objects;
   if (options.sectors != "off") topics.sectors = options.sectors;
   if (!options.raw.empty() && options.raw != "off") topics = {.raw = options.raw};
   const auto state = [](const std::string& stated, std::string& topic) {
@@ -78,6 +79,8 @@ Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& op
                                   .obstacles = topic(topics.obstacles),
                                   .road = facts.has_road ? topic(topics.road) : "",
                                   .raw = topic(topics.raw),
+                                  .objects = facts.has_objects ? topic(topics.objects) : "",
+                                  .object_markers = topic(topics.objects + "/markers"),
                                   .diagnostics = topic(topics.diagnostics),
                                   .tf_static = topic("/tf_static"),
                                   // A recording waits for readers, because it must not lose a

@@ -36,10 +36,21 @@ Mistake mistake_of(Label label, std::uint32_t truth) noexcept {
 
 }  // namespace
 
-Status FrameOutputs::write_labels(const std::string& name, std::span<const Label> labels) {
+void FrameOutputs::find_objects(const mount::RingProfile& profile, frame::ImageShape shape,
+                                std::size_t return_capacity) {
+  finder_.emplace(profile, shape, return_capacity, memory_);
+}
+
+void FrameOutputs::look(const frame::RangeImage& image, std::span<const Label> labels,
+                        std::span<const float> heights_m) {
+  if (finder_) finder_->find(image, labels, heights_m);
+}
+
+Status FrameOutputs::write_labels(const std::string& name, std::span<const Label> labels,
+                                  std::span<const std::uint16_t> objects) {
   if (options_.labels.empty()) return {};
   return labels_.place(name + ".label").and_then([&](const std::filesystem::path& path) {
-    return output::write_label_file(path, labels);
+    return output::write_label_file(path, labels, objects);
   });
 }
 
@@ -54,7 +65,7 @@ Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImag
     if (!written) return written;
   }
   if (options_.png.empty()) return {};
-  const pictures::LabelledFrame plain{image, labels, {}};
+  const pictures::LabelledFrame plain{image, labels, {}, objects()};
   const auto legend = legend_of(plain);
   const Status from_above =
       draw(name + ".birdseye.png",
@@ -73,7 +84,7 @@ Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImag
 
   mistakes_.resize(labels.size());
   std::transform(labels.begin(), labels.end(), truth.begin(), mistakes_.begin(), mistake_of);
-  const pictures::LabelledFrame judged{image, labels, mistakes_};
+  const pictures::LabelledFrame judged{image, labels, mistakes_, {}};
   const auto count = [&](Mistake mistake) { return std::ranges::count(mistakes_, mistake); };
   return draw(
       name + ".mistakes.png",
@@ -100,6 +111,9 @@ Status FrameOutputs::publish(const status::FrameRecord& record, const frame::Ran
   shared->points.resize(labels.size());
   shared->heights_m.assign(heights_m.begin(), heights_m.end());
   (void)points::pack_labelled_points(image, labels, shared->points, timing);
+  const std::span<const std::uint16_t> numbers = object_of_return();
+  shared->objects.assign(objects().begin(), objects().end());
+  shared->object_of_point.assign(numbers.begin(), numbers.end());
   publisher_->put(shared);
   return publisher_->outcome();
 }

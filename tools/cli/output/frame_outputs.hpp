@@ -10,6 +10,7 @@
 
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/output/frame_folder.hpp"
 #include "pipeline/pictures/frame_colours.hpp"
 #include "pipeline/pictures/png_picture.hpp"
@@ -40,9 +41,23 @@ class FrameOutputs {
   /// Opens the outputs that get every frame in turn (output/output_sinks.hpp), before the first
   /// frame.
   [[nodiscard]] Status open(const publish::RunFacts& facts);
+  /// Lets look() find objects, which are then part of all outputs. The arguments are those of
+  /// objects::ImageObjects.
+  void find_objects(const mount::RingProfile& profile, frame::ImageShape shape,
+                    std::size_t return_capacity);
 
-  /// Writes NAME.label, in the order of `labels`.
-  [[nodiscard]] Status write_labels(const std::string& name, std::span<const frame::Label> labels);
+  /// Looks at a frame before it is written; `labels` and `heights_m` are by return index.
+  void look(const frame::RangeImage& image, std::span<const frame::Label> labels,
+            std::span<const float> heights_m);
+  /// Returns the number of each return's object; empty unless objects are found.
+  [[nodiscard]] std::span<const std::uint16_t> object_of_return() const noexcept {
+    return finder_ ? finder_->object_of_return() : std::span<const std::uint16_t>();
+  }
+
+  /// Writes NAME.label, in the order of `labels`; `objects` has the numbers of their objects, or is
+  /// empty.
+  [[nodiscard]] Status write_labels(const std::string& name, std::span<const frame::Label> labels,
+                                    std::span<const std::uint16_t> objects);
 
   /// Writes NAME.pcd, NAME.birdseye.png and NAME.range.png; with truth also NAME.mistakes.png.
   /// `image` has points if need_points(); `labels`, `heights_m` (or empty) and `truth`
@@ -65,7 +80,13 @@ class FrameOutputs {
  private:
   [[nodiscard]] Status draw(const std::string& name, const pictures::Picture& picture);
 
+  [[nodiscard]] std::span<const objects::Object> objects() const noexcept {
+    return finder_ ? finder_->objects() : std::span<const objects::Object>();
+  }
+
   OutputOptions options_;
+  memory::FixedMemory memory_;
+  std::optional<objects::ImageObjects> finder_;  ///< Exists after find_objects().
   output::FrameFolder labels_, pcd_, png_;
   std::vector<pictures::Mistake> mistakes_;
   std::optional<publish::Publisher> publisher_;  ///< Exists if open() opened an output.

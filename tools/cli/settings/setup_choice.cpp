@@ -83,7 +83,7 @@ baselines::MethodConfig method_config_of(const MethodOptions& options) {
   if (options.profile == Profile::kPaper) config.segmenter = ground::paper_profile();
   config.segmenter.last_stage = options.last_stage;
   if (!options.method.empty()) config = baselines::method_named(options.method).value();
-  config.segmenter.gives_heights = options.heights;
+  config.segmenter.gives_heights = options.gives_heights();
   for (const std::string& setting : options.settings) {
     (void)baselines::apply_setting(config, setting);
   }

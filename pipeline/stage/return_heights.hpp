@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "firmware_io/frame/firing_tile.hpp"
 #include "firmware_io/frame/label.hpp"
@@ -47,6 +48,13 @@ class ReturnHeights {
   }
 
  private:
+  /// Writes the heights that the cells of a laser's returns have, each to the place that `next`
+  /// says for its firing. Returns false if a return does not own its cell, or came late, after its
+  /// empty cell was labelled: NaN is there.
+  [[nodiscard]] bool take_cells(const frame::MeasuredReturns& turn, std::size_t tile,
+                                std::size_t laser, const float* of_row,
+                                const frame::TileRow<std::uint32_t>& next) noexcept;
+
   std::size_t returns_ = 0;
   std::span<float> heights_m_;
 };
@@ -82,28 +90,43 @@ void ReturnHeights::assign_tile(const frame::MeasuredReturns& turn, std::size_t 
     const frame::MeasuredReturns::LaserRow& row = turn.row(tile, i);
     if (row.returns == 0) continue;
     const float* const of_row = &planes.height_m[turn.shape().cell(rows[i], 0)];
-    const frame::TileRow<std::uint16_t> columns = turn.columns(tile, i);
-    bool all_known = row.owned == row.returns;
-    frame::TileRow<float> height_m;
-    frame::for_each_firing(row.returns, [&](std::size_t f) noexcept {
-      height_m[f] = of_row[columns[f]];
-      // A return that came late, after its empty cell was labelled, finds NaN there.
-      all_known &= height_m[f] == height_m[f];
-    });
-    if (!all_known) {
-      if (!is_open) reader.open(turn.tile(tile).heads, turn.raw(tile));
-      is_open = true;
+    if (!take_cells(turn, tile, i, of_row, next)) {
+      if (!std::exchange(is_open, true)) reader.open(turn.tile(tile).heads, turn.raw(tile));
       frame::TilePoints own;
       reader.compute_points(i, all_of(own));
       frame::for_each_firing(row.returns, [&](std::size_t f) noexcept {
+        float& height_m = heights_m_[next[f]];
         const bool owns = (row.owned >> f & 1U) != 0;
-        if (owns && height_m[f] == height_m[f]) return;
-        height_m[f] = height_of(int{columns[f]}, own.z_m[f], own.ground_range_m[f]);
+        if (owns && height_m == height_m) return;
+        height_m = height_of(turn.column(tile, i, f), own.z_m[f], own.ground_range_m[f]);
       });
     }
-    frame::for_each_firing(row.returns,
-                           [&](std::size_t f) noexcept { heights_m_[next[f]++] = height_m[f]; });
+    for (std::size_t f = 0; f < frame::kTileFirings; ++f) next[f] += row.returns >> f & 1U;
   }
+}
+
+inline bool ReturnHeights::take_cells(const frame::MeasuredReturns& turn, std::size_t tile,
+                                      std::size_t laser, const float* of_row,
+                                      const frame::TileRow<std::uint32_t>& next) noexcept {
+  constexpr std::uint32_t kEveryFiring = (std::uint32_t{1} << frame::kTileFirings) - 1;
+  const frame::MeasuredReturns::LaserRow& row = turn.row(tile, laser);
+  bool all_known = row.owned == row.returns;
+  const auto take = [&](std::size_t f, float height_m) noexcept {
+    heights_m_[next[f]] = height_m;
+    all_known &= height_m == height_m;
+  };
+  if (row.is_run) {
+    const float* const first = of_row + row.least;
+    if (row.returns == kEveryFiring) {
+      for (std::size_t f = 0; f < frame::kTileFirings; ++f) take(f, first[f]);
+    } else {
+      frame::for_each_firing(row.returns, [&](std::size_t f) noexcept { take(f, first[f]); });
+    }
+    return all_known;
+  }
+  frame::for_each_firing(
+      row.returns, [&](std::size_t f) noexcept { take(f, of_row[turn.column(tile, laser, f)]); });
+  return all_known;
 }
 
 }  // namespace terracut::stage

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -177,8 +178,9 @@ py::dict dict_of(const Mount& mount) {
 
 Segmenter::Config config_of(std::optional<double> height_m, double roll_deg, double pitch_deg,
                             const std::string& profile, std::vector<std::string> parameters,
-                            bool find_mount) {
+                            bool find_mount, bool heights) {
   Segmenter::Config config;
+  config.heights = heights;
   config.find_mount = find_mount;
   config.mount.height_m = height_m.value_or(config.mount.height_m);
   config.mount.roll_rad = beams::deg_to_rad(roll_deg);
@@ -192,24 +194,34 @@ Segmenter::Config config_of(std::optional<double> height_m, double roll_deg, dou
   return config;
 }
 
+/// Returns (labels, heights or None).
+py::tuple classes_and_heights(const py::array_t<std::uint8_t>& classes,
+                              const std::optional<py::array_t<float>>& heights) {
+  if (heights) return py::make_tuple(classes, *heights);
+  return py::make_tuple(classes, py::none());
+}
+
 }  // namespace
 
 CloudLabelling::CloudLabelling(const Segmenter::Config& config)
-    : segmenter_(or_raise(Segmenter::make(config))) {}
+    : gives_heights_(config.heights), segmenter_(or_raise(Segmenter::make(config))) {}
 
-py::array_t<std::uint8_t> CloudLabelling::label(const py::object& points, const py::object& laser) {
+py::tuple CloudLabelling::label(const py::object& points, const py::object& laser) {
   const ArrayCloud cloud = cloud_of(points);
   const std::vector<std::uint16_t> lasers = lasers_of(laser, cloud);
   if (!lasers.empty() && !cloud.names.empty()) {
     throw py::value_error("laser: records name their lasers in a field ring");
   }
   py::array_t<std::uint8_t> classes(cloud.shape);
-  if (cloud.points() == 0) return classes;
+  std::optional<py::array_t<float>> heights;
+  if (gives_heights_) heights.emplace(cloud.shape);
+  if (cloud.points() == 0) return classes_and_heights(classes, heights);
   std::vector<CloudPoint> room;
   Cloud numbered;
   if (!lasers.empty()) numbered = cloud_with_lasers(cloud, lasers, room);
   const PointBuffer buffer = cloud.buffer();
   std::uint8_t* out = classes.mutable_data();
+  float* const heights_m = heights ? heights->mutable_data() : nullptr;
   const Status labelled = without_the_lock([&]() -> Status {
     const std::lock_guard lock(mutex_);
     const auto labels = lasers.empty() ? segmenter_.label(buffer) : segmenter_.label(numbered);
@@ -217,10 +229,13 @@ py::array_t<std::uint8_t> CloudLabelling::label(const py::object& points, const 
     for (const Label label : *labels) {
       *out++ = static_cast<std::uint8_t>(output::semantic_kitti_class(label));
     }
+    if (heights_m != nullptr) {
+      std::ranges::copy(segmenter_.height_above_ground_m(), heights_m);
+    }
     return {};
   });
   if (!labelled) raise(labelled.error());
-  return classes;
+  return classes_and_heights(classes, heights);
 }
 
 py::object CloudLabelling::found_mount() {
@@ -239,12 +254,13 @@ void bind_segmenter(py::module_& module) {
   py::class_<CloudLabelling>(module, "Segmenter")
       .def(py::init([](std::optional<double> height_m, double roll_deg, double pitch_deg,
                        const std::string& profile, std::vector<std::string> parameters,
-                       bool find_mount) {
-             return std::make_unique<CloudLabelling>(config_of(
-                 height_m, roll_deg, pitch_deg, profile, std::move(parameters), find_mount));
+                       bool find_mount, bool heights) {
+             return std::make_unique<CloudLabelling>(config_of(height_m, roll_deg, pitch_deg,
+                                                               profile, std::move(parameters),
+                                                               find_mount, heights));
            }),
            py::kw_only(), py::arg("mount_height"), py::arg("mount_roll"), py::arg("mount_pitch"),
-           py::arg("profile"), py::arg("parameters"), py::arg("find_mount"))
+           py::arg("profile"), py::arg("parameters"), py::arg("find_mount"), py::arg("heights"))
       .def("label", &CloudLabelling::label, py::arg("points"), py::arg("laser"))
       .def_property_readonly("found_mount", &CloudLabelling::found_mount);
 }

@@ -17,15 +17,16 @@ class CloudLabelling {
 
   /// `points` are (N, 3 or more) or, organised, (rows, columns, 3 or more) of float32 or float64, x
   /// y z first; or an array of records with fields x, y, z and optionally ring. `laser` is None, or
-  /// a number 0..255 per point. Returns one label per point, a class of SemanticKITTI, in an array
-  /// of its own.
-  [[nodiscard]] pybind11::array_t<std::uint8_t> label(const pybind11::object& points,
-                                                      const pybind11::object& laser);
+  /// a number 0..255 per point. Returns one label per point, a class of SemanticKITTI, and with
+  /// Segmenter::Config::heights one height per point, else None, in arrays of their own.
+  [[nodiscard]] pybind11::tuple label(const pybind11::object& points,
+                                      const pybind11::object& laser);
   /// Returns height_m, roll_deg, pitch_deg, their uncertainty and found_in_frames; None if no mount
   /// was looked for or found.
   [[nodiscard]] pybind11::object found_mount();
 
  private:
+  bool gives_heights_;
   std::mutex mutex_;
   Segmenter segmenter_;
 };

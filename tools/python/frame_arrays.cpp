@@ -78,6 +78,14 @@ void bind_frame(py::module_& module) {
       .def_property_readonly("labels", view<std::uint8_t>(offsetof(Point, label)))
       .def_property_readonly("ring", view<std::uint16_t>(offsetof(Point, row)))
       .def_property_readonly("time", view<float>(offsetof(Point, time_s)))
+      .def_property_readonly("height_above_ground_m",
+                             [](const py::object& self) -> py::object {
+                               const auto& frame = self.cast<const FrameData&>();
+                               if (frame.heights_m.size() != frame.points.size()) return py::none();
+                               return py::array(py::dtype::of<float>(),
+                                                static_cast<py::ssize_t>(frame.heights_m.size()),
+                                                frame.heights_m.data(), self);
+                             })
       .def("__len__", [](const FrameData& frame) { return frame.points.size(); })
       .def("__repr__", [](const FrameData& frame) {
         return "<terracut.Frame " + std::to_string(frame.info.number) + ": " +

@@ -20,6 +20,7 @@ struct FrameData {
   std::uint32_t first_return = 0;             ///< Place in the frame of a sector's first return.
   std::optional<status::FrameRecord> record;  ///< Record of the frame; none for a live run.
   std::vector<stream::WirePoint> points;
+  std::vector<float> heights_m;  ///< Heights above the ground; empty unless asked for.
 };
 
 /// Reuses the memory of frames once Python has dropped the last array that refers to them.

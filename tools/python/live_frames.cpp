@@ -42,12 +42,14 @@ Expected<LiveRun::Config> config_of(const cli::Options& options) {
   config.priority = options.realtime.priority;
   config.lock_memory = options.realtime.lock_memory;
   config.patience_s = options.patience_s;
+  config.heights = options.method.heights;
   return config;
 }
 
-/// Copies points and labels of a frame or sector; times are 0.
+/// Copies points, labels and heights of a frame or sector; times are 0.
 template <class Labelled>
 void copy_points(const Labelled& from, FrameData& to) {
+  to.heights_m.assign(from.height_above_ground_m.begin(), from.height_above_ground_m.end());
   to.points.resize(from.points.size());
   for (std::size_t i = 0; i < from.points.size(); ++i) {
     const Point& point = from.points[i];

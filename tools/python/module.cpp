@@ -7,6 +7,7 @@
 
 #include "cloud_labelling.hpp"
 #include "frame_arrays.hpp"
+#include "ground_cells.hpp"
 #include "live_frames.hpp"
 #include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/ground/profile.hpp"
@@ -51,4 +52,5 @@ PYBIND11_MODULE(_terracut, module) {
   bind_replay(module);
   bind_live(module);
   bind_segmenter(module);
+  bind_ground_grid(module);
 }

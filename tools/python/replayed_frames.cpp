@@ -40,6 +40,8 @@ Expected<std::shared_ptr<FrameData>> ReplayedFrames::next_unlocked() {
     }
     data->points.resize(labelled_.size());
     std::ranges::transform(labelled_, data->points.begin(), stream::wire_point);
+    const std::span<const float> heights_m = capture_->heights_m();
+    data->heights_m.assign(heights_m.begin(), heights_m.end());
     return data;
   }
   if (std::exchange(concluded_, true)) return nullptr;

@@ -60,7 +60,7 @@ class Live(unittest.TestCase):
 
     def test_sectors_come_one_after_the_other_and_make_up_their_frames(self):
         self.be_the_sensor()
-        with terracut.live(self.address, CALIBRATION, deadline=1000, lock_memory=False, sectors=True) as sectors:
+        with terracut.live(self.address, CALIBRATION, deadline=1000, lock_memory=False, sectors=True, heights=True) as sectors:
             taken = [sector for sector, _ in zip(sectors, range(300))]
         places = [(sector.number, sector.first_return) for sector in taken]
         self.assertEqual(places, sorted(set(places)))
@@ -71,6 +71,9 @@ class Live(unittest.TestCase):
         )
         self.assertGreater(follow, 100)
         self.assertLessEqual({*np.unique(taken[0].labels)}, {terracut.GROUND, terracut.OBSTACLE})
+        for sector in taken:
+            self.assertEqual(sector.height_above_ground_m.shape, sector.labels.shape)
+            self.assertTrue(np.isfinite(sector.height_above_ground_m).all())
         self.assertGreaterEqual(sectors.figures()["sectors"], 300)
 
     def test_a_run_ends_by_itself_after_its_duration(self):

@@ -62,6 +62,21 @@ class Replay(unittest.TestCase):
         for frame, labels in zip(frames, wanted, strict=True):
             np.testing.assert_array_equal(frame.labels, labels)
 
+    def test_returns_have_heights_above_the_ground_where_these_are_asked_for(self):
+        without, frames = terracut.replay(CAPTURE), terracut.replay(CAPTURE, heights=True)
+        for frame, plain in zip(frames, without, strict=True):
+            heights = frame.height_above_ground_m
+            self.assertEqual((heights.shape, heights.dtype), ((len(frame),), np.float32))
+            self.assertTrue(np.isfinite(heights).all())
+            self.assertIsNone(plain.height_above_ground_m)
+            np.testing.assert_array_equal(frame.labels, plain.labels)
+            np.testing.assert_array_equal(frame.data, plain.data)
+        ground = np.abs(heights[frame.labels == terracut.GROUND])
+        self.assertLess(np.percentile(ground, 90), 0.08)
+        self.assertGreater(np.median(heights[frame.labels == terracut.OBSTACLE]), 0.3)
+        del frame, plain
+        self.assertGreater(heights.max(), 1)  # the array keeps its memory
+
     def test_arrays_are_views_of_one_memory_that_they_keep(self):
         replay = terracut.replay(CAPTURE)
         frame = next(replay)

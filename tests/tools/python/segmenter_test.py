@@ -56,6 +56,22 @@ class Clouds(unittest.TestCase):
         for name, layout in layouts.items():
             np.testing.assert_array_equal(terracut.Segmenter()(layout, self.ring), self.labels, name)
 
+    def test_every_point_has_a_height_above_the_ground_where_heights_are_asked_for(self):
+        segmenter = terracut.Segmenter(heights=True)
+        points = self.points.copy()
+        points[5, :3] = 0  # no return
+        labels = segmenter(points, self.ring)
+        heights = segmenter.height_above_ground_m
+        self.assertEqual((heights.shape, heights.dtype), (labels.shape, np.float32))
+        np.testing.assert_array_equal(np.isnan(heights), labels == terracut.NONE)
+        self.assertLess(np.median(np.abs(heights[labels == terracut.GROUND])), 0.03)
+        self.assertGreater(np.median(heights[labels == terracut.OBSTACLE]), 0.3)
+        segmenter(points[:, :3], self.ring)
+        self.assertIsNot(segmenter.height_above_ground_m, heights)
+        without = terracut.Segmenter()
+        np.testing.assert_array_equal(without(points, self.ring), labels)
+        self.assertIsNone(without.height_above_ground_m)
+
     def test_records_with_a_ring_say_it_themselves(self):
         types = [("intensity", "u1"), ("ring", "<u2"), ("x", "<f8"), ("z", "<f4"), ("y", "<f4"), ("name", "S3")]
         records = np.zeros(len(self.points), types)
@@ -77,6 +93,9 @@ class Clouds(unittest.TestCase):
         labels = terracut.Segmenter()(cloud)
         self.assertEqual(labels.shape, (64, columns))
         np.testing.assert_array_equal(labels == terracut.NONE, np.isnan(cloud[:, :, 0]))
+        segmenter = terracut.Segmenter(heights=True)
+        np.testing.assert_array_equal(segmenter(cloud), labels)
+        self.assertEqual(segmenter.height_above_ground_m.shape, (64, columns))
 
     def test_points_that_are_no_return_get_none(self):
         points = self.points.copy()

@@ -13,7 +13,7 @@ import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Optional, Union
 
-from ._terracut import Frame, Live, Replay, __version__, parameters
+from ._terracut import Frame, GroundGrid, Live, Replay, __version__, parameters
 from ._terracut import Segmenter as _Segmenter
 from .errors import Error, InvalidArgument, NotFound, TerracutWarning
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     Path = Union[str, os.PathLike[str]]
 
 __all__ = [
-    "GROUND", "NONE", "OBSTACLE", "OTHER_GROUND", "Error", "Frame", "InvalidArgument", "Live", "NotFound", "Replay",
+    "GROUND", "NONE", "OBSTACLE", "OTHER_GROUND", "Error", "Frame", "GroundGrid", "InvalidArgument", "Live", "NotFound", "Replay",
     "Segmenter", "TerracutWarning", "__version__", "live", "parameters", "replay",
 ]  # fmt: skip
 
@@ -82,12 +82,14 @@ def replay(
     can: Optional[Path] = None,
     dbc: Optional[Path] = None,
     deskew_to: Optional[str] = None,
+    heights: bool = False,
     config: Optional[Path] = None,
 ) -> Replay:
     """Returns the labelled frames of a capture or of a bag's packets, as `terracut replay` labels them.
 
     Every setting is the program's option of that name (`terracut replay --help`): angles are degrees, a mount that is
-    not stated is estimated from the first frames. `sender` is --from, `parameters` are those of --set.
+    not stated is estimated from the first frames. `sender` is --from, `parameters` are those of --set. With `heights`
+    frames have `height_above_ground_m`.
     """
     return Replay(_words("replay", [capture], {
         "calibration": calibration, "sensor": sensor, "nominal_calibration": nominal_calibration, "columns": columns,
@@ -95,7 +97,7 @@ def replay(
         "start": start, "duration": duration, "reorder_packets": reorder_packets, "setup": setup,
         "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch, "profile": profile,
         "stages": stages, "method": method, "set": _settings(parameters), "can": can, "dbc": dbc,
-        "deskew_to": deskew_to, "config": config,
+        "deskew_to": deskew_to, "heights": heights, "config": config,
     }))  # fmt: skip
 
 
@@ -113,6 +115,7 @@ def live(
     priority: Optional[int] = None,
     lock_memory: bool = True,
     sectors: bool = False,
+    heights: bool = False,
 ) -> Live:
     """Returns the labelled frames of a sensor that sends to `listen` (ADDRESS:PORT, or a port of any address).
 
@@ -122,12 +125,13 @@ def live(
 
     With `sectors`, they come in pieces of some four degrees, each as soon as its labels are known, some milliseconds
     after it was measured; `first_return` is a piece's place in its frame. 256 of them wait for the loop.
+    With `heights`, they have `height_above_ground_m`.
     """
     return Live(_words("live", [], {
         "listen": listen, "calibration": calibration, "deadline": deadline, "duration": duration, "patience": patience,
         "gather": gather, "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch,
         "priority": priority,
-        "no_lock_memory": not lock_memory,
+        "heights": heights, "no_lock_memory": not lock_memory,
     }), sectors)  # fmt: skip
 
 
@@ -137,6 +141,7 @@ class Segmenter:
     The first cloud decides how points are assigned to lasers: by `laser`, a field `ring` of records, the rows of an
     organised cloud, the order of KITTI's files, or elevations (docs/guide/clouds.md). `parameters` are those of --set.
     `find_mount` estimates the mount from the near ground of the first ten clouds; until then the stated one is used.
+    With `heights`, `height_above_ground_m` has the heights of the points labelled last.
     """
 
     def __init__(
@@ -148,6 +153,7 @@ class Segmenter:
         profile: str = "terracut",
         parameters: Optional[Mapping[str, Any]] = None,
         find_mount: bool = False,
+        heights: bool = False,
     ) -> None:
         self._segmenter = _Segmenter(
             mount_height=mount_height,
@@ -156,12 +162,21 @@ class Segmenter:
             profile=profile,
             parameters=_settings(parameters),
             find_mount=find_mount,
+            heights=heights,
         )
+        self._height_above_ground_m: Optional[npt.NDArray[np.float32]] = None
 
     def __call__(self, points: npt.ArrayLike, laser: Optional[npt.ArrayLike] = None) -> npt.NDArray[np.uint8]:
         """Returns a label for each of the (N, 3 or more) or (rows, columns, 3 or more) points, float32 or float64, in
         the sensor's frame: x ahead, y left, z up, metres. Points without a return (NaN, infinite, 0 0 0) get NONE."""
-        return self._segmenter.label(points, laser)
+        labels, self._height_above_ground_m = self._segmenter.label(points, laser)
+        return labels
+
+    @property
+    def height_above_ground_m(self) -> Optional[npt.NDArray[np.float32]]:
+        """Returns the height of each point labelled last above the ground found below it, metres, NaN of points
+        without a return. None without `heights`, or before the first labels."""
+        return self._height_above_ground_m
 
     @property
     def found_mount(self) -> Optional[dict[str, Any]]:

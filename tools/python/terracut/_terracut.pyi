@@ -42,8 +42,11 @@ class Frame:
     def time(self) -> npt.NDArray[np.float32]:
         """Seconds after the frame's first packet, to half a column."""
     @property
+    def height_above_ground_m(self) -> Optional[npt.NDArray[np.float32]]:
+        """Metres above the ground found below each return; None without `heights`."""
+    @property
     def data(self) -> npt.NDArray[np.void]:
-        """All of it as records: x y z intensity label ring time."""
+        """All but heights as records: x y z intensity label ring time."""
     @property
     def report(self) -> Optional[dict[str, Any]]:
         """The frame's entry of `terracut replay --json`; None of a live frame."""
@@ -84,10 +87,34 @@ class Segmenter:
         profile: str,
         parameters: list[str],
         find_mount: bool,
+        heights: bool,
     ) -> None: ...
     @property
     def found_mount(self) -> Optional[dict[str, Any]]: ...
-    def label(self, points: object, laser: object) -> npt.NDArray[np.uint8]: ...
+    def label(
+        self, points: object, laser: object
+    ) -> tuple[npt.NDArray[np.uint8], Optional[npt.NDArray[np.float32]]]: ...
+
+class GroundGrid:
+    """The ground around the vehicle as square cells, from the labelled returns of one frame: those seen, and those
+    interpolated below things and over gaps of at most `longest_gap_m`.
+
+    Cell [row, column] begins at x = row * cell_m - reach_m (x ahead) and y = column * cell_m - reach_m (y left)."""
+
+    UNKNOWN: int
+    SEEN: int
+    INTERPOLATED: int
+    def __init__(self, *, cell_m: float = 0.5, reach_m: float = 40.0, longest_gap_m: float = 4.0) -> None: ...
+    def update(self, points: npt.ArrayLike, labels: npt.ArrayLike, height_above_ground_m: npt.ArrayLike) -> None:
+        """Replaces the cells by those of these returns, one entry each; those with a height of NaN are left out."""
+    @property
+    def height_m(self) -> npt.NDArray[np.float32]:
+        """Of the ground, in the frame of the points; NaN where nothing near enough tells."""
+    @property
+    def slope_deg(self) -> npt.NDArray[np.float32]: ...
+    @property
+    def known(self) -> npt.NDArray[np.uint8]:
+        """UNKNOWN, SEEN or INTERPOLATED."""
 
 def parameters() -> list[dict[str, Any]]:
     """Every parameter of the method: key, unit, help, default, and its range or its choices."""

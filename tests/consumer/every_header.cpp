@@ -7,6 +7,7 @@
 #include <terracut/frame.hpp>
 #include <terracut/ground_grid.hpp>
 #include <terracut/live_run.hpp>
+#include <terracut/object.hpp>
 #include <terracut/outputs.hpp>
 #include <terracut/packet_pipeline.hpp>
 #include <terracut/segmenter.hpp>

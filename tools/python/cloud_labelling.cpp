@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "calib/beams/angle.hpp"
+#include "object_arrays.hpp"
 #include "pipeline/output/label_sink.hpp"
 #include "raised_error.hpp"
 
@@ -178,8 +179,9 @@ py::dict dict_of(const Mount& mount) {
 
 Segmenter::Config config_of(std::optional<double> height_m, double roll_deg, double pitch_deg,
                             const std::string& profile, std::vector<std::string> parameters,
-                            bool find_mount, bool heights) {
+                            bool find_mount, bool heights, bool objects) {
   Segmenter::Config config;
+  config.objects = objects;
   config.heights = heights;
   config.find_mount = find_mount;
   config.mount.height_m = height_m.value_or(config.mount.height_m);
@@ -204,7 +206,9 @@ py::tuple classes_and_heights(const py::array_t<std::uint8_t>& classes,
 }  // namespace
 
 CloudLabelling::CloudLabelling(const Segmenter::Config& config)
-    : gives_heights_(config.heights), segmenter_(or_raise(Segmenter::make(config))) {}
+    : gives_heights_(config.heights || config.objects),
+      gives_objects_(config.objects),
+      segmenter_(or_raise(Segmenter::make(config))) {}
 
 py::tuple CloudLabelling::label(const py::object& points, const py::object& laser) {
   const ArrayCloud cloud = cloud_of(points);
@@ -238,6 +242,25 @@ py::tuple CloudLabelling::label(const py::object& points, const py::object& lase
   return classes_and_heights(classes, heights);
 }
 
+py::object CloudLabelling::objects() {
+  if (!gives_objects_) return py::none();
+  const std::vector<Object> objects = without_the_lock([&] {
+    const std::lock_guard lock(mutex_);
+    return std::vector<Object>(segmenter_.objects().begin(), segmenter_.objects().end());
+  });
+  return array_of_objects(objects, py::object());
+}
+
+py::object CloudLabelling::object_numbers() {
+  if (!gives_objects_) return py::none();
+  const std::vector<std::uint16_t> numbers = without_the_lock([&] {
+    const std::lock_guard lock(mutex_);
+    const auto of_points = segmenter_.object_of_point();
+    return std::vector<std::uint16_t>(of_points.begin(), of_points.end());
+  });
+  return py::array_t<std::uint16_t>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
+
 py::object CloudLabelling::found_mount() {
   const auto found = without_the_lock([&] {
     const std::lock_guard lock(mutex_);
@@ -254,14 +277,17 @@ void bind_segmenter(py::module_& module) {
   py::class_<CloudLabelling>(module, "Segmenter")
       .def(py::init([](std::optional<double> height_m, double roll_deg, double pitch_deg,
                        const std::string& profile, std::vector<std::string> parameters,
-                       bool find_mount, bool heights) {
+                       bool find_mount, bool heights, bool objects) {
              return std::make_unique<CloudLabelling>(config_of(height_m, roll_deg, pitch_deg,
                                                                profile, std::move(parameters),
-                                                               find_mount, heights));
+                                                               find_mount, heights, objects));
            }),
            py::kw_only(), py::arg("mount_height"), py::arg("mount_roll"), py::arg("mount_pitch"),
-           py::arg("profile"), py::arg("parameters"), py::arg("find_mount"), py::arg("heights"))
+           py::arg("profile"), py::arg("parameters"), py::arg("find_mount"), py::arg("heights"),
+           py::arg("objects"))
       .def("label", &CloudLabelling::label, py::arg("points"), py::arg("laser"))
+      .def_property_readonly("objects", &CloudLabelling::objects)
+      .def_property_readonly("object_numbers", &CloudLabelling::object_numbers)
       .def_property_readonly("found_mount", &CloudLabelling::found_mount);
 }
 

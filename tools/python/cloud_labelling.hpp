@@ -21,12 +21,16 @@ class CloudLabelling {
   /// Segmenter::Config::heights one height per point, else None, in arrays of their own.
   [[nodiscard]] pybind11::tuple label(const pybind11::object& points,
                                       const pybind11::object& laser);
+  /// Returns the objects of the points labelled last; None unless asked for.
+  [[nodiscard]] pybind11::object objects();
+  /// Returns the number of the object of each of these points; None unless asked for.
+  [[nodiscard]] pybind11::object object_numbers();
   /// Returns height_m, roll_deg, pitch_deg, their uncertainty and found_in_frames; None if no mount
   /// was looked for or found.
   [[nodiscard]] pybind11::object found_mount();
 
  private:
-  bool gives_heights_;
+  bool gives_heights_, gives_objects_;
   std::mutex mutex_;
   Segmenter segmenter_;
 };

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "json_object.hpp"
+#include "object_arrays.hpp"
 #include "tools/cli/figures/run_report.hpp"
 
 namespace terracut::python {
@@ -85,6 +86,21 @@ void bind_frame(py::module_& module) {
                                return py::array(py::dtype::of<float>(),
                                                 static_cast<py::ssize_t>(frame.heights_m.size()),
                                                 frame.heights_m.data(), self);
+                             })
+      .def_property_readonly("objects",
+                             [](const py::object& self) -> py::object {
+                               const auto& frame = self.cast<const FrameData&>();
+                               if (!frame.objects) return py::none();
+                               return array_of_objects(*frame.objects, self);
+                             })
+      .def_property_readonly("object_numbers",
+                             [](const py::object& self) -> py::object {
+                               const auto& frame = self.cast<const FrameData&>();
+                               if (!frame.objects) return py::none();
+                               const auto count =
+                                   static_cast<py::ssize_t>(frame.object_of_point.size());
+                               return py::array(py::dtype::of<std::uint16_t>(), count,
+                                                frame.object_of_point.data(), self);
                              })
       .def("__len__", [](const FrameData& frame) { return frame.points.size(); })
       .def("__repr__", [](const FrameData& frame) {

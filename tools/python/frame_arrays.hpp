@@ -5,11 +5,13 @@
 #include <pybind11/numpy.h>
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/stream/labelled_frame_wire.hpp"
 #include "rt/memory/used_again.hpp"
+#include "terracut/object.hpp"
 
 namespace terracut::python {
 
@@ -21,6 +23,14 @@ struct FrameData {
   std::optional<status::FrameRecord> record;  ///< Record of the frame; none for a live run.
   std::vector<stream::WirePoint> points;
   std::vector<float> heights_m;  ///< Heights above the ground; empty unless asked for.
+  /// Objects, and the number of each point's object; none unless asked for.
+  std::optional<std::vector<Object>> objects;
+  std::vector<std::uint16_t> object_of_point;
+
+  void set_objects(std::span<const Object> found, std::span<const std::uint16_t> numbers) {
+    objects.emplace(found.begin(), found.end());
+    object_of_point.assign(numbers.begin(), numbers.end());
+  }
 };
 
 /// Reuses the memory of frames once Python has dropped the last array that refers to them.

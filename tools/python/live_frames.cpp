@@ -43,6 +43,7 @@ Expected<LiveRun::Config> config_of(const cli::Options& options) {
   config.lock_memory = options.realtime.lock_memory;
   config.patience_s = options.patience_s;
   config.heights = options.method.heights;
+  config.objects = options.method.objects;
   return config;
 }
 
@@ -96,6 +97,7 @@ Status LiveFrames::open(const std::vector<std::string>& words) {
   duration_s_ = arguments->options.capture.duration_s;
   auto config = config_of(arguments->options);
   if (!config) return tl::unexpected(config.error());
+  gives_objects_ = config->objects;
   if (gives_sectors_) config->on_sector = [this](const Sector& sector) { keep(sector); };
   auto run = LiveRun::open(*config, is_interrupted);
   if (!run) return tl::unexpected(run.error());
@@ -118,6 +120,7 @@ std::shared_ptr<FrameData> LiveFrames::copied(const Labelled& from, std::uint32_
   data->info.last_packet_ns = from.last_packet_ns;
   data->info.returns = static_cast<std::uint32_t>(from.points.size());
   data->first_return = 0;
+  data->objects.reset();
   copy_points(from, *data);
   return data;
 }
@@ -127,6 +130,7 @@ void LiveFrames::keep(const Frame& frame) {
   data->info.complete = frame.complete;
   if (frame.deskewed) data->info.deskew.state = frame::DeskewState::kDone;
   for (std::size_t i = 0; i < frame.points.size(); ++i) data->points[i].time_s = frame.time_s[i];
+  if (gives_objects_) data->set_objects(frame.objects, frame.object_of_return);
   keep(std::move(data));
 }
 

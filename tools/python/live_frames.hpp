@@ -53,6 +53,7 @@ class LiveFrames {
   std::optional<double> duration_s_;
   std::chrono::steady_clock::time_point begun_;
   bool gives_sectors_;
+  bool gives_objects_ = false;
   FrameBuffers buffers_;
   std::atomic<bool> stop_{false};
   std::mutex mutex_;

@@ -18,8 +18,13 @@ ReplayedFrames::ReplayedFrames(const std::vector<std::string>& words)
     : capture_(or_raise(without_the_lock([&]() -> Expected<std::unique_ptr<cli::LabelledCapture>> {
         const auto arguments = cli::parse_arguments(words);
         if (!arguments) return tl::unexpected(arguments.error());
+        gives_objects_ = arguments->options.method.objects;
         return cli::LabelledCapture::open(arguments->options, cli::LabelledCapture::Makes::kPoints);
-      }))) {}
+      }))) {
+  if (!gives_objects_) return;
+  const decode::Decoder& decoder = capture_->decoder();
+  objects_.emplace(capture_->profile(), decoder.shape(), decoder.return_capacity(), memory_);
+}
 
 std::shared_ptr<FrameData> ReplayedFrames::next() {
   return or_raise(without_the_lock([&] {
@@ -42,6 +47,11 @@ Expected<std::shared_ptr<FrameData>> ReplayedFrames::next_unlocked() {
     std::ranges::transform(labelled_, data->points.begin(), stream::wire_point);
     const std::span<const float> heights_m = capture_->heights_m();
     data->heights_m.assign(heights_m.begin(), heights_m.end());
+    data->objects.reset();
+    if (objects_) {
+      objects_->find(*frame->image, capture_->labels(), heights_m);
+      data->set_objects(objects_->objects(), objects_->object_of_return());
+    }
     return data;
   }
   if (std::exchange(concluded_, true)) return nullptr;

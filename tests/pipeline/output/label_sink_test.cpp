@@ -20,6 +20,14 @@ TEST_F(LabelSink, WritesOneLittleEndianClassAReturnInOrder) {
   EXPECT_EQ(content_of(folder_ / "000000.label"), expected);
 }
 
+TEST_F(LabelSink, WritesTheNumbersOfObjectsIntoTheUpperHalves) {
+  const std::vector labels{Label::kGround, Label::kObstacle, Label::kObstacle};
+  const std::vector<std::uint16_t> objects{0, 1, 0x0203};
+  ASSERT_TRUE(write_label_file(folder_ / "000000.label", labels, objects).has_value());
+  const std::string expected("\x28\0\0\0\x63\0\x01\0\x63\0\x03\x02", 12);
+  EXPECT_EQ(content_of(folder_ / "000000.label"), expected);
+}
+
 TEST_F(LabelSink, WritesAnEmptyFileForAnEmptyFrame) {
   ASSERT_TRUE(write_label_file(folder_ / "000000.label", {}).has_value());
   EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "000000.label"));

@@ -76,6 +76,16 @@ class Live(unittest.TestCase):
             self.assertTrue(np.isfinite(sector.height_above_ground_m).all())
         self.assertGreaterEqual(sectors.figures()["sectors"], 300)
 
+    def test_frames_have_objects_where_these_are_asked_for(self):
+        self.be_the_sensor()
+        with terracut.live(self.address, CALIBRATION, deadline=1000, lock_memory=False, objects=True) as frames:
+            taken = [frame for frame, _ in zip(frames, range(3))]
+        for frame in taken[1:]:
+            self.assertGreater(len(frame.objects), 10)
+            self.assertEqual(frame.object_numbers.max(), len(frame.objects))
+            self.assertEqual(frame.object_numbers.shape, frame.labels.shape)
+            self.assertTrue((frame.labels[frame.object_numbers > 0] == terracut.OBSTACLE).all())
+
     def test_a_run_ends_by_itself_after_its_duration(self):
         self.be_the_sensor()
         frames = list(terracut.live(self.address, CALIBRATION, duration=0.5, deadline=1000, lock_memory=False))

@@ -77,6 +77,28 @@ class Replay(unittest.TestCase):
         del frame, plain
         self.assertGreater(heights.max(), 1)  # the array keeps its memory
 
+    def test_frames_have_objects_where_these_are_asked_for(self):
+        outcome = program("replay", CAPTURE, "--objects", "--duration", "0.3", "--labels", self.folder / "labels")
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        files = sorted((self.folder / "labels").glob("*.label"))
+        frames = list(terracut.replay(CAPTURE, objects=True, duration=0.3))
+        self.assertEqual(len(frames), len(files))
+        for frame, file in zip(frames, files):
+            np.testing.assert_array_equal(frame.object_numbers, np.fromfile(file, np.uint32) >> 16)
+            objects, numbers = frame.objects, frame.object_numbers
+            self.assertGreater(len(objects), 10)
+            self.assertEqual(numbers.max(), len(objects))
+            np.testing.assert_array_equal(np.bincount(numbers)[1:], objects["returns"])
+            self.assertTrue((frame.labels[numbers > 0] == terracut.OBSTACLE).all())
+            nearest = frame.points[objects["first_return"]][:, :2] - np.stack([objects["x_m"], objects["y_m"]], 1)
+            reach = np.hypot(objects["length_m"], objects["width_m"]) / 2
+            self.assertTrue((np.linalg.norm(nearest, axis=1) <= reach + 1).all())
+            self.assertLessEqual(objects["corner_count"].max(), 16)
+        self.assertIsNone(next(terracut.replay(CAPTURE)).objects)
+        del frame
+        gc.collect()
+        self.assertGreater(objects["top_m"].max(), 1)  # the array keeps its memory
+
     def test_arrays_are_views_of_one_memory_that_they_keep(self):
         replay = terracut.replay(CAPTURE)
         frame = next(replay)

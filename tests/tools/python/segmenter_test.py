@@ -97,6 +97,18 @@ class Clouds(unittest.TestCase):
         np.testing.assert_array_equal(segmenter(cloud), labels)
         self.assertEqual(segmenter.height_above_ground_m.shape, (64, columns))
 
+    def test_clouds_have_objects_where_these_are_asked_for(self):
+        segmenter = terracut.Segmenter(objects=True)
+        labels = segmenter(self.points, self.ring)
+        np.testing.assert_array_equal(labels, self.labels)
+        numbers, objects = segmenter.object_numbers, segmenter.objects
+        self.assertGreater(len(objects), 10)
+        self.assertEqual(numbers.shape, labels.shape)
+        self.assertEqual(numbers.max(), len(objects))
+        np.testing.assert_array_equal(np.bincount(numbers)[1:], objects["returns"])
+        self.assertTrue((labels[numbers > 0] == terracut.OBSTACLE).all())
+        self.assertIsNone(terracut.Segmenter().objects)
+
     def test_points_that_are_no_return_get_none(self):
         points = self.points.copy()
         points[10] = np.nan

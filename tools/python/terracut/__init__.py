@@ -83,13 +83,14 @@ def replay(
     dbc: Optional[Path] = None,
     deskew_to: Optional[str] = None,
     heights: bool = False,
+    objects: bool = False,
     config: Optional[Path] = None,
 ) -> Replay:
     """Returns the labelled frames of a capture or of a bag's packets, as `terracut replay` labels them.
 
     Every setting is the program's option of that name (`terracut replay --help`): angles are degrees, a mount that is
     not stated is estimated from the first frames. `sender` is --from, `parameters` are those of --set. With `heights`
-    frames have `height_above_ground_m`.
+    frames have `height_above_ground_m`, with `objects` that, `objects` and `object_numbers`.
     """
     return Replay(_words("replay", [capture], {
         "calibration": calibration, "sensor": sensor, "nominal_calibration": nominal_calibration, "columns": columns,
@@ -97,7 +98,7 @@ def replay(
         "start": start, "duration": duration, "reorder_packets": reorder_packets, "setup": setup,
         "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch, "profile": profile,
         "stages": stages, "method": method, "set": _settings(parameters), "can": can, "dbc": dbc,
-        "deskew_to": deskew_to, "heights": heights, "config": config,
+        "deskew_to": deskew_to, "heights": heights, "objects": objects, "config": config,
     }))  # fmt: skip
 
 
@@ -116,6 +117,7 @@ def live(
     lock_memory: bool = True,
     sectors: bool = False,
     heights: bool = False,
+    objects: bool = False,
 ) -> Live:
     """Returns the labelled frames of a sensor that sends to `listen` (ADDRESS:PORT, or a port of any address).
 
@@ -125,13 +127,13 @@ def live(
 
     With `sectors`, they come in pieces of some four degrees, each as soon as its labels are known, some milliseconds
     after it was measured; `first_return` is a piece's place in its frame. 256 of them wait for the loop.
-    With `heights`, they have `height_above_ground_m`.
+    With `heights`, they have `height_above_ground_m`; with `objects`, whole frames have `objects` and `object_numbers`.
     """
     return Live(_words("live", [], {
         "listen": listen, "calibration": calibration, "deadline": deadline, "duration": duration, "patience": patience,
         "gather": gather, "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch,
         "priority": priority,
-        "heights": heights, "no_lock_memory": not lock_memory,
+        "heights": heights, "objects": objects, "no_lock_memory": not lock_memory,
     }), sectors)  # fmt: skip
 
 
@@ -141,7 +143,8 @@ class Segmenter:
     The first cloud decides how points are assigned to lasers: by `laser`, a field `ring` of records, the rows of an
     organised cloud, the order of KITTI's files, or elevations (docs/guide/clouds.md). `parameters` are those of --set.
     `find_mount` estimates the mount from the near ground of the first ten clouds; until then the stated one is used.
-    With `heights`, `height_above_ground_m` has the heights of the points labelled last.
+    With `heights`, `height_above_ground_m` has the heights of the points labelled last; with `objects` there are
+    `objects` and `object_numbers`, too.
     """
 
     def __init__(
@@ -154,6 +157,7 @@ class Segmenter:
         parameters: Optional[Mapping[str, Any]] = None,
         find_mount: bool = False,
         heights: bool = False,
+        objects: bool = False,
     ) -> None:
         self._segmenter = _Segmenter(
             mount_height=mount_height,
@@ -163,6 +167,7 @@ class Segmenter:
             parameters=_settings(parameters),
             find_mount=find_mount,
             heights=heights,
+            objects=objects,
         )
         self._height_above_ground_m: Optional[npt.NDArray[np.float32]] = None
 
@@ -177,6 +182,18 @@ class Segmenter:
         """Returns the height of each point labelled last above the ground found below it, metres, NaN of points
         without a return. None without `heights`, or before the first labels."""
         return self._height_above_ground_m
+
+    @property
+    def objects(self) -> Optional[npt.NDArray[np.void]]:
+        """Returns the objects of the points labelled last, records as of `Frame.objects`, in the vehicle's frame. None
+        without `objects`."""
+        return self._segmenter.objects
+
+    @property
+    def object_numbers(self) -> Optional[npt.NDArray[np.uint16]]:
+        """Returns the number of the object of each point labelled last, in the points' order; object i has the number
+        i + 1, 0 is none. None without `objects`."""
+        return self._segmenter.object_numbers
 
     @property
     def found_mount(self) -> Optional[dict[str, Any]]:

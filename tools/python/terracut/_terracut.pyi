@@ -45,6 +45,13 @@ class Frame:
     def height_above_ground_m(self) -> Optional[npt.NDArray[np.float32]]:
         """Metres above the ground found below each return; None without `heights`."""
     @property
+    def objects(self) -> Optional[npt.NDArray[np.void]]:
+        """Objects as records: returns first_return last_return bottom_m top_m ground_z_m; the box's x_m y_m along_x
+        along_y length_m width_m; the footprint's corner_count and corners (16, 2). None without `objects`."""
+    @property
+    def object_numbers(self) -> Optional[npt.NDArray[np.uint16]]:
+        """The number of each return's object: i + 1 of objects[i], 0 is none. None without `objects`."""
+    @property
     def data(self) -> npt.NDArray[np.void]:
         """All but heights as records: x y z intensity label ring time."""
     @property
@@ -88,7 +95,12 @@ class Segmenter:
         parameters: list[str],
         find_mount: bool,
         heights: bool,
+        objects: bool,
     ) -> None: ...
+    @property
+    def objects(self) -> Optional[npt.NDArray[np.void]]: ...
+    @property
+    def object_numbers(self) -> Optional[npt.NDArray[np.uint16]]: ...
     @property
     def found_mount(self) -> Optional[dict[str, Any]]: ...
     def label(

@@ -148,6 +148,34 @@ async function checkWhole() {
   console.log(`${labelFiles.length} frames, ${reader.statistics.messageCount} messages in ${bytes.length} bytes: the same by index and in order`)
 }
 
+async function checkObjects() {
+  replay('--duration', '0.5', '--labels', 'numbered', '--objects', '--mcap', 'objects.mcap')
+  const { topics } = await readIndexed(path.join(folder, 'objects.mcap'))
+  const names = fs.readdirSync(path.join(folder, 'numbered')).filter(name => name.endsWith('.label')).sort()
+  assert.equal(topics['/terracut/objects'].length, names.length)
+  let objects = 0
+  names.forEach((name, i) => {
+    const bytes = fs.readFileSync(path.join(folder, 'numbered', name))
+    const numbers = Array.from({ length: bytes.length / 4 }, (_, k) => bytes.readUInt16LE(4 * k + 2))
+    const { header, detections } = topics['/terracut/objects'][i].message
+    assert.deepEqual(header, topics['/terracut/points'][i].message.header)
+    assert.equal(detections.length, numbers.reduce((most, number) => Math.max(most, number)))
+    assert.deepEqual(detections.map(({ id }) => id), detections.map((_, k) => String(k + 1)))
+    for (const { bbox: { center: { position, orientation }, size } } of detections) {
+      assert.ok(Math.hypot(position.x, position.y) < 150 && size.x >= size.y && size.z > 0 && size.z < 20)
+      assert.ok(Math.abs(Math.hypot(orientation.z, orientation.w) - 1) < 1e-5 && orientation.x === 0 && orientation.y === 0)
+    }
+    const { markers: [boxes, footprints] } = topics['/terracut/objects/markers'][i].message
+    assert.deepEqual([boxes.ns, boxes.type, footprints.ns], ['boxes', 5, 'footprints'])
+    assert.equal(boxes.points.length, 24 * detections.length)
+    assert.ok(footprints.points.length >= 2 * detections.length && footprints.points.length % 2 === 0)
+    assert.ok(Math.abs(boxes.scale.x - 0.05) < 1e-9 && boxes.color.a === 1 && boxes.pose.orientation.w === 1)
+    objects += detections.length
+  })
+  assert.ok(objects > 10 * names.length)
+  console.log(`${objects} objects in ${names.length} frames`)
+}
+
 async function checkBag() {
   replay('--duration', '1', '--mcap', 'bag', '--mcap-split-s', '0.4')
   const metadata = fs.readFileSync(path.join(folder, 'bag/metadata.yaml'), 'utf8')
@@ -220,6 +248,7 @@ function* chunksOf(bytes) {
 fs.rmSync(folder, { recursive: true, force: true })
 fs.mkdirSync(folder, { recursive: true })
 await checkWhole()
+await checkObjects()
 await checkBag()
 await checkKilled()
 fs.mkdirSync(path.join(folder, 'fleet'))

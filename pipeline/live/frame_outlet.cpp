@@ -107,10 +107,7 @@ bool FrameOutlet::hand_out(const Slots::Frame& frame) {
     shared->heights_m.assign(frame.heights_m.begin(), frame.heights_m.end());
     if (objects_ != nullptr) {
       objects_->find(shared->points, shared->heights_m);
-      const auto objects = objects_->objects();
-      const auto numbers = objects_->object_of_point();
-      shared->objects.assign(objects.begin(), objects.end());
-      shared->object_of_point.assign(numbers.begin(), numbers.end());
+      publish::set_objects(objects_->found(), *shared);
     }
     publisher_.put(shared);
     return {};

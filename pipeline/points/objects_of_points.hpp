@@ -36,6 +36,8 @@ class ObjectsOfPoints {
   [[nodiscard]] std::span<const objects::Object> objects() const noexcept {
     return objects_.objects();
   }
+  /// Returns both, by return index, which is the index of the point.
+  [[nodiscard]] const objects::ImageObjects& found() const noexcept { return objects_; }
   /// Returns the number of each point's object; 0: none.
   [[nodiscard]] std::span<const std::uint16_t> object_of_point() const noexcept {
     return objects_.object_of_return();  // the number of a return is that of its point

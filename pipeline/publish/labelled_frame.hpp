@@ -4,9 +4,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
-#include "pipeline/objects/object.hpp"
+#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/points/labelled_point.hpp"
 #include "pipeline/points/sector_record.hpp"
 #include "pipeline/status/frame_record.hpp"
@@ -24,6 +25,13 @@ struct LabelledFrame {
   std::vector<objects::Object> objects;
   std::vector<std::uint16_t> object_of_point;
 };
+
+/// Copies the objects and numbers that a finder (objects::ImageObjects) has found to a frame.
+inline void set_objects(const objects::ImageObjects& found, LabelledFrame& frame) {
+  const std::span<const std::uint16_t> numbers = found.object_of_return();
+  frame.objects.assign(found.objects().begin(), found.objects().end());
+  frame.object_of_point.assign(numbers.begin(), numbers.end());
+}
 
 /// A labelled sector on its way to the same outputs, before its frame. The time_s of its points is
 /// 0.

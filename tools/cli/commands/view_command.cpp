@@ -54,7 +54,8 @@ ExitCode run_view(const Options& as_said) {
     return show(**clouds,
                 {.sensor = (*clouds)->sensor_line(),
                  .rows = (*clouds)->rows(),
-                 .mount = (*clouds)->sensor_mount()},
+                 .mount = (*clouds)->sensor_mount(),
+                 .has_objects = options.method.objects},
                 options);
   }
   auto capture = LabelledCapture::open(options, LabelledCapture::Makes::kPoints);
@@ -64,7 +65,8 @@ ExitCode run_view(const Options& as_said) {
   return show(played,
               {.sensor = (*capture)->capture().sensor_line,
                .rows = (*capture)->decoder().shape().rows,
-               .mount = (*capture)->sensor_mount()},
+               .mount = (*capture)->sensor_mount(),
+               .has_objects = options.method.objects},
               options);
 }
 

@@ -111,9 +111,7 @@ Status FrameOutputs::publish(const status::FrameRecord& record, const frame::Ran
   shared->points.resize(labels.size());
   shared->heights_m.assign(heights_m.begin(), heights_m.end());
   (void)points::pack_labelled_points(image, labels, shared->points, timing);
-  const std::span<const std::uint16_t> numbers = object_of_return();
-  shared->objects.assign(objects().begin(), objects().end());
-  shared->object_of_point.assign(numbers.begin(), numbers.end());
+  if (finder_) publish::set_objects(*finder_, *shared);
   publisher_->put(shared);
   return publisher_->outcome();
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline/objects/image_objects.hpp"
 #include "played_recording.hpp"
 #include "tools/cli/input/labelled_capture.hpp"
 
@@ -34,6 +35,8 @@ class PlayedCapture : public PlayedRecording {
 
   LabelledCapture& capture_;
   const Options& options_;
+  memory::FixedMemory memory_;
+  std::optional<objects::ImageObjects> objects_;  ///< Exists if they were asked for.
   const run::Frame* frame_ = nullptr;
   Span span_{};
   /// The decoder's frame number, which never restarts, minus the frame's number in file names.

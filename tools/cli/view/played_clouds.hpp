@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
 #include "played_recording.hpp"
 #include "tools/cli/input/cloud_input.hpp"
@@ -41,6 +43,8 @@ class PlayedClouds : public PlayedRecording {
   std::string sensor_line_;
   mount::Mount mount_;
   std::unique_ptr<run::CloudPipeline> pipeline_;
+  memory::FixedMemory memory_;
+  std::optional<objects::ImageObjects> objects_;  ///< Exists if they were asked for.
   status::FrameRecord record_;
   std::size_t next_ = 0;
   std::string trouble_;  ///< The reason why the newest cloud could not be labelled.

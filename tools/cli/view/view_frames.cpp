@@ -3,6 +3,7 @@
 #include "view_frames.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -14,6 +15,11 @@ namespace {
 
 double milliseconds(std::int64_t ns) {
   return static_cast<double>(ns / 1000) / 1000;
+}
+
+/// Returns metres, rounded.
+double centimetres(float metres) {
+  return std::round(static_cast<double>(metres) * 100) / 100;
 }
 
 }  // namespace
@@ -37,6 +43,10 @@ void ViewFrames::put(const publish::LabelledFrame& frame) {
   }
   ++frames_put_;
   losses_ += frame.record.info.losses;
+  if (gives_objects()) {
+    objects_.push_back({frame.record.info.number, frame.objects});
+    if (objects_.size() > kFramesWithObjects) objects_.pop_front();
+  }
   shown_.push_back(of_frame);
   if (shown_.size() > kFramesShown) shown_.pop_front();
 }
@@ -85,11 +95,31 @@ ViewFrames::Shown ViewFrames::shown(const status::FrameRecord& record) const noe
   return {milliseconds(latency_ns), record.level, latency_ns > facts_.deadline_ns};
 }
 
+nlohmann::ordered_json ViewFrames::objects(std::uint32_t frame) const {
+  nlohmann::ordered_json json;
+  json["boxes"] = nlohmann::ordered_json::array();
+  const std::lock_guard lock(mutex_);
+  const auto of_frame = std::find_if(objects_.rbegin(), objects_.rend(),
+                                     [&](const FrameObjects& kept) { return kept.frame == frame; });
+  if (of_frame == objects_.rend()) return json;
+  for (const objects::Object& object : of_frame->objects) {
+    nlohmann::ordered_json corners = nlohmann::ordered_json::array();
+    for (const objects::Corner& corner : object.box.corners()) {
+      corners.push_back({centimetres(corner.x_m), centimetres(corner.y_m)});
+    }
+    json["boxes"].push_back({{"corners", std::move(corners)},
+                             {"bottom_m", centimetres(object.ground_z_m + object.bottom_m)},
+                             {"top_m", centimetres(object.ground_z_m + object.top_m)}});
+  }
+  return json;
+}
+
 nlohmann::ordered_json ViewFrames::figures() const {
   nlohmann::ordered_json json;
   const std::lock_guard lock(mutex_);
   json["sensor"] = facts_.sensor;
   json["rows"] = facts_.rows;
+  json["objects"] = facts_.has_objects;
   json["deadline_ms"] = nullptr;
   if (facts_.deadline_ns > 0) json["deadline_ms"] = milliseconds(facts_.deadline_ns);
   json["frames"] = nlohmann::ordered_json::array();

@@ -203,6 +203,24 @@ class APage(unittest.TestCase):
             self.assertLess((np.abs(self.pixels() - ground) <= 2).all(axis=2).sum(), 1000)
             picture(self.browser, f"by_{name}")
 
+    def test_boxes_of_objects_are_drawn_where_there_are_any(self):
+        served = self.served("view", DRIVE, "--objects", "--at", "127.0.0.1:0")
+        self.browser.open(served.url)
+        served.stand_at(0.5)
+        self.browser.wait_for("!document.querySelector('[data-kind=box]').hidden")
+        box = self.colour_of("box")
+        self.browser.wait_for("document.getElementById('frame').dataset.number")
+
+        def drawn():
+            return int((np.abs(self.pixels() - box) <= 2).all(axis=2).sum())
+
+        given_up = time.monotonic() + 60
+        while drawn() < 500:
+            self.assertLess(time.monotonic(), given_up)
+        picture(self.browser, "boxes")
+        self.browser.press("x")
+        self.assertEqual(drawn(), 0)
+
     def test_a_capture_is_played_stepped_and_sought(self):
         served = self.served("view", DRIVE, "--at", "127.0.0.1:0")
         self.browser.open(served.url)

@@ -38,7 +38,8 @@ publish::LabelledSector sector_of(std::uint32_t frame, std::uint32_t first,
                                   std::size_t points = 100) {
   publish::LabelledSector sector{
       .record = {.frame = frame, .first_return = first, .first_packet_ns = 1, .labels_ns = 2},
-      .points = {}};
+      .points = {},
+      .heights_m = {}};
   sector.points.assign(points, {.x_m = 1, .label = frame::Label::kGround});
   return sector;
 }
@@ -53,13 +54,15 @@ class NotedCapture : public ViewedCapture {
 
 class Page : public testing::Test {
  protected:
-  explicit Page(ViewedCapture* capture = nullptr, bool gives_sectors = false) {
+  explicit Page(ViewedCapture* capture = nullptr, bool gives_sectors = false,
+                bool has_objects = false) {
     auto opened = ViewSink::open("127.0.0.1:0",
                                  {.sensor = "a made sensor",
                                   .rows = 64,
                                   .mount = {},
                                   .deadline_ns = 50'000'000,
-                                  .gives_sectors = gives_sectors},
+                                  .gives_sectors = gives_sectors,
+                                  .has_objects = has_objects},
                                  capture);
     if (!opened) throw std::runtime_error(opened.error().message);
     sink_ = *std::move(opened);
@@ -87,6 +90,11 @@ class Page : public testing::Test {
 class PageBySectors : public Page {
  protected:
   PageBySectors() : Page(nullptr, true) {}
+};
+
+class PageWithObjects : public Page {
+ protected:
+  PageWithObjects() : Page(nullptr, false, true) {}
 };
 
 class PageOfACapture : public Page {
@@ -276,10 +284,34 @@ TEST_F(Page, ShowsLatencyAndWhatMissedTheDeadline) {
   EXPECT_EQ(shown.at("rows"), 64);
   EXPECT_EQ(shown.at("frames"), json::parse("[[4.0, 0, false], [60.0, 1, true]]"));
   EXPECT_EQ(shown.at("capture"), nullptr);
+  EXPECT_EQ(shown.at("objects"), false);
+  EXPECT_EQ(get("/objects/1").status, 404);
   for (std::uint32_t number = 3; number < 400; ++number) {
     ASSERT_TRUE(sink_->put(frame_of(number)));
   }
   EXPECT_EQ(figures().at("frames").size(), ViewFrames::kFramesShown);
+}
+
+TEST_F(PageWithObjects, GivesTheBoxesOfTheFrameThatIsAskedFor) {
+  EXPECT_EQ(figures().at("objects"), true);
+  for (std::uint32_t number = 0; number < 100; ++number) {
+    publish::LabelledFrame frame = frame_of(number);
+    objects::Object object;
+    object.bottom_m = 0.25F;
+    object.top_m = 1.5F;
+    object.ground_z_m = -1;
+    object.box = {{static_cast<float>(number), 2}, {0, 1}, 4, 2};
+    frame.objects = {object};
+    ASSERT_TRUE(sink_->put(frame));
+  }
+  const json of_70 = json::parse(get("/objects/70").body);
+  EXPECT_EQ(of_70, json::parse(R"({"boxes": [{"corners": [[69, 4], [69, 0], [71, 0], [71, 4]],
+                                              "bottom_m": -0.75, "top_m": 0.5}]})"));
+  EXPECT_EQ(json::parse(get("/objects/10").body), json::parse(R"({"boxes": []})"))
+      << "it is forgotten";
+  for (const char* none : {"/objects/", "/objects/x", "/objects/7x", "/objects/-1"}) {
+    EXPECT_EQ(get(none).status, 404) << none;
+  }
 }
 
 TEST_F(Page, KeepsTheLastFrameOfASensorThatIsSilentAndSaysSinceWhen) {

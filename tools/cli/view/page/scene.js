@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 
-// Draws points as they lie in the stream, circles ten metres apart, and the vehicle.
+// Draws points as they lie in the stream, boxes of objects, circles ten metres apart, and the vehicle.
 
 import { KINDS, RAMP_STEPS, RANGES, ramp } from "./colours.js";
 
@@ -36,10 +36,11 @@ void main() {
 const LINES = `#version 300 es
 layout(location = 0) in vec4 place; // w: how bright
 uniform mat4 view;
+uniform vec3 tint;
 out vec3 colour;
 void main() {
   gl_Position = view * vec4(place.xyz, 1);
-  colour = vec3(0.055, 0.075, 0.094) + place.w * vec3(0.36, 0.44, 0.5);
+  colour = mix(vec3(0.055, 0.075, 0.094), tint, place.w);
 }`;
 
 const PAINT = `#version 300 es
@@ -73,6 +74,20 @@ function lineSegments() {
   return new Float32Array(places);
 }
 
+// The twelve edges of each box: {corners, bottom_m, top_m}.
+function boxSegments(boxes) {
+  const places = [];
+  for (const { corners, bottom_m: bottom, top_m: top } of boxes) {
+    corners.forEach((corner, i) => {
+      const next = corners[(i + 1) % corners.length];
+      for (const [from, to] of [[[...corner, bottom], [...next, bottom]], [[...corner, top], [...next, top]], [[...corner, bottom], [...corner, top]]]) {
+        places.push(...from, 1, ...to, 1);
+      }
+    });
+  }
+  return new Float32Array(places);
+}
+
 function program(gl, vertex) {
   const made = gl.createProgram();
   for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, PAINT]]) {
@@ -102,15 +117,36 @@ export class Scene {
     this.pieces = []; // of the buffer: {first, count}, and of sectors when they began
     this.next = null; // where the next sector goes; null: the buffer holds a whole frame
     const places = lineSegments();
-    this.lineVertices = places.length / 4;
-    this.lineLayout = gl.createVertexArray();
-    gl.bindVertexArray(this.lineLayout);
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    this.floor = this.lineLayout(places);
+    this.boxes = this.lineLayout(new Float32Array(0));
+    gl.enable(gl.DEPTH_TEST);
+    gl.clearColor(0.055, 0.075, 0.094, 1);
+  }
+
+  lineLayout(places) {
+    const gl = this.gl;
+    const lines = { layout: gl.createVertexArray(), buffer: gl.createBuffer(), vertices: places.length / 4 };
+    gl.bindVertexArray(lines.layout);
+    gl.bindBuffer(gl.ARRAY_BUFFER, lines.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, places, gl.STATIC_DRAW);
     gl.enableVertexAttribArray(0);
     gl.vertexAttribPointer(0, 4, gl.FLOAT, false, 0, 0);
-    gl.enable(gl.DEPTH_TEST);
-    gl.clearColor(0.055, 0.075, 0.094, 1);
+    return lines;
+  }
+
+  setBoxes(boxes) {
+    const gl = this.gl;
+    const places = boxSegments(boxes);
+    this.boxes.vertices = places.length / 4;
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.boxes.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, places, gl.STREAM_DRAW);
+  }
+
+  drawLines(lines, tint) {
+    const gl = this.gl;
+    gl.uniform3fv(this.lines.uniform("tint"), tint);
+    gl.bindVertexArray(lines.layout);
+    gl.drawArrays(gl.LINES, 0, lines.vertices);
   }
 
   setPoints(bytes, count, pointBytes) {
@@ -162,8 +198,8 @@ export class Scene {
 
     gl.useProgram(this.lines.made);
     gl.uniformMatrix4fv(this.lines.uniform("view"), false, view);
-    gl.bindVertexArray(this.lineLayout);
-    gl.drawArrays(gl.LINES, 0, this.lineVertices);
+    this.drawLines(this.floor, [0.415, 0.515, 0.594]);
+    if (look.shown.has("box")) this.drawLines(this.boxes, unit(KINDS.box));
     if (this.pieces.length === 0) return;
 
     const { made, uniform } = this.points;
@@ -176,7 +212,7 @@ export class Scene {
       gl.uniform2fv(uniform("range"), RANGES[look.colourBy]);
     }
     gl.uniform1i(uniform("hasOtherGround"), look.hasOtherGround ? 1 : 0);
-    gl.uniform1ui(uniform("shown"), 8 | [...look.shown].reduce((bits, kind) => bits | BITS[kind], 0));
+    gl.uniform1ui(uniform("shown"), 8 | [...look.shown].reduce((bits, kind) => bits | (BITS[kind] ?? 0), 0));
     const least = 1.25 * ratio * look.pointSize;
     gl.uniform3f(uniform("size"), camera.isFlat ? least : 50 * ratio * look.pointSize, least, 3 * least);
     gl.bindVertexArray(this.pointLayout);

@@ -10,7 +10,7 @@ import { degradedText, drawStrip, figuresText } from "./strip.js";
 const at = (id) => document.getElementById(id);
 const canvas = at("scene");
 const camera = new Camera();
-const look = { colourBy: "label", hasOtherGround: false, shown: new Set(["road", "ground", "obstacle"]), pointSize: 1 };
+const look = { colourBy: "label", hasOtherGround: false, shown: new Set(["road", "ground", "obstacle", "box"]), pointSize: 1 };
 const MARKED_M = [20, 40, 60, 80, 100];
 
 let scene;
@@ -67,6 +67,24 @@ function noteLabels({ header, points }) {
   }
 }
 
+// --- the objects of the frame that is shown ---
+
+const objects = { areGiven: false, isAsked: false, of: null };
+
+async function askForObjects() {
+  const frame = at("frame").dataset.number;
+  if (!objects.areGiven || objects.isAsked || !look.shown.has("box") || frame === objects.of) return;
+  objects.isAsked = true;
+  try {
+    scene.setBoxes((await (await fetch(`objects/${frame}`, { cache: "no-store" })).json()).boxes);
+    objects.of = frame;
+    isDirty = true;
+  } catch (error) {
+    console.warn(error);
+  }
+  objects.isAsked = false;
+}
+
 const milliseconds = (ns) => Number(ns / 1000n) / 1000;
 
 function take(message) {
@@ -82,6 +100,7 @@ function take(message) {
   const returns = header.points + header.firstReturn;
   at("frame").textContent = `frame ${header.number} · ${returns.toLocaleString("en")} returns`;
   at("frame").dataset.number = header.number;
+  askForObjects();
   if (header.firstReturn === 0) {
     newest = message;
     return;
@@ -115,9 +134,9 @@ function showLook() {
   for (const button of at("views").querySelectorAll("[data-view]")) button.ariaPressed = button.dataset.view === camera.view;
   for (const button of at("kinds").children) {
     const kind = button.dataset.kind;
-    button.hidden = kind === "road" && !look.hasOtherGround;
+    button.hidden = (kind === "road" && !look.hasOtherGround) || (kind === "box" && !objects.areGiven);
     button.ariaPressed = look.shown.has(kind);
-    button.firstElementChild.style.color = look.colourBy === "label" ? css(KINDS[kind]) : "var(--quiet)";
+    button.firstElementChild.style.color = look.colourBy === "label" || kind === "box" ? css(KINDS[kind]) : "var(--quiet)";
   }
   const bar = at("ramp");
   bar.hidden = look.colourBy === "label";
@@ -139,6 +158,7 @@ function colourBy(name) {
 function toggle(kind) {
   if (!look.shown.delete(kind)) look.shown.add(kind);
   showLook();
+  askForObjects();
 }
 function see(view) {
   camera.look(view);
@@ -193,6 +213,11 @@ const countText = (cause, count) => `${count} ${cause.replaceAll("_", " ")}`;
 
 function show(figures) {
   at("sensor").textContent = figures.sensor;
+  if (figures.objects !== objects.areGiven) {
+    objects.areGiven = figures.objects;
+    showLook();
+    askForObjects();
+  }
   if (figures.rows > 1) RANGES.ring[1] = figures.rows - 1;
   at("times-title").textContent = figures.deadline_ms ? "after the last packet" : "work a frame";
   at("times-figures").textContent = figuresText(figures.frames);
@@ -221,6 +246,7 @@ const KEYS = {
   r: () => toggle("road"),
   g: () => toggle("ground"),
   o: () => toggle("obstacle"),
+  x: () => objects.areGiven && toggle("box"),
   b: () => see("orbit"),
   f: () => see("follow"),
   t: () => see("top"),

@@ -208,10 +208,10 @@ struct EncodeOptions {
 };
 
 struct EvalOptions {
-  std::string dataset;         ///< A built-in class table, "own", "simulated", "hazards" or
-                               ///< "objects".
+  std::string dataset;         ///< A built-in class table, "own", "simulated", "hazards",
+                               ///< "objects", "free" or "sight".
   std::filesystem::path root;  ///< For simulated: scenes, separated by commas.
-  std::vector<std::string> more_roots;  ///< Of hazards and objects only: the words after `root`.
+  std::vector<std::string> more_roots;  ///< Of the last four: the words after `root`.
   std::vector<std::string> kinds;       ///< Kinds of hazards; empty: all.
   int trials = 3;                       ///< Hazards of a kind for each ground, range and frame.
   std::vector<std::string> sequences;   ///< Sequences; empty: all with labels.

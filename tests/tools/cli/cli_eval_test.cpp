@@ -356,5 +356,32 @@ TEST_F(CliEval, ComparesObjectsWithTheirTruth) {
   expect_done("eval objects simulated flat --duration 0.1");
 }
 
+TEST_F(CliEval, MeasuresTheFreeWay) {
+  const Outcome outcome =
+      run("eval free simulated flat --duration 0.1 --trials 1 --json free.json");
+  ASSERT_EQ(outcome.exit_code, kOk) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("free way"), HasSubstr("pits")));
+  const auto report = json("free.json");
+  const auto& free_way = report.at("methods").at("terracut").at("free_way");
+  EXPECT_EQ(free_way.at("frames").get<int>(), 1);
+  EXPECT_GT(free_way.at("seen_m").get<double>(), 5);
+  for (const auto& of_bin : free_way.at("pits")) EXPECT_EQ(of_bin.at("failed").get<int>(), 0);
+  EXPECT_EQ(run("eval free simulated flat --kinds child").exit_code, kUsage);
+}
+
+TEST_F(CliEval, NamesWhatIsInTheWayOfTheView) {
+  const Outcome outcome = run("eval sight simulated street --duration 2.5 --json sight.json");
+  ASSERT_EQ(outcome.exit_code, kOk) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("fog_30m"), HasSubstr("mud_30")));
+  const auto sight = json("sight.json").at("methods").at("terracut").at("sight");
+  EXPECT_EQ(sight.at("turns").get<int>(), 25);
+  EXPECT_EQ(sight.at("alarms").get<int>(), 0);
+  for (const auto& effect : sight.at("effects")) {
+    EXPECT_EQ(effect.at("named").get<int>(), 1) << effect;
+    EXPECT_LE(effect.at("most_turns").get<int>(), 10) << effect;
+  }
+  EXPECT_EQ(run("eval sight simulated flat --trials 2").exit_code, kUsage);
+}
+
 }  // namespace
 }  // namespace terracut::cli

@@ -31,11 +31,15 @@
 #include "tools/research/eval/evaluation_json.hpp"
 #include "tools/research/eval/journal.hpp"
 #include "tools/research/eval/simulated_evaluation.hpp"
+#include "tools/research/free_measures/free_report.hpp"
+#include "tools/research/free_measures/free_trials.hpp"
 #include "tools/research/hazards/hazard_report.hpp"
 #include "tools/research/hazards/hazard_trials.hpp"
 #include "tools/research/object_measures/object_report.hpp"
 #include "tools/research/object_measures/object_trials.hpp"
 #include "tools/research/report/evaluation_report.hpp"
+#include "tools/research/sight_measures/sight_report.hpp"
+#include "tools/research/sight_measures/sight_trials.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -90,7 +94,8 @@ bool is_any_given(const Options& options, std::initializer_list<const char*> nam
 Status check_fit_of_extra(const Options& options, const EvalExtra extra,
                           const std::string& dataset) {
   std::vector<const char*> unused;
-  if (extra != EvalExtra::kHazards) unused = {"--kinds", "--trials", "--write"};
+  if (extra != EvalExtra::kHazards) unused = {"--kinds", "--write"};
+  if (extra != EvalExtra::kHazards && extra != EvalExtra::kFree) unused.push_back("--trials");
   if (extra == EvalExtra::kNone) unused.push_back("MORE");
   if (extra != EvalExtra::kNone) {
     unused.insert(unused.end(), {"--report", "--changes", "--predictions"});
@@ -131,7 +136,9 @@ Status check_fit(const Options& options, const EvalSubject& subject, const std::
     return refuse("--find-mount with a mount that is stated");
   }
   for (const char* const option : {"--sensor", "--returns", "--duration", "--seed"}) {
-    if (subject.extra == EvalExtra::kHazards && option == std::string_view("--seed")) continue;
+    const bool is_random =
+        subject.extra != EvalExtra::kNone && subject.extra != EvalExtra::kObjects;
+    if (is_random && option == std::string_view("--seed")) continue;
     if (is_any_given(options, {option})) {
       return refuse(fmt::format("{}, only `eval simulated` does", option));
     }
@@ -411,6 +418,26 @@ void add_objects(const object_measures::ObjectTrials& objects, const EvaluationC
   }
 }
 
+/// Adds the free way of every method to the report and prints how right it is.
+void add_free_way(const free_measures::FreeTrials& trials, const EvaluationConfig& config,
+                  nlohmann::ordered_json& json) {
+  for (std::size_t i = 0; i < config.methods.size(); ++i) {
+    const std::string& name = config.methods[i].name;
+    json["methods"][name]["free_way"] = free_measures::free_json(trials.counts(i));
+    print_text(free_measures::free_text(name, json["methods"][name]["free_way"]) + "\n");
+  }
+}
+
+/// Adds what every method's view named to the report and prints it.
+void add_sight(const sight_measures::SightTrials& trials, const EvaluationConfig& config,
+               nlohmann::ordered_json& json) {
+  for (std::size_t i = 0; i < config.methods.size(); ++i) {
+    const std::string& name = config.methods[i].name;
+    json["methods"][name]["sight"] = sight_measures::sight_json(trials.counts(i));
+    print_text(sight_measures::sight_text(name, json["methods"][name]["sight"]) + "\n");
+  }
+}
+
 }  // namespace
 
 ExitCode run_eval(const Options& given) {
@@ -450,6 +477,17 @@ ExitCode run_eval(const Options& given) {
     objects.emplace(config->methods.size());
     config->on_labelled = [&](const eval::LabelledByAll& frame) { objects->look(frame); };
   }
+  std::optional<free_measures::FreeTrials> free_way;
+  if (subject.extra == EvalExtra::kFree) {
+    free_way.emplace(config->methods, *classes, options.eval.trials, options.simulate.seed);
+    config->on_labelled = [&](const eval::LabelledByAll& frame) { free_way->look(frame); };
+  }
+  std::optional<sight_measures::SightTrials> sight;
+  if (subject.extra == EvalExtra::kSight) {
+    sight.emplace(config->methods, *classes, options.simulate.seed);
+    config->jobs = 1;  // frames of a sequence follow each other
+    config->on_labelled = [&](const eval::LabelledByAll& frame) { sight->look(frame); };
+  }
   std::optional<eval::Journal> journal;
   // No journal is kept where labels are needed: frames in a journal are not labelled again, and it
   // does not hold their labels.
@@ -472,6 +510,8 @@ ExitCode run_eval(const Options& given) {
   say_outcome(*outcome, json);
   if (trials) add_hazards(*trials, *config, subject, json);
   if (objects) add_objects(*objects, *config, json);
+  if (free_way) add_free_way(*free_way, *config, json);
+  if (sight) add_sight(*sight, *config, json);
   print_text(eval::evaluation_text(json));
   if (outcome->interrupted) {
     warn(journal ? "interrupted; the same command goes on from here" : "interrupted");

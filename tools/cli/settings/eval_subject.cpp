@@ -24,6 +24,8 @@ bool is_dataset(const std::string& word) {
 EvalSubject subject_of(const EvalOptions& options) {
   const EvalExtra extra = options.dataset == "hazards"   ? EvalExtra::kHazards
                           : options.dataset == "objects" ? EvalExtra::kObjects
+                          : options.dataset == "free"    ? EvalExtra::kFree
+                          : options.dataset == "sight"   ? EvalExtra::kSight
                                                          : EvalExtra::kNone;
   if (extra == EvalExtra::kNone) return {options.dataset, {options.root}, extra};
   EvalSubject subject{"semantickitti", {}, extra};

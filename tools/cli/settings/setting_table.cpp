@@ -69,7 +69,7 @@ ChoiceField pattern_choice(std::string& pattern) {
 ChoiceField dataset_choice(std::string& dataset) {
   std::vector<std::string_view> names;
   for (const auto& table : datasets::built_in_tables()) names.push_back(table.dataset);
-  names.insert(names.end(), {"own", "simulated", "hazards", "objects"});
+  names.insert(names.end(), {"own", "simulated", "hazards", "objects", "free", "sight"});
   return name_choice(dataset, names);
 }
 
@@ -82,11 +82,11 @@ constexpr std::array kSettings{
             .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
     Setting{.option = "SCANS_DIR", .commands = C::kSegment | C::kEncode, .required_by = C::kSegment | C::kEncode, .help = "Folder of scans (.bin; segment: .pcd.bin, .pcd and .ply, too, or one file), or a SemanticKITTI sequence folder; segment: or a bag with clouds, MCAP or rosbag2's",
             .field = [](O& o) -> F { return &o.scans; }},
-    Setting{.option = "DATASET", .commands = C::kEval, .required_by = C::kEval, .help = "Which dataset, or own clouds, or drives to simulate; hazards: any\nof these, with persons, boxes, ghosts and the like put in; objects: any\nof these, and how well objects come apart",
+    Setting{.option = "DATASET", .commands = C::kEval, .required_by = C::kEval, .help = "Which dataset, or own clouds, or drives to simulate; hazards: any\nof these, with persons, boxes, ghosts and the like put in; objects: any\nof these, and how well objects come apart; free: any of these, and\nhow right the free way is; sight: any of these, and what is named where\nless is seen",
             .field = [](O& o) -> F { return dataset_choice(o.eval.dataset); }},
-    Setting{.option = "ROOT", .commands = C::kEval, .required_by = C::kEval, .help = "Folder of the dataset, laid out as its class table says (see\ndocs/reference/evaluation.md); simulated: scenes, like street,hill;\nhazards, objects: a dataset and its ROOTs, or semantickitti's alone",
+    Setting{.option = "ROOT", .commands = C::kEval, .required_by = C::kEval, .help = "Folder of the dataset, laid out as its class table says (see\ndocs/reference/evaluation.md); simulated: scenes, like street,hill;\nhazards, objects, free, sight: a dataset and its ROOTs, or\nsemantickitti's alone",
             .field = [](O& o) -> F { return &o.eval.root; }},
-    Setting{.option = "MORE", .commands = C::kEval, .help = "hazards, objects: more of them",
+    Setting{.option = "MORE", .commands = C::kEval, .help = "hazards, objects, free, sight: more of them",
             .form = TextForm::kList, .field = [](O& o) -> F { return &o.eval.more_roots; }},
     Setting{.option = "NAME", .commands = C::kDump | C::kTop, .help = "Name of the process (default: the only one that runs)",
             .form = TextForm::kName, .field = [](O& o) -> F { return &o.watched; }},
@@ -408,7 +408,7 @@ constexpr std::array kSettings{
             .field = [](O& o) -> F { return &o.eval.variants; }},
     Setting{.option = "--kinds", .commands = C::kEval, .help = "hazards: only these, like lying_person,ghosts_1 (default: all)",
             .form = TextForm::kList, .field = [](O& o) -> F { return &o.eval.kinds; }},
-    Setting{.option = "--trials", .commands = C::kEval, .help = "hazards: how many of a kind for each ground, range and frame",
+    Setting{.option = "--trials", .commands = C::kEval, .help = "hazards: how many of a kind for each ground, range and frame; free: how\nmany boxes, and how many pits, for each range and frame",
             .least = 1, .most = 1000, .field = [](O& o) -> F { return &o.eval.trials; }},
     Setting{.option = "--write", .commands = C::kEval, .help = "hazards: folder for every scan they were put into, as SemanticKITTI's, and\nhazards.json, which says what each shows",
             .writes = Kind::kFolder, .field = [](O& o) -> F { return &o.eval.hazard_scans; }},

@@ -28,6 +28,17 @@ class TrialLabels {
   /// Labels the frame with every method.
   void label(const MovedReturns& moved);
 
+  /// Returns the frame as it was labelled, with returns moved; valid, as what the next two
+  /// functions return, until the next label().
+  [[nodiscard]] const frame::RangeImage& image() const { return image_; }
+  /// Returns the labels of methods[index] by return index of image().
+  [[nodiscard]] std::span<const frame::Label> of_image(std::size_t index) const {
+    return bench_.labels(index);
+  }
+  [[nodiscard]] const stage::CellPlanes& planes(std::size_t index) const {
+    return bench_.planes(index);
+  }
+
   /// Returns the labels of methods[index] by return index of the frame, valid until the next
   /// label(); kNone for removed returns.
   [[nodiscard]] std::span<const frame::Label> of(std::size_t index) const { return labels_[index]; }

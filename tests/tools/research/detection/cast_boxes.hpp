@@ -93,6 +93,10 @@ class CastBoxes {
     return found;
   }
 
+  /// Return the last frame and the method that labelled it.
+  [[nodiscard]] const frame::RangeImage& image() const { return image_; }
+  [[nodiscard]] const ground::FrameMethod& method() const { return *method_; }
+
  private:
   struct Column {
     const Box* box = nullptr;  // the box that its beams may meet

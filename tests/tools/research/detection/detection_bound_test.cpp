@@ -11,6 +11,7 @@
 #include "calib/sensor_calibration.hpp"
 #include "cast_boxes.hpp"
 #include "firmware_io/decode/decoder.hpp"
+#include "pipeline/free_way/free_way.hpp"
 
 namespace terracut::detection {
 namespace {
@@ -55,10 +56,21 @@ class DetectionBoundTest : public testing::TestWithParam<Mounted> {
     return promises;
   }
 
-  /// Returns how many boxes of `share` of the promised heights are missed, by ranges. They stand
-  /// `step_m` apart in range, all around the sensor, and so uphill, downhill and across the slope.
+  /// Returns how many boxes of `share` of the promised heights are missed, by ranges.
   [[nodiscard]] std::vector<int> missed(const Promises& promises, double share, double step_m) {
     std::vector<int> missed(kRanges.size());
+    cast_all(promises, share, step_m,
+             [&](const CastBoxes&, const Box&, bool is_found, std::size_t place) {
+               missed[place] += is_found ? 0 : 1;
+             });
+    return missed;
+  }
+
+  /// Casts boxes of `share` of the promised heights, `step_m` apart in range, all around the
+  /// sensor, and so uphill, downhill and across the slope; calls look(cast, box, is_found, place of
+  /// its ranges) for each.
+  template <class Look>
+  void cast_all(const Promises& promises, double share, double step_m, Look look) {
     CastBoxes cast({}, profile_, shape_, {});
     world::Random random(17);
     double range_m = kRanges.front().from_m;
@@ -81,9 +93,8 @@ class DetectionBoundTest : public testing::TestWithParam<Mounted> {
       }
       const double uphill_rad = 2 * std::numbers::pi * random.unit();
       const std::vector<bool> found = cast.are_found(boxes, uphill_rad, random.bits());
-      for (std::size_t i = 0; i < boxes.size(); ++i) missed[places[i]] += found[i] ? 0 : 1;
+      for (std::size_t i = 0; i < boxes.size(); ++i) look(cast, boxes[i], found[i], places[i]);
     }
-    return missed;
   }
 
   mount::RingProfile profile_ = GetParam().profile();
@@ -94,6 +105,27 @@ TEST_P(DetectionBoundTest, EveryPromisedBoxIsFound) {
   constexpr double kStep_m = 0.05;
   const std::vector<int> missed_of = missed(promises(), 1, kStep_m);
   EXPECT_EQ(missed_of, std::vector<int>(kRanges.size()));
+}
+
+TEST_P(DetectionBoundTest, EveryPromisedBoxStandsInTheFreeWayAtItsDistance) {
+  constexpr double kStep_m = 0.05, kWithin_m = 0.2;
+  memory::FixedMemory memory;
+  free_way::FreeWay free_way({}, profile_, shape_, memory);
+  cast_all(promises(), 1, kStep_m, [&](const CastBoxes& cast, const Box& box, bool, std::size_t) {
+    free_way.find(cast.image(), cast.method().planes(), cast.method().labels());
+    const auto count = static_cast<double>(free_way.sectors().size());
+    const double half_rad = std::atan(box.width_m / 2 / box.range_m);
+    const auto at = [&](double azimuth_rad) {
+      return static_cast<int>(std::floor(azimuth_rad / (2 * std::numbers::pi) * count));
+    };
+    float nearest_m = INFINITY;
+    for (int i = at(box.azimuth_rad - half_rad); i <= at(box.azimuth_rad + half_rad); ++i) {
+      const int sectors = static_cast<int>(count);
+      const auto sector = static_cast<std::size_t>((i + sectors) % sectors);
+      nearest_m = std::min(nearest_m, free_way.sectors()[sector].obstacle_m);
+    }
+    EXPECT_NEAR(nearest_m, box.range_m, kWithin_m) << box.height_m << " m high";
+  });
 }
 
 TEST_P(DetectionBoundTest, SomeBoxesOfHalfTheHeightAreMissed) {

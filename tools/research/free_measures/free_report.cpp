@@ -25,6 +25,7 @@ Json put_in_json(std::span<const PutIn> bins) {
          {"to_m", hazards::kRangeBins[bin].to_m},
          {"trials", bins[bin].trials},
          {"failed", bins[bin].failed},
+         {"nearer", bins[bin].nearer},
          {"worst_m", statistics::number_if(std::isfinite(bins[bin].worst_m), bins[bin].worst_m)}});
   }
   return json;

@@ -54,8 +54,8 @@ TERRACUT_VECTOR_CLONES void take_nearest(const Heights heights, const Row row, s
     const bool may_stand = (row.label[i] == Label::kObstacle) & (height_m <= heights.clearance_m);
     const bool is_steep = (row.steep[i] & stage::kSteep) != 0;
     const bool is_low = height_m >= (is_steep ? heights.low_if_steep_m : heights.low_m);
-    const float high = may_stand & (height_m >= heights.high_m) ? range_m : kNothing_m;
-    const float low = may_stand & is_low ? range_m : kNothing_m;
+    const float high = (may_stand & (height_m >= heights.high_m)) ? range_m : kNothing_m;
+    const float low = (may_stand & is_low) ? range_m : kNothing_m;
     high_m[i] = high < high_m[i] ? high : high_m[i];
     low_m[i] = low < low_m[i] ? low : low_m[i];
   }

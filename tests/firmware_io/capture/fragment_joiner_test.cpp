@@ -119,11 +119,13 @@ TEST(FragmentedDatagrams, OfWhichTooManyAreOpenGiveUpTheOldest) {
   for (std::uint8_t id = 0; id < FragmentJoiner::kMostOpen + 1; ++id) {
     frames.push_back(fragments_of(payload, id)[0]);
   }
-  for (std::uint8_t id = 0; id < FragmentJoiner::kMostOpen + 1; ++id) {
+  for (std::uint8_t id = 1; id < FragmentJoiner::kMostOpen + 1; ++id) {
     const auto rest = fragments_of(payload, id);
     frames.insert(frames.end(), rest.begin() + 1, rest.end());
   }
-  EXPECT_EQ(read(frames).payloads.size(), FragmentJoiner::kMostOpen - 1);
+  const Read found = read(frames);
+  EXPECT_EQ(found.payloads.size(), FragmentJoiner::kMostOpen);
+  EXPECT_EQ(found.counters.refused_total(), 1U);
 }
 
 }  // namespace

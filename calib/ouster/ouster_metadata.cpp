@@ -267,7 +267,7 @@ Expected<OusterCalibration> parse_ouster_metadata(std::string_view text, const s
     return fail(refusal.code, fmt::format("{}: {}", name, refusal.what));
   } catch (const std::exception& error) {
     return fail(ErrorCode::kMalformed,
-                fmt::format("{}: is not {}: {}", name, kExpected, error.what()));
+                fmt::format("{}: is not {}: {}", name, kExpected, quoted(error.what())));
   }
   if (Status plausible = validate(unit); !plausible) return tl::unexpected(plausible.error());
   return unit;

@@ -91,7 +91,7 @@ struct Ouster {
 };
 
 template <int kRows>
-void run(fuzz::Input& input) {
+void run_with(fuzz::Input& input) {
   using enum ouster::Profile;
   const auto run_of =
       [&]<ouster::Profile kProfile>(std::integral_constant<ouster::Profile, kProfile>) {
@@ -116,6 +116,6 @@ void run(fuzz::Input& input) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input({data, size});
   // 32 rows reach all that depends on their number, in a fraction of the time.
-  run<32>(input);
+  run_with<32>(input);
   return 0;
 }

@@ -31,7 +31,10 @@ std::string printable(std::string message) {
 /// large, or at a second document.
 class Guard final : public YAML::EventHandler {
  public:
-  void OnDocumentStart(const YAML::Mark&) override { ++documents_; }
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    // One that is empty is harmless behind the first; of some bytes the parser makes endlessly many.
+    if (++documents_ > 2) throw Refusal{mark.line + 1, "a third document; expected one"};
+  }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
     if (documents_ == 1) count(mark);  // an empty second document is harmless

@@ -11,7 +11,7 @@ namespace {
 /// Returns the mean time from column to column; 0 if fewer than two are valid.
 std::int64_t column_ns_of(const PacketFormat& format, const PacketHead& head,
                           std::span<const std::uint8_t> payload) noexcept {
-  const int last = std::bit_width(head.valid) - 1;
+  const int last = static_cast<int>(std::bit_width(head.valid)) - 1;
   if (last <= head.stamped_column) return 0;
   const auto span_ns =
       static_cast<std::int64_t>(format.head(payload.data(), last).stamp_ns - head.stamp_ns);

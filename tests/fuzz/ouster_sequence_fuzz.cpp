@@ -81,7 +81,7 @@ struct Ouster {
   static constexpr std::uint32_t kRangeMask = (1U << row_of(kProfile).range_bits) - 1;
   static constexpr const ouster::ProfileRow& row() { return row_of(kProfile); }
   static std::uint32_t range_at(const std::uint8_t* at) {
-    return (at[0] | at[1] << 8 | at[2] << 16) & kRangeMask;
+    return ouster::little_endian<std::uint32_t>(at) & kRangeMask;
   }
   static void put(Bytes& bytes, std::size_t at, std::uint64_t value, int count) {
     for (int i = 0; i < count; ++i, value >>= 8) {

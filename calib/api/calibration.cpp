@@ -7,6 +7,7 @@
 #include "calib/api/calibration_table.hpp"
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/hesai/hesai_csv.hpp"
+#include "calib/ouster/ouster_metadata.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "calib/text/bounded_file.hpp"
 
@@ -15,6 +16,10 @@ namespace terracut {
 Calibration::Calibration(std::shared_ptr<const Table> table) noexcept : table_(std::move(table)) {}
 
 Expected<Calibration> Calibration::load(const std::filesystem::path& file) {
+  if (ouster::is_metadata_name(file)) {
+    return ouster::read_ouster_metadata(file).map(
+        [](const auto& unit) { return calibration_of(unit); });
+  }
   if (file.extension() == ".csv") {
     const auto text = text::read_bounded_file(file, "an angle table");
     if (text && hesai::is_like_hesai_csv(*text)) {

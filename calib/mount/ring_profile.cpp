@@ -100,4 +100,20 @@ RingProfile ring_profile(const beams::BeamTable& calibration, const Mount& mount
   return profile;
 }
 
+RingProfile ring_profile(const ouster::OusterCalibration& calibration, const Mount& mount,
+                         double range_limit_m) {
+  const auto rows = rows_upward(rows_by_elevation(calibration), mount);
+  RingProfile profile{std::vector<Ring>(rows.size()), mount};
+  for (std::size_t laser = 0; laser < rows.size(); ++laser) {
+    const beams::TableBeam& beam = calibration.lasers[laser];
+    profile.rings[static_cast<std::size_t>(rows[laser])] = ring_past_axis(
+        beam.elevation_rad, beam.vert_offset_m + calibration.T_sensor_lidar[11], mount,
+        range_limit_m, [&](double along_m) {
+          return std::hypot(along_m * std::cos(beam.azimuth_offset_rad) + calibration.ahead_m,
+                            along_m * std::sin(beam.azimuth_offset_rad));
+        });
+  }
+  return profile;
+}
+
 }  // namespace terracut::mount

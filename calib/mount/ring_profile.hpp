@@ -7,6 +7,7 @@
 #include "calib/beams/beam_table.hpp"
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/mount/mount.hpp"
+#include "calib/ouster/ouster_calibration.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
 
 namespace terracut::mount {
@@ -44,5 +45,7 @@ struct RingProfile {
                                        const Mount& mount, double range_limit_m = 120.0);
 [[nodiscard]] RingProfile ring_profile(const beams::BeamTable& calibration, const Mount& mount,
                                        double range_limit_m = 120.0);
+[[nodiscard]] RingProfile ring_profile(const ouster::OusterCalibration& calibration,
+                                       const Mount& mount, double range_limit_m = 120.0);
 
 }  // namespace terracut::mount

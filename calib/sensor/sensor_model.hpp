@@ -41,7 +41,10 @@ enum class SensorModel : std::uint8_t {
   kPandarQt128,
   kPandarXt16,
   kPandarXt32,
-  kPandarXt32m
+  kPandarXt32m,
+  kOuster32,  ///< OS0, OS1 or OS2; which of them, only the unit's metadata says.
+  kOuster64,
+  kOuster128
 };
 
 /// What is known of a model. Facts that only the model's packet decoder needs are in its trait
@@ -61,6 +64,9 @@ struct SensorRow {
   /// Highest packet rate, in dual return. The default is an RS-Ruby128's, which is above that of
   /// models without a figure of their own.
   double most_packets_per_second = 12'001;
+  /// Payload bytes of the longest data packet, for the recorder's memory and receive buffers; the
+  /// default is an RS-Ruby128's.
+  std::size_t longest_packet_bytes = 1'248;
 };
 
 /// Decoded models stand in the order in which people are offered them; kUnknown is the last row.
@@ -157,6 +163,27 @@ inline constexpr std::array kSensorTable{
               .stream_number = 13,
               .lasers = kPandarXt32mLasers,
               .has_unit_tables = true},
+    SensorRow{.model = SensorModel::kOuster32,
+              .name = "32-row Ouster",
+              .sensor = Sensor::kOuster32,
+              .word = "ouster32",
+              .stream_number = 14,
+              .most_packets_per_second = 1'281,
+              .longest_packet_bytes = 8'448},
+    SensorRow{.model = SensorModel::kOuster64,
+              .name = "64-row Ouster",
+              .sensor = Sensor::kOuster64,
+              .word = "ouster64",
+              .stream_number = 15,
+              .most_packets_per_second = 1'281,
+              .longest_packet_bytes = 16'640},
+    SensorRow{.model = SensorModel::kOuster128,
+              .name = "128-row Ouster",
+              .sensor = Sensor::kOuster128,
+              .word = "ouster128",
+              .stream_number = 16,
+              .most_packets_per_second = 1'281,
+              .longest_packet_bytes = 33'024},
     SensorRow{.model = SensorModel::kVlp16HiRes,
               .name = "Velodyne VLP-16 Hi-Res",
               .product_number = 0x24},
@@ -189,6 +216,10 @@ inline constexpr std::array kSensorTable{
 /// True if all units of `model` have one table, which is built in.
 [[nodiscard]] constexpr bool has_factory_table(SensorModel model) noexcept {
   return has_built_in_table(model) && !row_of(model).has_unit_tables;
+}
+/// True for an Ouster, whose packets need the unit's metadata to be decoded.
+[[nodiscard]] constexpr bool is_ouster(SensorModel model) noexcept {
+  return model >= SensorModel::kOuster32 && model <= SensorModel::kOuster128;
 }
 /// Returns the model of a sensor. For an HDL-64E of any generation this is kHdl64e.
 [[nodiscard]] constexpr SensorModel model_of(Sensor sensor) noexcept {

@@ -34,11 +34,13 @@ struct FoundMount {
 class Calibration {
  public:
   /// Reads an HDL-64E's table (Velodyne's db.xml or the ROS driver's yaml), an RS-Ruby128's
-  /// (RoboSense's angle.csv) or a Hesai's (the CSV file that comes with the unit). Fails with
-  /// kNotFound, kUnreadable or kMalformed; the message names file and line.
+  /// (RoboSense's angle.csv), a Hesai's (the CSV file that comes with the unit) or an Ouster's (its
+  /// metadata, .json). Fails with kNotFound, kUnreadable, kMalformed or kUnsupported; the message
+  /// names file and line or field.
   [[nodiscard]] static Expected<Calibration> load(const std::filesystem::path& file);
   /// Returns the model's table, for use if the unit's own is not at hand. Heights of an HDL-64E, an
-  /// RS-Ruby128 and a Hesai are then some centimetres off; units of the other models have no table
+  /// RS-Ruby128 and a Hesai are then some centimetres off; an Ouster's packets cannot be decoded
+  /// with it (their profile and its angles are the unit's). Units of the other models have no table
   /// of their own.
   [[nodiscard]] static Calibration nominal(Sensor sensor);
 

@@ -20,7 +20,10 @@ enum class Sensor : std::uint8_t {
   kPandarQt128,
   kPandarXt16,
   kPandarXt32,
-  kPandarXt32m
+  kPandarXt32m,
+  kOuster32,  ///< An OS0, OS1 or OS2 with 32 rows.
+  kOuster64,
+  kOuster128
 };
 
 }  // namespace terracut

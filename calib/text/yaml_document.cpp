@@ -20,11 +20,21 @@ struct Refusal {
   std::string what;
 };
 
+/// Returns a message of the parser, which may quote the text, with a '?' for what cannot be
+/// printed.
+std::string printable(std::string message) {
+  std::ranges::replace_if(message, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return message;
+}
+
 /// Walks through the text without building a tree. Throws a Refusal at the first item that is too
 /// large, or at a second document.
 class Guard final : public YAML::EventHandler {
  public:
-  void OnDocumentStart(const YAML::Mark&) override { ++documents_; }
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    // One that is empty is harmless behind the first; of some bytes the parser makes endlessly many.
+    if (++documents_ > 2) throw Refusal{mark.line + 1, "a third document; expected one"};
+  }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
     if (documents_ == 1) count(mark);  // an empty second document is harmless
@@ -97,10 +107,10 @@ Expected<YAML::Node> load_yaml_document(std::string_view text, const std::string
                 fmt::format("{}: line {}: {}", name, refusal.line, refusal.what));
   } catch (const YAML::Exception& error) {
     return fail(ErrorCode::kMalformed, fmt::format("{}: line {}: not well-formed YAML: {}", name,
-                                                   error.mark.line + 1, error.msg));
+                                                   error.mark.line + 1, printable(error.msg)));
   } catch (const std::exception& error) {
     return fail(ErrorCode::kMalformed,
-                fmt::format("{}: not readable as YAML: {}", name, error.what()));
+                fmt::format("{}: not readable as YAML: {}", name, printable(error.what())));
   }
 }
 

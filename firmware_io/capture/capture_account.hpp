@@ -19,7 +19,7 @@ struct CaptureAccount {
   frame::LossCounters losses;
 
   [[nodiscard]] bool balances() const noexcept {
-    return read.frames == read.left_out() + read.delivered &&
+    return read.frames == read.left_out() + read.joined + read.delivered &&
            read.delivered ==
                before_start + behind_end + device_info + losses.rejected_total() + decoded;
   }

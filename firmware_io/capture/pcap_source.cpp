@@ -57,7 +57,23 @@ Expected<std::optional<tl::expected<packet::Datagram, packet::FrameReject>>> Pca
   const auto record = file.next();
   if (!record) return tl::unexpected(record.error());
   if (!*record) return std::nullopt;
-  return packet::parse_udp_frame(file.link_type(), (*record)->bytes, (*record)->stamp_ns);
+  const auto datagram =
+      packet::parse_udp_frame(file.link_type(), (*record)->bytes, (*record)->stamp_ns);
+  if (datagram || datagram.error() != packet::FrameReject::kFragment) return datagram;
+  return join(file.link_type(), (*record)->bytes, (*record)->stamp_ns);
+}
+
+tl::expected<packet::Datagram, packet::FrameReject> PcapSource::join(
+    int link_type, std::span<const std::uint8_t> frame, std::int64_t stamp_ns) {
+  const auto fragment = packet::parse_ip_fragment(link_type, frame);
+  if (!fragment) return tl::unexpected(packet::FrameReject::kShortCapture);
+  const auto joined = fragments_.add(*fragment);
+  if (!joined) return tl::unexpected(packet::FrameReject::kFragment);
+  // The fragments before this one were counted as refused until now.
+  const std::uint64_t before = joined->fragments - 1;
+  counters_.refused[static_cast<std::size_t>(packet::FrameReject::kFragment)] -= before;
+  counters_.joined += before;
+  return packet::parse_udp(joined->whole, stamp_ns);
 }
 
 Expected<std::optional<packet::Datagram>> PcapSource::next() {
@@ -92,6 +108,7 @@ bool PcapSource::is_in_stream(const packet::Datagram& datagram) const {
 }
 
 Status PcapSource::rewind() {
+  fragments_.clear();
   Status rewound = std::visit([](auto& file) { return file.rewind(); }, file_);
   const auto* const file = std::get_if<PcapFile>(&file_);
   return rewound && file != nullptr ? check_link_type(*file) : rewound;

@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "firmware_io/bag/bag_packets.hpp"
+#include "firmware_io/capture/fragment_joiner.hpp"
 #include "firmware_io/capture/pcap_file.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/udp_frame.hpp"
@@ -34,10 +35,12 @@ struct PcapFilter {
   std::string topic{};  ///< Of a bag; empty: its only one with packets.
 };
 
-/// Counts the frames of a capture; frames == delivered + left_out().
+/// Counts the frames of a capture; frames == delivered + joined + left_out().
 struct PcapCounters {
   std::uint64_t frames = 0;     ///< Records read from the file; of a bag, packets.
   std::uint64_t delivered = 0;  ///< Datagrams returned by next().
+  /// IP fragments of datagrams that a later fragment completed.
+  std::uint64_t joined = 0;
   std::array<std::uint64_t, packet::kFrameRejects>
       refused{};                   ///< Frames without a UDP datagram, by reason.
   std::uint64_t other_port = 0;    ///< Datagrams to another port.
@@ -67,12 +70,13 @@ class PcapSource {
                                                         std::string name, PcapFilter filter = {});
 
   /// Returns the next datagram that passes the filter; nothing at the end. Frames without a UDP
-  /// datagram are counted and skipped. The payload is valid until the next call.
+  /// datagram are counted and skipped; fragments are put together. The payload is valid until the
+  /// next call.
   ///
   /// Fails with kMalformed (or kUnsupported for interfaces of different link types in one pcapng)
   /// if the file breaks off: the message says after which packet and at which byte, and every
   /// further call fails in the same way. Everything returned before stays valid, so a replay may
-  /// finish with a warning. Allocates nothing per packet.
+  /// finish with a warning. Allocates nothing per packet, but for the first fragments.
   [[nodiscard]] Expected<std::optional<packet::Datagram>> next();
 
   /// Goes back to the first packet, by opening the file again. Counters keep their values.
@@ -95,9 +99,14 @@ class PcapSource {
   /// Returns the next datagram of the file; of a frame without one, the reason.
   [[nodiscard]] Expected<std::optional<tl::expected<packet::Datagram, packet::FrameReject>>> read();
 
+  /// Joins the fragment in a frame to those before it: returns the datagram, or kFragment.
+  [[nodiscard]] tl::expected<packet::Datagram, packet::FrameReject> join(
+      int link_type, std::span<const std::uint8_t> frame, std::int64_t stamp_ns);
+
   File file_;
   PcapFilter filter_;
   PcapCounters counters_;
+  FragmentJoiner fragments_;
 };
 
 }  // namespace terracut::capture

@@ -36,6 +36,13 @@ class BlindSector {
 
   explicit BlindSector(std::int64_t revolution_ticks) noexcept : sector_{{}, revolution_ticks} {}
 
+  /// Sets the sector where a sensor says that it is blind, in azimuths of any revolution, before
+  /// its packets come; packets that contradict it change it as they do one that was learnt. Less
+  /// than least_ticks() is none.
+  void tell(const packet::RotorInterval& blind) noexcept {
+    if (blind.ticks() >= least_ticks()) sector_.once = blind;
+  }
+
   /// How far the head rotates from packet to packet: on average, and at most.
   struct Stride {
     std::int64_t mean_ticks = 1, widest_ticks = 1;

@@ -22,6 +22,12 @@ auto with_trait(const calib::SensorCalibration& calibration, const Decoder::Conf
   if (const auto* unit = std::get_if<ruby128::Ruby128Calibration>(&calibration)) {
     return use(std::type_identity<ruby128::Ruby128Sensor>{}, *unit, config.ruby128);
   }
+  if (const auto* unit = std::get_if<ouster::OusterCalibration>(&calibration)) {
+    if (!validate(*unit)) throw std::invalid_argument("Decoder: no plausible table of an Ouster");
+    return ouster::Models::with(unit->format.rows, [&](auto rows) {
+      return use(std::type_identity<ouster::OusterSensor<rows()>>{}, *unit, config.ouster);
+    });
+  }
   const auto& table = std::get<beams::BeamTable>(calibration);
   if (table.lasers.empty() || !validate(table)) {
     throw std::invalid_argument("Decoder: the table has other lasers than the sensor");
@@ -41,14 +47,17 @@ auto with_trait(const calib::SensorCalibration& calibration, const Decoder::Conf
 Decoder::Model Decoder::model_of(const calib::SensorCalibration& calibration,
                                  const Config& config) {
   const auto or_default = [](int given, int usual) { return given != 0 ? given : usual; };
+  const auto rotation = calib::rotation_of(calibration);
   const auto model = [&]<class Sensor>(std::type_identity<Sensor>, const auto&,
                                        const auto&) -> Model {
     return {.rows = Sensor::kRows,
             .lasers = static_cast<std::size_t>(Sensor::kChannels),
-            .columns = or_default(config.columns, Sensor::kDefaultColumns),
+            .columns =
+                or_default(config.columns, rotation ? rotation->columns : Sensor::kDefaultColumns),
             .returns_per_cell = or_default(config.returns_per_cell, Sensor::kDefaultReturnsPerCell),
             .packet_bytes = Sensor::kPacketBytes,
-            .clock_wrap_us = Sensor::kClockWrap_us};
+            .clock_wrap_us = Sensor::kClockWrap_us,
+            .has_fine = kHasFineDistancesOf<Sensor>};
   };
   const Model found = with_trait(calibration, config, model);
   if (found.columns < 16 || found.columns > beams::kRevolution_cdeg) {
@@ -76,7 +85,8 @@ FrameBuilder::Config Decoder::frame_config(const Model& model) {
   return {.shape = {model.rows, model.columns},
           .lasers = model.lasers,
           .tiles = (firings + firings / kAroundSeam) / frame::kTileFirings + kCutTiles,
-          .revolution_ticks = packet::kRevolution_ticks};
+          .revolution_ticks = packet::kRevolution_ticks,
+          .has_fine = model.has_fine};
 }
 
 std::unique_ptr<frame::TileReader> Decoder::make_reader(memory::FixedMemory& memory) const {
@@ -96,6 +106,13 @@ Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration
       frames_(frame_config(model), memory),
       clock_(model.clock_wrap_us),
       in_doubt_(model.packet_bytes, memory) {
+  if (const auto rotation = calib::rotation_of(calibration)) {
+    const auto ticks = [&](int column) {
+      return std::int64_t{packet::kRevolution_ticks} * column / rotation->columns;
+    };
+    blind_.tell({ticks(rotation->blind_from), ticks(rotation->blind_to)});
+    frames_.set_blind(blind_.sector());
+  }
   std::vector<std::int32_t> beam_ticks(static_cast<std::size_t>(model.rows));
   with_sensor([&](auto& sensor) noexcept {
     const auto rows = sensor.trait().rows();

@@ -49,7 +49,9 @@ namespace terracut::decode {
 class Decoder {
  public:
   struct Config {
-    int columns = 0;  ///< Firings per frame at the sensor's spin rate; 0: those at 10 Hz.
+    /// Firings per frame at the sensor's spin rate; 0: those at 10 Hz, of an Ouster those of its
+    /// mode.
+    int columns = 0;
     /// Memory for this many firings per column on average, each a return per cell at most; returns
     /// of further firings are counted and lost. 0: enough for single return at 10 Hz, with a
     /// margin.
@@ -70,6 +72,7 @@ class Decoder {
     ruby128::Ruby128Sensor::Config ruby128;
     velodyne::VelodyneConfig velodyne;
     hesai::HesaiConfig hesai;
+    ouster::OusterConfig ouster;
   };
 
   /// Makes a decoder for the sensor that the calibration belongs to.
@@ -151,6 +154,7 @@ class Decoder {
     int columns, returns_per_cell;
     std::size_t packet_bytes;
     std::int64_t clock_wrap_us;
+    bool has_fine;
   };
   [[nodiscard]] static Model model_of(const calib::SensorCalibration& calibration,
                                       const Config& config);

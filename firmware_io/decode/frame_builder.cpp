@@ -14,7 +14,7 @@ FrameBuilder::FrameBuilder(const Config& config, memory::FixedMemory& memory)
   }
   buffers_.reserve(kBuffers);
   for (std::size_t i = 0; i < kBuffers; ++i) {
-    buffers_.emplace_back(config.shape, config.lasers, config.tiles, memory);
+    buffers_.emplace_back(config.shape, config.lasers, config.tiles, memory, config.has_fine);
   }
   open_[0].returns = &buffers_[0];
   open_[1].returns = &buffers_[1];

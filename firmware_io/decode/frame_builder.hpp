@@ -42,6 +42,7 @@ class FrameBuilder {
     std::size_t lasers = 0;             ///< Lasers in each tile of returns.
     std::size_t tiles = 0;              ///< Most tiles of a frame.
     std::int64_t revolution_ticks = 0;  ///< Ticks of azimuth in 360 degrees.
+    bool has_fine = false;              ///< True if distances have fine parts.
   };
 
   /// Throws std::invalid_argument on a setting outside its range.

@@ -31,8 +31,9 @@ struct PacketPlace {
   frame::CellOwner owner{};
 };
 
-/// Takes the returns of packets from their bytes to their frames. Collects several packets, then
-/// adds their returns to one or two frames, and finds the cells that they own:
+/// Takes the returns of packets from their bytes to their frames. Collects several packets, or
+/// parts of large ones, then adds their returns to one or two frames, and finds the cells that they
+/// own:
 ///
 ///   packet  --transposed-->  tile: what each laser found in 24 firings, next to the core
 ///   tile    --a laser's constants, 24 firings in vectors-->  columns of the returns, their owners
@@ -48,7 +49,7 @@ class PacketReturns {
         directions_(memory),
         columns_of_(sensor_, columns, memory),
         reader_(sensor_, memory),
-        tile_(memory.take<packet::FiringTile<kLasers>>("decoder tables", 1)),
+        tile_(memory.take<Tile>("decoder tables", 1)),
         beams_(memory.take<frame::BeamColumns>("decoder tables", kLasers)) {}
 
   /// Makes a reader that turns frames into points, on any one thread.
@@ -64,22 +65,28 @@ class PacketReturns {
   void add(std::span<const std::uint8_t> payload, const packet::PacketAzimuths& azimuths,
            const PacketPlace& place, FrameBuilder& frames) noexcept {
     const auto columns = static_cast<std::size_t>(azimuths.columns);
-    if (place.owner != owner_ || firings_ + columns > frame::kTileFirings) flush(frames);
+    const bool may_be_split = columns > frame::kTileFirings / 2;
+    const bool fits = may_be_split || firings_ + columns <= frame::kTileFirings;
+    if (place.owner != owner_ || !fits) flush(frames);
     owner_ = place.owner;
     sensor_.begin_packet(azimuths);
     for (std::size_t c = 0; c < columns; ++c) {
-      const std::size_t firing = firings_ + c;
+      const std::size_t firing = firings_;
       sensor_.read_column(payload, c, tile_[0].firing(firing));
       rotor_cdeg_[firing] = place.rotor_cdeg + azimuths.advance_cdeg(static_cast<int>(c));
       heads_.step_ticks[firing] = sensor_.step_ticks(azimuths, c);
       const std::uint32_t bit = 1U << firing;
       heads_.is_dual = azimuths.dual_return ? heads_.is_dual | bit : heads_.is_dual & ~bit;
+      if (firings_ == 0) first_ns_ = place.stamp_ns;
+      last_ns_ = place.stamp_ns;
+      if (c < static_cast<std::size_t>(place.late_columns)) leave_out(firing, frames.losses());
+      if (++firings_ == frame::kTileFirings) flush(frames);
     }
-    if (firings_ == 0) first_ns_ = place.stamp_ns;
-    last_ns_ = place.stamp_ns;
-    if (place.late_columns > 0) leave_out(place.late_columns, azimuths, frames.losses());
-    firings_ += columns;
-    if (firings_ == frame::kTileFirings) flush(frames);
+    // Both returns of a pair count as one firing.
+    if (place.late_columns > 0) {
+      frames.losses().azimuth_hole_columns +=
+          azimuths.dual_return ? 1U : static_cast<std::uint64_t>(place.late_columns);
+    }
   }
   /// Places all returns added.
   void flush(FrameBuilder& frames) noexcept {
@@ -96,17 +103,12 @@ class PacketReturns {
 
  private:
   static constexpr auto kLasers = static_cast<std::size_t>(Sensor::kChannels);
+  using Tile = packet::FiringTile<kLasers, kHasFineDistancesOf<Sensor>>;
 
-  void leave_out(int late_columns, const packet::PacketAzimuths& azimuths,
-                 frame::LossCounters& losses) noexcept {
-    for (std::size_t c = 0; c < static_cast<std::size_t>(late_columns); ++c) {
-      for (std::uint16_t& raw : tile_[0].arrived_raw[firings_ + c]) {
-        losses.late_returns += std::exchange(raw, std::uint16_t{0}) != 0 ? 1U : 0U;
-      }
+  void leave_out(std::size_t firing, frame::LossCounters& losses) noexcept {
+    for (std::uint16_t& raw : tile_[0].arrived_raw[firing]) {
+      losses.late_returns += std::exchange(raw, std::uint16_t{0}) != 0 ? 1U : 0U;
     }
-    // Both returns of a pair count as one firing.
-    losses.azimuth_hole_columns +=
-        azimuths.dual_return ? 1U : static_cast<std::uint64_t>(late_columns);
   }
 
   /// Fills the rest of an incomplete tile with firings that have no returns.
@@ -143,7 +145,7 @@ class PacketReturns {
     frame::TileHeads heads = heads_;
     for (std::int32_t& head_cdeg : heads.head_cdeg) head_cdeg -= n * beams::kRevolution_cdeg;
     losses.overflow_full_returns += returns.add({.heads = heads,
-                                                 .raw = tile_[0].raw[0].data(),
+                                                 .distances = tile_[0].distances(),
                                                  .intensity = tile_[0].intensity[0].data(),
                                                  .beams = beams_,
                                                  .first_column = n * columns_,
@@ -157,9 +159,9 @@ class PacketReturns {
   packet::RotorDirections directions_;
   TileColumns<Sensor> columns_of_;
   SensorTileReader<Sensor> reader_;
-  std::span<packet::FiringTile<kLasers>> tile_;  ///< A span of one tile.
-  std::span<frame::BeamColumns> beams_;          ///< Indexed by laser.
-  frame::TileRow<std::int64_t> rotor_cdeg_{};    ///< Indexed by firing.
+  std::span<Tile> tile_;                       ///< A span of one tile.
+  std::span<frame::BeamColumns> beams_;        ///< Indexed by laser.
+  frame::TileRow<std::int64_t> rotor_cdeg_{};  ///< Indexed by firing.
   frame::TileHeads heads_{};
   std::size_t firings_ = 0;                  ///< Firings added and not placed yet.
   std::int64_t first_ns_ = 0, last_ns_ = 0;  ///< Stamps of the packets of the tile.

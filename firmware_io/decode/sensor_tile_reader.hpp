@@ -26,8 +26,8 @@ class SensorTileReader final : public frame::TileReader {
         advances_(memory) {}
 
   void open(const frame::TileHeads& heads,
-            const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING override {
-    raw_ = raw;
+            const frame::TileDistances& distances) noexcept TERRACUT_NONBLOCKING override {
+    distances_ = distances;
     packet::GroupHeads<Sensor::kGroups>& found = heads_[0];
     found.sin_rotor = heads.sin_head;
     found.cos_rotor = heads.cos_head;
@@ -53,8 +53,13 @@ class SensorTileReader final : public frame::TileReader {
   void compute_points(std::size_t laser,
                       const frame::PointsOut& out) noexcept TERRACUT_NONBLOCKING override {
     frame::TileRow<float> measured_m;
-    packet::measure(raw_ + laser * frame::kTileFirings, sensor_.metres_per_count(),
-                    measured_m.data());
+    const std::size_t at = laser * frame::kTileFirings;
+    if constexpr (kHasFineDistancesOf<Sensor>) {
+      packet::measure(distances_.raw + at, distances_.fine + at, sensor_.metres_per_count(),
+                      measured_m.data());
+    } else {
+      packet::measure(distances_.raw + at, sensor_.metres_per_count(), measured_m.data());
+    }
     sensor_.compute_points(laser, packet::heads_of_group(heads_[0], sensor_.group(laser)),
                            measured_m, out);
   }
@@ -72,7 +77,7 @@ class SensorTileReader final : public frame::TileReader {
   Sensor sensor_;
   std::span<packet::GroupHeads<Sensor::kGroups>> heads_;  ///< A span of one element.
   packet::StepAdvances<Directions> advances_;
-  const std::uint16_t* raw_ = nullptr;
+  frame::TileDistances distances_{};
 };
 
 }  // namespace terracut::decode

@@ -26,6 +26,9 @@ namespace terracut::decode {
 /// of `kGroups` groups. `kDefaultColumns` and `kDefaultReturnsPerCell` are Decoder::Config's for
 /// single return at 10 Hz. The device clock counts [0, kClockWrap_us). `kPacketBytes` is the most
 /// that a data packet has.
+///
+/// A sensor whose distances take more than 16 bits has a true `kHasFineDistances` and fills in
+/// FiringReturns::fine; `metres_per_count` is that of the whole counts.
 template <class Sensor>
 concept SensorTrait =
     std::constructible_from<Sensor, const typename Sensor::Calibration&, const mount::Mount&,
@@ -55,7 +58,8 @@ concept SensorTrait =
       { constant.advance_ticks(step_ticks, index, true) } noexcept -> std::same_as<std::int32_t>;
       // To be called for each packet in order of arrival.
       { sensor.begin_packet(azimuths) } noexcept;
-      // The head's step at a column.
+      // What advance_ticks() is to be called with for a column: the head's step; or, of a sensor
+      // whose lasers fire at once, the rest of its azimuth below a hundredth of a degree.
       { constant.step_ticks(azimuths, index) } noexcept -> std::same_as<std::int32_t>;
       // Fills in a column's returns.
       { sensor.read_column(payload, index, found) } noexcept;
@@ -64,5 +68,8 @@ concept SensorTrait =
       // The range image row of each laser.
       { constant.rows()[index] } noexcept -> std::convertible_to<std::int32_t>;
     };
+
+template <class Sensor>
+inline constexpr bool kHasFineDistancesOf = requires { requires Sensor::kHasFineDistances; };
 
 }  // namespace terracut::decode

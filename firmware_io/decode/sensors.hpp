@@ -6,6 +6,7 @@
 #include "firmware_io/hdl64e/hdl64e_sensor.hpp"
 #include "firmware_io/hesai/hesai_sensor.hpp"
 #include "firmware_io/hesai/models.hpp"
+#include "firmware_io/ouster/ouster_sensor.hpp"
 #include "firmware_io/ruby128/ruby128_sensor.hpp"
 #include "firmware_io/velodyne/models.hpp"
 #include "firmware_io/velodyne/velodyne_sensor.hpp"
@@ -27,9 +28,12 @@ using VelodyneSensors = SensorList<velodyne::VelodyneSensor<Model>...>;
 template <class... Model>
 using HesaiSensors = SensorList<hesai::HesaiSensor<Model>...>;
 
+template <int... kRows>
+using OusterSensors = SensorList<ouster::OusterSensor<kRows>...>;
+
 /// All sensors that are decoded.
-using Sensors =
-    decltype(SensorList<hdl64e::Hdl64eSensor, ruby128::Ruby128Sensor>{} +
-             velodyne::Models::In<VelodyneSensors>{} + hesai::Models::In<HesaiSensors>{});
+using Sensors = decltype(SensorList<hdl64e::Hdl64eSensor, ruby128::Ruby128Sensor>{} +
+                         velodyne::Models::In<VelodyneSensors>{} +
+                         hesai::Models::In<HesaiSensors>{} + ouster::Models::In<OusterSensors>{});
 
 }  // namespace terracut::decode

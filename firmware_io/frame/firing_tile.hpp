@@ -52,11 +52,22 @@ struct BeamColumns {
 
 /// The head's azimuth at each firing of a tile.
 struct TileHeads {
-  TileRow<std::int32_t> head_cdeg;    ///< Counts on over revolutions, from the start of some frame.
-  TileRow<std::int32_t> step_ticks;   ///< Rotation from this firing to the next, 1e-5 degrees.
+  TileRow<std::int32_t> head_cdeg;  ///< Counts on over revolutions, from the start of some frame.
+  /// What the sensor's trait computes each laser's advance from (decode/sensor_trait.hpp): mostly
+  /// the rotation from this firing to the next, 1e-5 degrees.
+  TileRow<std::int32_t> step_ticks;
   TileRow<float> sin_head, cos_head;  ///< Sine and cosine of head_cdeg.
   std::uint32_t is_dual = 0;          ///< A set bit for each firing that is one of two returns.
 };
+
+/// Wire distances of a tile, laser by laser, kTileFirings each.
+struct TileDistances {
+  const std::uint16_t* raw;  ///< Counts, 0 for no return.
+  /// Of a sensor whose distances take more than 16 bits, by how many 1/kFinePerCount of a count
+  /// each is less than `raw`, [0, kFinePerCount); null for other sensors.
+  const std::uint8_t* fine = nullptr;
+};
+inline constexpr int kFinePerCount = 16;
 
 /// Computes points from the distances of one sensor; holds its calibration, mount and firing times.
 /// Has memory for one tile at a time; one thread.
@@ -64,10 +75,9 @@ class TileReader {
  public:
   virtual ~TileReader() = default;
 
-  /// Opens a tile for compute_points(). `raw` has the tile's wire distances, laser by laser,
-  /// kTileFirings each, 0 for no return; it must stay valid until another tile is opened.
+  /// Opens a tile for compute_points(). `distances` must stay valid until another tile is opened.
   virtual void open(const TileHeads& heads,
-                    const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING = 0;
+                    const TileDistances& distances) noexcept TERRACUT_NONBLOCKING = 0;
   virtual void compute_points(std::size_t laser,
                               const PointsOut& out) noexcept TERRACUT_NONBLOCKING = 0;
   /// Returns the range image row of each laser.

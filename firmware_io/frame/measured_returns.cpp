@@ -100,13 +100,14 @@ TERRACUT_VECTOR_CLONES void count_all(const std::uint16_t* __restrict raw, std::
 }  // namespace
 
 MeasuredReturns::MeasuredReturns(ImageShape shape, std::size_t lasers, std::size_t tiles,
-                                 memory::FixedMemory& memory)
+                                 memory::FixedMemory& memory, bool has_fine)
     : shape_(shape),
       lasers_(lasers),
       words_(static_cast<std::size_t>(shape.columns) / kWordBits + 2),
       tiles_(memory.take<Tile>("measured returns", tiles)),
       rows_(memory.take<LaserRow>("measured returns", tiles * lasers_)),
       raw_(memory.take<std::uint16_t>("measured returns", tiles * lasers_ * kTileFirings)),
+      fine_(memory.take<std::uint8_t>("measured returns", has_fine ? raw_.size() : 0)),
       columns_(memory.take<std::uint16_t>("measured returns", raw_.size())),
       intensity_(memory.take<std::uint8_t>("measured returns", raw_.size())),
       taken_(memory.take<std::uint64_t>("measured returns",
@@ -127,12 +128,13 @@ std::uint32_t MeasuredReturns::add(const NewTile& tile, CellOwner owner,
       const std::uint32_t in_frame =
           inside(tile.beams[i], tile.first_column, tile.first_column + shape_.columns);
       lost += static_cast<std::uint32_t>(
-          std::popcount(hits_of(tile.raw + i * kTileFirings) & in_frame));
+          std::popcount(hits_of(tile.distances.raw + i * kTileFirings) & in_frame));
     }
     return lost;
   }
   const std::size_t values = lasers_ * kTileFirings;
-  std::memcpy(&raw_[used_ * values], tile.raw, values * sizeof(tile.raw[0]));
+  std::memcpy(&raw_[used_ * values], tile.distances.raw, values * sizeof(tile.distances.raw[0]));
+  if (!fine_.empty()) std::memcpy(&fine_[used_ * values], tile.distances.fine, values);
   std::memcpy(&intensity_[used_ * values], tile.intensity, values);
   Tile& added = tiles_[used_];
   added = {.heads = tile.heads,
@@ -145,7 +147,7 @@ std::uint32_t MeasuredReturns::add(const NewTile& tile, CellOwner owner,
   open_ = kNoTile;
   const std::span<const std::int32_t> rows = reader.rows();
   std::array<std::uint32_t, kMostLasers> hits;
-  find_hits(tile.raw, lasers_, hits.data());
+  find_hits(tile.distances.raw, lasers_, hits.data());
   const std::int32_t first = tile.first_column, end = first + shape_.columns;
   const std::span<LaserRow> of_tile = rows_.subspan(number * lasers_, lasers_);
   for (std::size_t i = 0; i < lasers_; ++i) {
@@ -180,6 +182,7 @@ void MeasuredReturns::fetch_next() const noexcept {
   fetch(tiles_, used_, 1);
   fetch(rows_, used_ * lasers_, lasers_);
   fetch(raw_, used_ * values, values);
+  if (!fine_.empty()) fetch(fine_, used_ * values, values);
   fetch(intensity_, used_ * values, values);
 }
 
@@ -191,7 +194,7 @@ void MeasuredReturns::number_returns(const NewTile& tile, Tile& added,
     is_whole &= beam.least >= tile.first_column && beam.most < tile.first_column + shape_.columns;
   }
   if (is_whole) {
-    count_all(tile.raw, lasers_, counts.data());
+    count_all(tile.distances.raw, lasers_, counts.data());
   } else {
     for (const LaserRow& row : rows) {
       for_each_firing(row.returns, [&](std::size_t f) noexcept { ++counts[f]; });
@@ -342,7 +345,7 @@ bool MeasuredReturns::goes_before(const Place& newer, const Place& older, CellOw
 TileRow<float> MeasuredReturns::ground_ranges_m(std::size_t tile, std::size_t laser,
                                                 TileReader& reader) noexcept {
   TilePoints points;
-  if (std::exchange(open_, tile) != tile) reader.open(tiles_[tile].heads, raw(tile));
+  if (std::exchange(open_, tile) != tile) reader.open(tiles_[tile].heads, distances(tile));
   reader.compute_points(laser, all_of(points));
   return points.ground_range_m;
 }

@@ -42,8 +42,8 @@ class MeasuredReturns {
   };
   /// A tile to be added.
   struct NewTile {
-    TileHeads heads;           ///< Azimuths, counted from the start of this frame.
-    const std::uint16_t* raw;  ///< Wire distances, laser by laser, kTileFirings each; 0: no return.
+    TileHeads heads;  ///< Azimuths, counted from the start of this frame.
+    TileDistances distances;
     const std::uint8_t* intensity;
     /// Columns of the beams, indexed by laser; this frame's columns begin at `first_column`.
     std::span<const BeamColumns> beams;
@@ -55,9 +55,10 @@ class MeasuredReturns {
   static constexpr std::size_t kMostLasers = 256;
 
   /// Takes memory for `tiles` tiles of `lasers` lasers each, a multiple of 8 and at most
-  /// kMostLasers. Several lasers may share a row.
+  /// kMostLasers. Several lasers may share a row. `has_fine` says whether tiles have fine
+  /// distances.
   MeasuredReturns(ImageShape shape, std::size_t lasers, std::size_t tiles,
-                  memory::FixedMemory& memory);
+                  memory::FixedMemory& memory, bool has_fine = false);
 
   /// Removes all returns; those to come are of this turn.
   void clear(std::int64_t turn) noexcept TERRACUT_NONBLOCKING;
@@ -83,6 +84,11 @@ class MeasuredReturns {
   }
   [[nodiscard]] const std::uint16_t* raw(std::size_t tile) const noexcept {
     return &raw_[tile * lasers_ * kTileFirings];
+  }
+  [[nodiscard]] TileDistances distances(std::size_t tile) const noexcept {
+    const std::uint8_t* const fine =
+        fine_.empty() ? nullptr : &fine_[tile * lasers_ * kTileFirings];
+    return {raw(tile), fine};
   }
   /// Returns the intensities of a laser's firings.
   [[nodiscard]] const std::uint8_t* intensity(std::size_t tile, std::size_t laser) const noexcept {
@@ -161,6 +167,7 @@ class MeasuredReturns {
   std::span<Tile> tiles_;
   std::span<LaserRow> rows_;      ///< Indexed [tile][laser].
   std::span<std::uint16_t> raw_;  ///< Indexed [tile][laser][firing].
+  std::span<std::uint8_t> fine_;  ///< The same; empty if there are no fine distances.
   /// Indexed [tile][laser][firing]; set only for rows with is_run false.
   std::span<std::uint16_t> columns_;
   std::span<std::uint8_t> intensity_;

@@ -67,7 +67,7 @@ void PointRing::make_until(int end, const MeasuredReturns& turn, TakeExtra take_
   // reaches them, which does no harm.
   for (; next_tile_ < turn.tiles() && turn.tile(next_tile_).least < end; ++next_tile_) {
     empty_until(turn.tile(next_tile_).most + 1);
-    reader_->open(turn.tile(next_tile_).heads, turn.raw(next_tile_));
+    reader_->open(turn.tile(next_tile_).heads, turn.distances(next_tile_));
     for (std::size_t i = 0; i < turn.lasers(); ++i) {
       if (turn.row(next_tile_, i).returns != 0) make_row(turn, next_tile_, i, take_extra);
     }

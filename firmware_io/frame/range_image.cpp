@@ -48,7 +48,7 @@ void RangeImage::fill(const MeasuredReturns& measured, TileReader& reader) noexc
   clear();
   returns_ = measured.returns();
   for (std::size_t t = 0; t < measured.tiles(); ++t) {
-    reader.open(measured.tile(t).heads, measured.raw(t));
+    reader.open(measured.tile(t).heads, measured.distances(t));
     TileRow<std::uint32_t> numbers = measured.tile(t).first_return;
     for (std::size_t i = 0; i < measured.lasers(); ++i) {
       if (measured.row(t, i).returns != 0) fill_row(measured, t, i, reader, numbers);

@@ -10,14 +10,18 @@ namespace terracut::net {
 
 Expected<LiveSource> LiveSource::open(const ListenConfig& config, memory::FixedMemory& memory) {
   if (config.by_libpcap) {
-    return open_pcap(
-        {.interface = config.interface, .port = config.at.port, .sender = config.sender}, memory);
+    return open_pcap({.interface = config.interface,
+                      .port = config.at.port,
+                      .sender = config.sender,
+                      .slot_bytes = config.slot_bytes},
+                     memory);
   }
   return open_socket({.bind = config.at,
                       .multicast_group = config.multicast_group,
                       .interface = config.interface,
                       .sender = config.sender,
-                      .share_port = config.share_port},
+                      .share_port = config.share_port,
+                      .slot_bytes = config.slot_bytes},
                      memory);
 }
 

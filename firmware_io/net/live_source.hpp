@@ -24,6 +24,8 @@ struct ListenConfig {
   std::optional<std::uint32_t> multicast_group;  ///< The multicast group to join; empty: none.
   bool share_port = false;
   std::optional<Sender> sender;  ///< The only sender accepted; others count as foreign.
+  /// The longest payload accepted, > 0; the default is one Ethernet frame.
+  std::size_t slot_bytes = 1536;
 };
 
 /// Receives live datagrams, by a socket or by libpcap. A DatagramSource

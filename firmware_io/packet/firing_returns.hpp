@@ -28,24 +28,35 @@ template <std::size_t kLasers>
 struct FiringReturns {
   std::span<std::uint16_t, kLasers> raw;  ///< Distance as sent, in counts; 0: no return.
   std::span<std::uint8_t, kLasers> intensity;
+  std::span<std::uint8_t> fine{};  ///< See frame::TileDistances; empty for most sensors.
 };
 
 /// The returns of kTileFirings firings, first stored as they arrive, then sorted by laser by
-/// turn().
-template <std::size_t kLasers>
+/// turn(). `kHasFine` says whether there are fine distances.
+template <std::size_t kLasers, bool kHasFine = false>
 struct FiringTile {
+  static constexpr std::size_t kFine = kHasFine ? kLasers : 0;
+
   alignas(64) std::array<std::array<std::uint16_t, kLasers>, kTileFirings> arrived_raw;
   alignas(64) std::array<std::array<std::uint8_t, kLasers>, kTileFirings> arrived_intensity;
   alignas(64) std::array<TileRow<std::uint16_t>, kLasers> raw;
   alignas(64) std::array<TileRow<std::uint8_t>, kLasers> intensity;
+  alignas(64) std::array<std::array<std::uint8_t, kFine>, kTileFirings> arrived_fine;
+  alignas(64) std::array<TileRow<std::uint8_t>, kFine> fine;
 
   [[nodiscard]] FiringReturns<kLasers> firing(std::size_t number) noexcept {
-    return {arrived_raw[number], arrived_intensity[number]};
+    return {arrived_raw[number], arrived_intensity[number], arrived_fine[number]};
+  }
+  [[nodiscard]] frame::TileDistances distances() const noexcept {
+    return {raw[0].data(), kHasFine ? fine.data()->data() : nullptr};
   }
   /// Sorts the returns that have arrived by laser, by a transposition.
   void turn() noexcept {
     frame::transpose(arrived_raw[0].data(), kTileFirings, kLasers, raw[0].data());
     frame::transpose(arrived_intensity[0].data(), kTileFirings, kLasers, intensity[0].data());
+    if constexpr (kHasFine) {
+      frame::transpose(arrived_fine[0].data(), kTileFirings, kLasers, fine[0].data());
+    }
   }
 };
 
@@ -57,6 +68,20 @@ inline void measure(const std::uint16_t* __restrict raw, float metres_per_count,
   for (std::size_t f = 0; f < kTileFirings; ++f) {
     const std::int32_t counts = raw[f];
     const auto bits = std::bit_cast<std::int32_t>(static_cast<float>(counts) * metres_per_count);
+    measured_m[f] = std::bit_cast<float>(bits | (-std::int32_t{counts == 0} & kNan));
+  }
+}
+
+/// The same for distances with fine parts (frame::TileDistances).
+inline void measure(const std::uint16_t* __restrict raw, const std::uint8_t* __restrict fine,
+                    float metres_per_count, float* __restrict measured_m) noexcept {
+  constexpr std::int32_t kNan = 0x7FC0'0000;
+  const float metres_per_fine = metres_per_count / frame::kFinePerCount;
+  for (std::size_t f = 0; f < kTileFirings; ++f) {
+    const std::int32_t counts = raw[f];
+    const std::int32_t fine_counts = counts * frame::kFinePerCount - fine[f];
+    const auto bits =
+        std::bit_cast<std::int32_t>(static_cast<float>(fine_counts) * metres_per_fine);
     measured_m[f] = std::bit_cast<float>(bits | (-std::int32_t{counts == 0} & kNan));
   }
 }

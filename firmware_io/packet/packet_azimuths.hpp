@@ -34,7 +34,7 @@ inline constexpr std::int32_t kPeriodTolerance = 8;
 /// order packets and to separate frames. The sensor's trait fills this in and guarantees that
 /// azimuths are in range and advance.
 struct PacketAzimuths {
-  static constexpr int kMaxColumns = 12;
+  static constexpr int kMaxColumns = 32;  ///< An Ouster's 16 in dual return.
 
   /// Device stamp, [0, Sensor::kClockWrap_us), taken at the same place of every packet, so that it
   /// advances evenly.

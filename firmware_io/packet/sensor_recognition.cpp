@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 
+#include "calib/ouster/ouster_calibration.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/hesai_wire.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
@@ -126,11 +127,16 @@ SensorModel recognise_sensor(Bytes payload) noexcept {
     const std::uint8_t first = payload[kSentenceAt];
     if (first == '$' || first == 0) return SensorModel::kVelodynePosition;
   }
-  return hesai_model(payload);
+  if (const SensorModel model = hesai_model(payload); model != SensorModel::kUnknown) return model;
+  const auto format = ouster::format_of(payload);
+  return format ? ouster::model_of_rows(format->rows) : SensorModel::kUnknown;
 }
 
 SensorModel recognise_sensor_as(std::optional<SensorModel> named, Bytes payload) noexcept {
   const SensorModel model = recognise_sensor(payload);
+  if (named && is_ouster(*named) && is_ouster(model)) {
+    return ouster::format_of(payload, ouster::rows_of(*named)) ? *named : model;
+  }
   // The VLS-128 needs no name: its block ids identify it.
   const bool may_be_named = model == SensorModel::kOtherVelodyne && named &&
                             has_factory_table(*named) && *named != SensorModel::kVls128;
@@ -142,6 +148,9 @@ std::string describe_sensor_hints(Bytes payload) {
   if (row_of(model).product_number != 0 || model == SensorModel::kOtherVelodyne) {
     return fmt::format("product number 0x{:02X}, {}", payload[1205],
                        velodyne_return_mode(payload[1204]));
+  }
+  if (const auto format = ouster::format_of(payload); is_ouster(model) && format) {
+    return fmt::format("profile {}", ouster::row_of(format->profile).name);
   }
   switch (model) {
     case SensorModel::kRuby128:

@@ -21,13 +21,15 @@ namespace terracut::sensor {
 
 /// Returns which sensor sent a payload, as recognise_sensor() does, when the user has named the
 /// model. Simulators, old firmware and the VLP-32A send Velodyne's data packets with product
-/// numbers not known here; these count as the named model's if their blocks fit it.
+/// numbers not known here; these count as the named model's if their blocks fit it. So do an
+/// Ouster's packets, some of which may be of several numbers of rows.
 [[nodiscard]] SensorModel recognise_sensor_as(std::optional<SensorModel> named,
                                               std::span<const std::uint8_t> payload) noexcept
     TERRACUT_NONBLOCKING;
 
 /// Returns, for people, what else the payload says about the model: product number and return mode
-/// of a Velodyne, type bytes of a RoboSense with their documented meaning. Empty if it says
+/// of a Velodyne, type bytes of a RoboSense with their documented meaning, profile of an Ouster.
+/// Empty if it says
 /// nothing.
 [[nodiscard]] std::string describe_sensor_hints(std::span<const std::uint8_t> payload);
 

@@ -25,8 +25,12 @@ class StraightPointKernel {
   /// Takes `lasers` as beams::StraightGeometry does, at most kMostLasers.
   template <class Lasers>
   StraightPointKernel(const Lasers& lasers, const mount::Mount& mount, double lens_ahead_m = 0)
+      : StraightPointKernel(lasers, mount::T_vehicle_lidar(mount), lens_ahead_m) {}
+
+  /// Takes the transform from the frame of the rotating head to the vehicle's.
+  template <class Lasers>
+  StraightPointKernel(const Lasers& lasers, const mount::RigidTransform& T, double lens_ahead_m)
       : lens_ahead_m_(static_cast<float>(lens_ahead_m)) {
-    const auto T = mount::T_vehicle_lidar(mount);
     for (std::size_t i = 0; i < T.size(); ++i) T_vehicle_lidar_[i] = static_cast<float>(T[i]);
     std::size_t i = 0;
     for (const auto& laser : lasers) {

@@ -113,6 +113,69 @@ tl::expected<LinkPayload, FrameReject> link_payload(int link_type, Bytes frame) 
   }
 }
 
+/// An IPv4 packet or a part of one.
+struct IpPacket {
+  IpFragment fragment;  ///< Its payload may be shorter or, with padding, longer than promised.
+  std::optional<std::size_t> promised_bytes;  ///< Of the payload, by the header; empty: unknown.
+};
+
+tl::expected<IpPacket, FrameReject> ip_packet(int link_type, Bytes captured) noexcept {
+  const auto network = link_payload(link_type, captured);
+  if (!network) return Rejected(network.error());
+  const Bytes ip = network->ip;
+
+  if (ip.empty()) return Rejected(FrameReject::kShortCapture);
+  const int version = ip[0] >> 4;
+  if (version == 6) return Rejected(FrameReject::kIpv6);
+  if (version != 4) return Rejected(FrameReject::kBadIpHeader);
+  const std::size_t header_bytes = std::size_t{ip[0] & 0x0FU} * 4;
+  if (header_bytes < 20) return Rejected(FrameReject::kBadIpHeader);
+  if (ip.size() < header_bytes) return Rejected(FrameReject::kShortCapture);
+  const std::size_t total_bytes = big_u16(ip, 2);
+  const bool length_known = total_bytes != 0;
+  if (length_known && total_bytes < header_bytes) return Rejected(FrameReject::kBadIpHeader);
+  if (ip[9] != kProtocolUdp) return Rejected(FrameReject::kNotUdp);
+  const std::uint16_t fragment_field = big_u16(ip, 6);
+  constexpr std::uint16_t kMoreFragments = 0x2000;
+  constexpr std::uint16_t kFragmentOffset = 0x1FFF;
+  constexpr std::size_t kOffsetUnit = 8;
+  IpPacket found{.fragment = {.source_address = big_u32(ip, 12),
+                              .destination_address = big_u32(ip, 16),
+                              .vlan = network->vlan,
+                              .source_mac = network->source_mac,
+                              .id = big_u16(ip, 4),
+                              .at = (fragment_field & kFragmentOffset) * kOffsetUnit,
+                              .more = (fragment_field & kMoreFragments) != 0,
+                              .payload = ip.subspan(header_bytes)},
+                 .promised_bytes = std::nullopt};
+  if (length_known) found.promised_bytes = total_bytes - header_bytes;
+  return found;
+}
+
+tl::expected<Datagram, FrameReject> udp_in(const IpFragment& whole,
+                                           std::optional<std::size_t> promised_bytes,
+                                           std::int64_t stamp_ns) noexcept {
+  const Bytes udp = whole.payload;
+  if (promised_bytes && *promised_bytes < kUdpHeaderBytes) {
+    return Rejected(FrameReject::kTruncatedUdp);
+  }
+  if (udp.size() < kUdpHeaderBytes) return Rejected(FrameReject::kShortCapture);
+  const std::size_t udp_bytes = big_u16(udp, 4);
+  if (udp_bytes < kUdpHeaderBytes || (promised_bytes && udp_bytes > *promised_bytes)) {
+    return Rejected(FrameReject::kTruncatedUdp);
+  }
+  if (udp.size() < udp_bytes) return Rejected(FrameReject::kShortCapture);
+
+  return Datagram{.payload = udp.subspan(kUdpHeaderBytes, udp_bytes - kUdpHeaderBytes),
+                  .stamp_ns = stamp_ns,
+                  .source_address = whole.source_address,
+                  .destination_address = whole.destination_address,
+                  .source_port = big_u16(udp, 0),
+                  .destination_port = big_u16(udp, 2),
+                  .vlan = whole.vlan,
+                  .source_mac = whole.source_mac};
+}
+
 }  // namespace
 
 std::string_view to_string(FrameReject reason) noexcept {
@@ -152,8 +215,7 @@ std::string_view description_of(FrameReject reason) noexcept {
     case FrameReject::kNotUdp:
       return "are of no UDP (TCP, ICMP, a tunnel, ...)";
     case FrameReject::kFragment:
-      return "are IP fragments of datagrams, which are not put together (let the way from the "
-             "sensor have an MTU of 1500)";
+      return "are IP fragments of datagrams whose other parts are missing";
     case FrameReject::kTruncatedUdp:
       return "hold a UDP length that does not fit";
     case FrameReject::kUnsupportedLinkType:
@@ -171,47 +233,24 @@ bool is_supported_link_type(int link_type) noexcept {
 
 tl::expected<Datagram, FrameReject> parse_udp_frame(int link_type, Bytes captured,
                                                     std::int64_t stamp_ns) noexcept {
-  const auto network = link_payload(link_type, captured);
-  if (!network) return Rejected(network.error());
-  const Bytes ip = network->ip;
+  const auto found = ip_packet(link_type, captured);
+  if (!found) return Rejected(found.error());
+  if (found->fragment.at != 0 || found->fragment.more) return Rejected(FrameReject::kFragment);
+  return udp_in(found->fragment, found->promised_bytes, stamp_ns);
+}
 
-  if (ip.empty()) return Rejected(FrameReject::kShortCapture);
-  const int version = ip[0] >> 4;
-  if (version == 6) return Rejected(FrameReject::kIpv6);
-  if (version != 4) return Rejected(FrameReject::kBadIpHeader);
-  const std::size_t header_bytes = std::size_t{ip[0] & 0x0FU} * 4;
-  if (header_bytes < 20) return Rejected(FrameReject::kBadIpHeader);
-  if (ip.size() < header_bytes) return Rejected(FrameReject::kShortCapture);
-  const std::size_t total_bytes = big_u16(ip, 2);
-  const bool length_known = total_bytes != 0;
-  if (length_known && total_bytes < header_bytes) return Rejected(FrameReject::kBadIpHeader);
-  if (ip[9] != kProtocolUdp) return Rejected(FrameReject::kNotUdp);
-  const std::uint16_t fragment_field = big_u16(ip, 6);
-  constexpr std::uint16_t kMoreFragments = 0x2000;
-  constexpr std::uint16_t kFragmentOffset = 0x1FFF;
-  if ((fragment_field & (kMoreFragments | kFragmentOffset)) != 0) {
-    return Rejected(FrameReject::kFragment);
-  }
+std::optional<IpFragment> parse_ip_fragment(int link_type, Bytes captured) noexcept {
+  const auto found = ip_packet(link_type, captured);
+  if (!found || !found->promised_bytes) return std::nullopt;
+  if (found->fragment.payload.size() < *found->promised_bytes) return std::nullopt;
+  IpFragment fragment = found->fragment;
+  fragment.payload = fragment.payload.first(*found->promised_bytes);
+  return fragment;
+}
 
-  const Bytes udp = ip.subspan(header_bytes);
-  if (length_known && total_bytes - header_bytes < kUdpHeaderBytes) {
-    return Rejected(FrameReject::kTruncatedUdp);
-  }
-  if (udp.size() < kUdpHeaderBytes) return Rejected(FrameReject::kShortCapture);
-  const std::size_t udp_bytes = big_u16(udp, 4);
-  if (udp_bytes < kUdpHeaderBytes || (length_known && udp_bytes > total_bytes - header_bytes)) {
-    return Rejected(FrameReject::kTruncatedUdp);
-  }
-  if (udp.size() < udp_bytes) return Rejected(FrameReject::kShortCapture);
-
-  return Datagram{.payload = udp.subspan(kUdpHeaderBytes, udp_bytes - kUdpHeaderBytes),
-                  .stamp_ns = stamp_ns,
-                  .source_address = big_u32(ip, 12),
-                  .destination_address = big_u32(ip, 16),
-                  .source_port = big_u16(udp, 0),
-                  .destination_port = big_u16(udp, 2),
-                  .vlan = network->vlan,
-                  .source_mac = network->source_mac};
+tl::expected<Datagram, FrameReject> parse_udp(const IpFragment& whole,
+                                              std::int64_t stamp_ns) noexcept {
+  return udp_in(whole, whole.payload.size(), stamp_ns);
 }
 
 }  // namespace terracut::packet

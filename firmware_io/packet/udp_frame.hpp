@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -20,7 +21,7 @@ enum class FrameReject : std::uint8_t {
   kIpv6,                 ///< The frame holds IPv6, which no supported sensor sends.
   kBadIpHeader,          ///< Version, header length or total length are impossible.
   kNotUdp,               ///< The packet holds TCP, ICMP, IGMP or the like.
-  kFragment,             ///< Part of a fragmented datagram. Sensor packets fit one frame.
+  kFragment,             ///< Part of a fragmented datagram (IpFragment).
   kTruncatedUdp,         ///< The UDP length is below 8 or beyond the IP packet.
   kUnsupportedLinkType,  ///< See is_supported_link_type().
   kCount,
@@ -45,5 +46,24 @@ inline constexpr std::size_t kFrameRejects = static_cast<std::size_t>(FrameRejec
 [[nodiscard]] tl::expected<Datagram, FrameReject> parse_udp_frame(
     int link_type, std::span<const std::uint8_t> captured,
     std::int64_t stamp_ns) noexcept TERRACUT_NONBLOCKING;
+
+/// A fragment of an IPv4 packet that carries UDP, or a whole one.
+struct IpFragment {
+  std::uint32_t source_address = 0, destination_address = 0, vlan = 0;  ///< See Datagram.
+  std::uint64_t source_mac = 0;
+  std::uint16_t id = 0;                     ///< The packet's number, the same in all its fragments.
+  std::size_t at = 0;                       ///< Where its payload begins in the packet's.
+  bool more = false;                        ///< True unless it is the packet's last part.
+  std::span<const std::uint8_t> payload{};  ///< Without the IP header; points into the frame.
+};
+
+/// Finds the fragment in a frame for which parse_udp_frame() says kFragment; nothing if the frame
+/// holds fewer bytes than it promises. Allocates nothing.
+[[nodiscard]] std::optional<IpFragment> parse_ip_fragment(
+    int link_type, std::span<const std::uint8_t> captured) noexcept TERRACUT_NONBLOCKING;
+
+/// Finds the UDP payload of a whole packet, as parse_udp_frame() does.
+[[nodiscard]] tl::expected<Datagram, FrameReject> parse_udp(
+    const IpFragment& whole, std::int64_t stamp_ns) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::packet

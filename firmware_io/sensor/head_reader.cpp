@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/sensor/head_reader.hpp"
 
+#include "calib/ouster/ouster_calibration.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/packet_check.hpp"
@@ -23,6 +24,9 @@ std::optional<frame::Reject> HeadReader::read(SensorModel model, const packet::D
   }
   for (hesai::PacketReader& reader : hesai_.of_models) {
     if (reader.model() == model) return reader.read(datagram.payload, azimuths);
+  }
+  if (is_ouster(model)) {
+    return ouster_.read(datagram.payload, ouster::rows_of(model), azimuths);
   }
   const auto* packet = hdl64e::packet_in(datagram.payload);
   if (model == SensorModel::kHdl64eS1 && packet != nullptr) {

@@ -10,6 +10,7 @@
 #include "firmware_io/hdl64e/s1_reader.hpp"
 #include "firmware_io/hesai/models.hpp"
 #include "firmware_io/hesai/packet_reader.hpp"
+#include "firmware_io/ouster/head_reader.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
@@ -23,7 +24,8 @@ namespace terracut::sensor {
 class HeadReader {
  public:
   /// Runs check() of the model's trait. The model counts as named by the user (VelodyneConfig). An
-  /// RS-Ruby128's packets with a blind sector inside are rejected.
+  /// RS-Ruby128's packets with a blind sector inside are rejected. An Ouster's columns of a frame
+  /// are those of 10 Hz until a frame's end has come.
   [[nodiscard]] std::optional<frame::Reject> read(SensorModel model,
                                                   const packet::Datagram& datagram,
                                                   packet::PacketAzimuths& azimuths) noexcept;
@@ -43,6 +45,7 @@ class HeadReader {
         hesai::PacketReader(Model::kLayout)...};
   };
   hesai::Models::In<HesaiReaders> hesai_;
+  ouster::HeadReader ouster_;
 };
 
 }  // namespace terracut::sensor

@@ -113,6 +113,11 @@ bool SensorProbe::dual_return(SensorModel model) const {
 }
 
 int SensorProbe::columns(SensorModel model) const {
+  if (is_ouster(model)) {
+    constexpr int kUsual = 1024;
+    const Head* const head = head_of(model);
+    return head == nullptr ? kUsual : packet::kRevolution_ticks / head->last->step_ticks;
+  }
   const std::optional<double> hz = head_spin_hz(spin_hz(model));
   if (!knows(model) || !hz) {
     constexpr double kUsual_hz = 10;

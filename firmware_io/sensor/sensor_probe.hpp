@@ -37,7 +37,8 @@ class SensorProbe {
   [[nodiscard]] bool dual_return(SensorModel model) const;
   /// Returns the columns of the model's range image: the firings per frame, at the nominal 5, 10,
   /// 15 or 20 Hz if the head rotates at about that, else at its own rate. Outside 5 to 20 Hz, and
-  /// while the rate is unknown, returns the model's default.
+  /// while the rate is unknown, returns the model's default. Of an Ouster, returns the columns that
+  /// its packets number.
   [[nodiscard]] int columns(SensorModel model) const;
 
   /// Returns the number of data packets in which the model's head rotates backwards, which no real

@@ -16,7 +16,7 @@ constexpr std::int64_t kJump_us = 10'000'000;
 /// rotations the shorter is the true one.
 constexpr std::int64_t kSurelyUnderHalfARevolution_us = 20'000;
 constexpr std::int64_t kShortestPeriod_us = 50;
-constexpr std::int64_t kLongestPeriod_us = 1'500;  ///< A VLP-16's are 1327 us in single return.
+constexpr std::int64_t kLongestPeriod_us = 3'500;  ///< An Ouster's are 3125 us in mode 512x10.
 /// Bounds the memory that a senseless capture can take.
 constexpr std::size_t kMostDistinctSteps = 100'000;
 

@@ -10,6 +10,7 @@
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
 #include "calib/hesai/hesai_csv.hpp"
+#include "calib/ouster/ouster_metadata.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
@@ -121,11 +122,23 @@ tl::unexpected<Error> fail_for_s1(const std::string& place) {
                   place));
 }
 
+tl::unexpected<Error> fail_for_ouster(const std::string& place) {
+  return fail(
+      ErrorCode::kNoCalibration,
+      fmt::format("{}: no metadata: none was given, and an Ouster's packets hold neither its "
+                  "angles nor its mode. Give the .json file recorded with it, or its answer "
+                  "to http://SENSOR/api/v1/sensor/metadata, with --calibration FILE",
+                  place));
+}
+
 Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
                                                     SensorModel model,
                                                     const FromPackets& from_packets) {
   const bool ruby128 = model == SensorModel::kRuby128;
   if (choice.unit) return *choice.unit;
+  if (is_ouster(model) && !choice.file.empty()) {
+    return ouster::read_ouster_metadata(choice.file, model);
+  }
   if (row_of(model).has_unit_tables) {  // a Hesai, whose packets do not hold its table
     if (choice.file.empty()) return beams::built_in_table(model);
     return hesai::read_hesai_csv(choice.file, model);
@@ -150,6 +163,7 @@ Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& cho
   return unit_calibration(choice, model, [&]() -> Expected<calib::SensorCalibration> {
     if (model == SensorModel::kRuby128) return from_packets_of_ruby128(source);
     if (model == SensorModel::kHdl64eS1) return fail_for_s1(source.name());
+    if (is_ouster(model)) return fail_for_ouster(source.name());
     return from_packets_of_hdl64e(source);
   });
 }

@@ -17,7 +17,8 @@ namespace terracut::sensor {
 struct CalibrationChoice {
   /// A calibration known already; must be of the model.
   std::optional<calib::SensorCalibration> unit{};
-  /// File of an HDL-64E (xml or yaml), an RS-Ruby128 or a Hesai (csv); empty: none.
+  /// File of an HDL-64E (xml or yaml), an RS-Ruby128 or a Hesai (csv), or an Ouster (json); empty:
+  /// none.
   std::filesystem::path file{};
   bool allows_nominal = false;  ///< Allows the nominal table of an RS-Ruby128 as the last resort.
 
@@ -36,6 +37,8 @@ using FromPackets = std::function<Expected<calib::SensorCalibration>()>;
 
 /// Fails with kNoCalibration for an HDL-64E S1 heard at `place`: its packets never contain one.
 [[nodiscard]] tl::unexpected<Error> fail_for_s1(const std::string& place);
+/// The same for an Ouster without metadata.
+[[nodiscard]] tl::unexpected<Error> fail_for_ouster(const std::string& place);
 
 /// Returns the calibration of a capture's unit. Its packets may hold it, in an HDL-64E's status
 /// stream or in DIFOP packets. If they do not, fails with kNoCalibration; the message says what was

@@ -68,10 +68,12 @@ Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) c
     return from_packets(sensor.model, sensor.source_address);
   });
   if (!calibration) return tl::unexpected(calibration.error());
+  const auto rotation = calib::rotation_of(*calibration);
   return SensorOnAir{.sender = {sensor.source_address, sensor.source_port},
                      .model = sensor.model,
-                     .columns = config_.columns.value_or(probe.columns(sensor.model)),
-                     .spin_hz = probe.spin_hz(sensor.model),
+                     .columns = config_.columns.value_or(rotation ? rotation->columns
+                                                                  : probe.columns(sensor.model)),
+                     .spin_hz = rotation ? rotation->spin_hz : probe.spin_hz(sensor.model),
                      .dual_return = probe.dual_return(sensor.model),
                      .calibration = *std::move(calibration)};
 }
@@ -99,7 +101,8 @@ std::string FirstSeconds::other_sensors() const {
 }
 
 std::string FirstSeconds::wanted_name() const {
-  return config_.model ? std::string(to_string(*config_.model)) : "a Velodyne, RS-Ruby128 or Hesai";
+  return config_.model ? std::string(to_string(*config_.model))
+                       : "a Velodyne, RS-Ruby128, Hesai or Ouster";
 }
 
 std::string FirstSeconds::heard_instead() const {
@@ -134,6 +137,7 @@ Expected<calib::SensorCalibration> FirstSeconds::from_packets(sensor::SensorMode
                             config_.device_port, told.error().message));
   }
   if (model == sensor::SensorModel::kHdl64eS1) return sensor::fail_for_s1(config_.place);
+  if (sensor::is_ouster(model)) return sensor::fail_for_ouster(config_.place);
   const hdl64e::StatusStreamReader& status = senders_.hdl64e_status(address);
   if (!status.has_table()) {
     return fail(ErrorCode::kNoCalibration,

@@ -124,8 +124,8 @@ std::vector<SensorStream> HeardSenders::steady() const {
 }
 
 bool HeardSenders::has_told(const SensorStream& sensor) const {
-  // A table of this model is built in, and its packets hold none.
-  if (sensor::has_built_in_table(sensor.model)) return true;
+  // A table of this model is built in, or in a file, and its packets hold none.
+  if (sensor::has_built_in_table(sensor.model) || sensor::is_ouster(sensor.model)) return true;
   const Sender& sender = senders_.at(sensor.source_address);
   return sensor.model == sensor::SensorModel::kRuby128 ? sender.ruby128_device.has_calibration()
                                                        : sender.hdl64e_status.has_table();

@@ -164,6 +164,11 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
   }
   net::ListenConfig listen_config;
   listen_config.at = {*address, config.port};
+  if (config.calibration) {
+    const auto model = calib::model_of(config.calibration->table().unit);
+    listen_config.slot_bytes =
+        std::max(listen_config.slot_bytes, sensor::row_of(model).longest_packet_bytes);
+  }
   auto source_memory = std::make_unique<memory::FixedMemory>();
   auto source = net::LiveSource::open(listen_config, *source_memory);
   if (!source) return tl::unexpected(source.error());

@@ -28,11 +28,11 @@ decode::Decoder::Config decoder_config(const LiveConfig& config,
 std::optional<recorder::FlightRecorder> recorder_of(const LiveConfig& config,
                                                     sensor::SensorModel model,
                                                     memory::FixedMemory& memory) {
-  constexpr std::size_t kLongestPacketBytes = 1248;
   if (config.recorder_seconds <= 0) return std::nullopt;
+  const sensor::SensorRow& row = sensor::row_of(model);
   return std::make_optional<recorder::FlightRecorder>(
-      net::packet_ring_size(config.recorder_seconds, sensor::row_of(model).most_packets_per_second,
-                            kLongestPacketBytes),
+      net::packet_ring_size(config.recorder_seconds, row.most_packets_per_second,
+                            row.longest_packet_bytes),
       memory);
 }
 

@@ -63,7 +63,7 @@ void pack_tile(const frame::MeasuredReturns& returns, std::size_t tile,
   frame::TilePoints made;
   frame::TileRow<std::uint32_t> next = returns.tile(tile).first_return;
   const std::uint32_t first = next[0];
-  reader.open(returns.tile(tile).heads, returns.raw(tile));
+  reader.open(returns.tile(tile).heads, returns.distances(tile));
   for (std::size_t i = 0; i < returns.lasers(); ++i) {
     const std::uint32_t hits = returns.row(tile, i).returns;
     if (hits == 0) continue;

@@ -91,7 +91,7 @@ void ReturnHeights::assign_tile(const frame::MeasuredReturns& turn, std::size_t 
     if (row.returns == 0) continue;
     const float* const of_row = &planes.height_m[turn.shape().cell(rows[i], 0)];
     if (!take_cells(turn, tile, i, of_row, next)) {
-      if (!std::exchange(is_open, true)) reader.open(turn.tile(tile).heads, turn.raw(tile));
+      if (!std::exchange(is_open, true)) reader.open(turn.tile(tile).heads, turn.distances(tile));
       frame::TilePoints own;
       reader.compute_points(i, all_of(own));
       frame::for_each_firing(row.returns, [&](std::size_t f) noexcept {

@@ -100,7 +100,9 @@ bool ReturnLabels::write_tile(const frame::MeasuredReturns& turn, std::size_t ti
       }
       continue;
     }
-    if (row.owned != row.returns && !std::exchange(is_open, true)) reader.open(at.heads, raw);
+    if (row.owned != row.returns && !std::exchange(is_open, true)) {
+      reader.open(at.heads, turn.distances(tile));
+    }
     of_laser[i] = labels_of_row(turn, tile, i, points, reader, planes);
   }
   frame::transpose(of_laser[0].data(), lasers, frame::kTileFirings, of_firing.data());

@@ -100,7 +100,7 @@ std::uint32_t ReturnLabels::write_late_tile(const frame::MeasuredReturns& turn, 
                                             HeightOf height_of) noexcept {
   std::uint32_t late = 0;
   frame::TileRow<std::uint32_t> next = turn.tile(tile).first_return;
-  reader.open(turn.tile(tile).heads, turn.raw(tile));
+  reader.open(turn.tile(tile).heads, turn.distances(tile));
   for (std::size_t i = 0; i < turn.lasers(); ++i) {
     frame::TilePoints own;
     reader.compute_points(i, all_of(own));

@@ -20,7 +20,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const std::uint8_t byte : (*next)->payload) touched += byte;
   }
   const capture::PcapCounters& counters = source->counters();
-  const bool all_counted = counters.frames == counters.delivered + counters.refused_total();
+  const bool all_counted =
+      counters.frames == counters.delivered + counters.joined + counters.refused_total();
   if (!all_counted) std::abort();
   // A record takes at least its header, so a file cannot hold more frames than bytes.
   if (counters.frames > size) std::abort();

@@ -19,7 +19,7 @@ TEST(SensorTable, HasOneRowForEveryModelWithANameOfItsOwn) {
     models.insert(row.model);
     names.insert(row.name);
   }
-  EXPECT_EQ(models.size(), static_cast<std::size_t>(SensorModel::kPandarXt32m) + 1);
+  EXPECT_EQ(models.size(), static_cast<std::size_t>(SensorModel::kOuster128) + 1);
   EXPECT_EQ(names.size(), models.size());
 }
 
@@ -41,7 +41,10 @@ TEST(SensorTable, KeepsTheWordsAndTheNumbersOnTheWire) {
                                                  {"pandarqt128", 10},
                                                  {"pandarxt16", 11},
                                                  {"pandarxt32", 12},
-                                                 {"pandarxt32m", 13}}));
+                                                 {"pandarxt32m", 13},
+                                                 {"ouster32", 14},
+                                                 {"ouster64", 15},
+                                                 {"ouster128", 16}}));
 }
 
 TEST(SensorTable, TellsModelsApartByWordAndProductNumber) {

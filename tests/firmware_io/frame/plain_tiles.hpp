@@ -19,9 +19,9 @@ template <std::size_t Lasers>
 class HeldTileReader : public frame::TileReader {
  public:
   void open(const frame::TileHeads& heads,
-            const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING final {
+            const frame::TileDistances& distances) noexcept TERRACUT_NONBLOCKING final {
     heads_ = heads;
-    raw_ = raw;
+    raw_ = distances.raw;
   }
   [[nodiscard]] std::span<const std::int32_t> rows() const noexcept TERRACUT_NONBLOCKING final {
     return rows_;
@@ -93,7 +93,7 @@ struct PlainTile {
                        frame::CellOwner owner = frame::CellOwner::kFirstArrived,
                        std::int32_t first_column = 0) const {
     return returns.add({.heads = heads,
-                        .raw = raw[0].data(),
+                        .distances = {raw[0].data()},
                         .intensity = intensity[0].data(),
                         .beams = beams,
                         .first_column = first_column},

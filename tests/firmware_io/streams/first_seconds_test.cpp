@@ -51,7 +51,8 @@ void hear(FirstSeconds& first, std::span<const test::Packet> packets,
 TEST(FirstSeconds, SayWhatIsWaitedForAsLongAsNothingCame) {
   const FirstSeconds first(anything());
   EXPECT_FALSE(first.is_enough());
-  EXPECT_EQ(first.waits_for(), "waiting for a Velodyne, RS-Ruby128 or Hesai at 0.0.0.0:2368");
+  EXPECT_EQ(first.waits_for(),
+            "waiting for a Velodyne, RS-Ruby128, Hesai or Ouster at 0.0.0.0:2368");
 }
 
 TEST(FirstSeconds, AreEnoughWhenASensorRotatesThatNobodyElseSendsBeside) {

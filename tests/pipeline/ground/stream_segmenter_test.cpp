@@ -99,7 +99,7 @@ class StreamSegmenterOnTurns : public testing::Test {
       }
     }
     ASSERT_EQ(turn.add({.heads = heads,
-                        .raw = raw[0].data(),
+                        .distances = {raw[0].data()},
                         .intensity = intensity[0].data(),
                         .beams = beams,
                         .first_column = 0},

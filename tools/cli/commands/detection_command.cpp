@@ -10,6 +10,7 @@
 #include "calib/mount/ring_profile.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/decode/decoder.hpp"
+#include "firmware_io/sensor/unit_calibration.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/json_text.hpp"
@@ -32,6 +33,12 @@ constexpr std::array kRanges{Ranges{5, 10},  Ranges{10, 15}, Ranges{15, 20}, Ran
 /// Returns the unit of --calibration, else the model's.
 Expected<calib::SensorCalibration> unit_of(const CaptureOptions& options, SensorModel model) {
   Expected<calib::SensorCalibration> unit = calib::nominal(model);
+  if (sensor::is_ouster(model)) {
+    const auto no_packets = []() -> Expected<calib::SensorCalibration> {
+      return sensor::fail_for_ouster("detection");
+    };
+    return sensor::unit_calibration({.file = options.calibration}, model, no_packets);
+  }
   if (options.calibration.empty()) return unit;
   packets::with_encoder_traits(model, [&](auto traits) {
     unit = made_calibration(options, traits).map([](auto made) {
@@ -70,6 +77,7 @@ ExitCode run_detection(const Options& options) {
                                 .roughness_m = options.detection.roughness_m};
   std::vector<SensorModel> models(sensor::kDecodedModels.begin(), sensor::kDecodedModels.end());
   std::erase(models, SensorModel::kHdl64eS1);  // the S2's table stands for all generations
+  std::erase_if(models, sensor::is_ouster);    // each unit has its own angles
   if (!options.capture.calibration.empty()) models = {SensorModel::kHdl64e};
   if (options.capture.sensor) models = {*options.capture.sensor};
   std::vector<double> heights_m(kHeights_m.begin(), kHeights_m.end());

@@ -196,6 +196,9 @@ ExitCode simulate_sending_the_beginning(const Options& options, const std::files
 
 ExitCode run_simulate(const Options& options) {
   catch_stop_signals();
+  if (const auto model = options.capture.sensor; model && sensor::is_ouster(*model)) {
+    return refuse(kUsage, fmt::format("packets of a {} are read, not made", to_string(*model)));
+  }
   if (!options.simulate.pattern.empty()) return simulate_clouds(options);
   if (options.send.to.empty()) {
     if (options.written.empty()) {

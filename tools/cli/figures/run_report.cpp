@@ -71,6 +71,7 @@ std::vector<Figure> datagram_figures(const capture::CaptureAccount& account) {
   add("decoded", account.decoded);
   add("device_info", account.device_info);
   add("rejected", account.losses.rejected_total());
+  add("joined_fragments", account.read.joined);
   add("no_datagram", account.read.refused_total());
   add("other_port", account.read.other_port);
   add("other_source", account.read.other_source);

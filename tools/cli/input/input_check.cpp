@@ -4,6 +4,7 @@
 
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/hesai/hesai_csv.hpp"
+#include "calib/ouster/ouster_metadata.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "firmware_io/vehicle/dbc_file.hpp"
@@ -22,6 +23,10 @@ Status check_calibration(const CaptureOptions& capture) {
   if (file.empty()) return {};
   if (capture.sensor && sensor::has_built_in_table(*capture.sensor)) {
     return status_of(sensor::unit_calibration({{}, file, false}, *capture.sensor, {}));
+  }
+  const bool is_of_ouster = capture.sensor && sensor::is_ouster(*capture.sensor);
+  if (is_of_ouster || (!capture.sensor && ouster::is_metadata_name(file))) {
+    return status_of(ouster::read_ouster_metadata(file, capture.sensor));
   }
   const auto hdl64e = [&] { return status_of(hdl64e::load_hdl64e_calibration(file)); };
   const auto ruby128 = [&] { return status_of(ruby128::read_ruby128_csv(file)); };

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "calib/ouster/ouster_metadata.hpp"
 #include "firmware_io/bag/bag.hpp"
 #include "firmware_io/bag/topic_choice.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
@@ -71,10 +72,14 @@ Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
   Expected<calib::SensorCalibration> told = fail(ErrorCode::kNoCalibration, "");
   if (!is_of_hesai || choice.is_given()) told = sensor::unit_calibration(choice, model, unit);
   if (told || choice.is_given() || told.error().code != ErrorCode::kNoCalibration) return told;
-  const auto beside = calibration_beside(options.file);
+  const bool is_of_ouster = sensor::is_ouster(model);
+  const auto beside =
+      is_of_ouster ? metadata_beside(options.file) : calibration_beside(options.file);
   if (!beside) return tl::unexpected(beside.error());
   const bool is_of_ruby128 = model == sensor::SensorModel::kRuby128;
-  if (!beside->empty() && (beside->extension() == ".csv") == (is_of_ruby128 || is_of_hesai)) {
+  const bool is_csv = beside->extension() == ".csv";
+  if (!beside->empty() && is_csv == (is_of_ruby128 || is_of_hesai) &&
+      ouster::is_metadata_name(*beside) == is_of_ouster) {
     choice.file = *beside;
     say(fmt::format("the packets hold no calibration; {} beside the capture is taken",
                     beside->string()));
@@ -83,9 +88,27 @@ Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
   if (choice.is_given() || choice.allows_nominal || is_of_hesai) {
     return sensor::unit_calibration(choice, model, unit);
   }
-  told.error().message += fmt::format("; or put it beside the capture as {}.calibration.{}",
-                                      stem_of(options.file), is_of_ruby128 ? "csv" : "xml");
+  told.error().message +=
+      fmt::format("; or put it beside the capture as {}.calibration.{}", stem_of(options.file),
+                  is_of_ouster    ? "json"
+                  : is_of_ruby128 ? "csv"
+                                  : "xml");
   return told;
+}
+
+/// Chooses the sensor; where neither it nor a table is named, by an Ouster's metadata beside the
+/// capture, if there is any: some of its packets may be of several models.
+Expected<SensorChoice> choose_sensor_of(const CaptureOptions& options, PcapSource& source) {
+  if (!options.sensor && options.calibration.empty()) {
+    CaptureOptions named = options;
+    if (const auto beside = metadata_beside(options.file)) named.calibration = *beside;
+    if (named_model(named)) {
+      auto chosen = choose_sensor(named, source);
+      if (chosen) return chosen;
+      if (Status again = source.rewind(); !again) return tl::unexpected(again.error());
+    }
+  }
+  return choose_sensor(options, source);
 }
 
 }  // namespace
@@ -93,13 +116,17 @@ Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
 Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   auto source = PcapSource::open(options.file, filter_of(options));
   if (!source) return tl::unexpected(source.error());
-  const auto sensor = choose_sensor(options, *source);
+  auto sensor = choose_sensor_of(options, *source);
   if (!sensor) return tl::unexpected(sensor.error());
   warn_of_unused(options, sensor->model);
   auto unit = open_unit(options, sensor->stream);
   if (!unit) return tl::unexpected(unit.error());
   auto calibration = calibration_of(options, sensor->model, *unit);
   if (!calibration) return tl::unexpected(calibration.error());
+  if (const auto rotation = calib::rotation_of(*calibration)) {
+    sensor->columns = options.columns.value_or(rotation->columns);
+    sensor->spin_hz = rotation->spin_hz;
+  }
   // Opens the capture again, so that no packet is counted twice.
   unit = open_unit(options, sensor->stream);
   if (!unit) return tl::unexpected(unit.error());

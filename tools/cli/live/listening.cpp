@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/streams/hear_sensor.hpp"
 #include "known_sensor.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/settings/sensor_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
@@ -30,6 +32,14 @@ std::optional<net::LiveSource> open_device_port(const Options& options,
   return std::nullopt;
 }
 
+/// Returns the longest payload that the sensor may send: more than one Ethernet frame only of an
+/// Ouster, which must be named, or its metadata given.
+std::size_t longest_payload_of(const CaptureOptions& capture) {
+  const sensor::SensorModel model = named_model(capture).value_or(sensor::SensorModel::kUnknown);
+  constexpr std::size_t kEthernetFrame = 1536;
+  return std::max(kEthernetFrame, sensor::row_of(model).longest_packet_bytes);
+}
+
 }  // namespace
 
 net::ListenConfig listen_config_of(const Options& options) {
@@ -39,7 +49,8 @@ net::ListenConfig listen_config_of(const Options& options) {
                            .interface = listen.interface,
                            .multicast_group = {},
                            .share_port = listen.share_port,
-                           .sender = {}};
+                           .sender = {},
+                           .slot_bytes = longest_payload_of(options.capture)};
   if (!listen.multicast.empty()) {
     config.multicast_group = net::parse_ipv4_address(listen.multicast).value();
   }
@@ -53,7 +64,7 @@ Expected<streams::SensorOnAir> listen_for_sensor(net::LiveSource& source, const 
                                                  const OnWaiting& on_waiting) {
   const KnownSensor known(options.watch.name);
   streams::FirstSeconds first(
-      {.model = options.capture.sensor,
+      {.model = named_model(options.capture),
        .columns = options.capture.columns,
        .calibration = {{}, options.capture.calibration, options.capture.nominal_calibration},
        .place = source.name(),

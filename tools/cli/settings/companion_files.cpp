@@ -60,13 +60,19 @@ Expected<fs::path> setup_beside(const Beside& recording) {
 
 Expected<fs::path> calibration_beside(const Beside& recording) {
   return find_beside(
-      recording, {".calibration.xml", ".calibration.yaml", ".calibration.csv"},
-      {"db.xml", "db.yaml", "angle.csv", "calibration.xml", "calibration.yaml", "calibration.csv"});
+      recording, {".calibration.xml", ".calibration.yaml", ".calibration.csv", ".calibration.json"},
+      {"db.xml", "db.yaml", "angle.csv", "calibration.xml", "calibration.yaml", "calibration.csv",
+       "calibration.json", "metadata.json"});
 }
 
 Expected<fs::path> calibration_beside(const fs::path& capture) {
   const fs::path folder = capture.parent_path();
   return calibration_beside(Beside{folder, folder, stem_of(capture)});
+}
+
+Expected<fs::path> metadata_beside(const fs::path& capture) {
+  const std::string stem = stem_of(capture);
+  return only_one(capture.parent_path(), {stem + ".calibration.json", stem + ".json"});
 }
 
 Expected<fs::path> can_beside(const Beside& recording) {

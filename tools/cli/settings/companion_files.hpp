@@ -26,6 +26,9 @@ struct Beside {
 /// Returns the calibration in a capture's own folder, which is used if the packets hold none.
 [[nodiscard]] Expected<std::filesystem::path> calibration_beside(
     const std::filesystem::path& capture);
+/// Returns the metadata of an Ouster in its capture's folder, NAME.calibration.json or NAME.json;
+/// empty if there is none. Fails with kMalformed if there are both.
+[[nodiscard]] Expected<std::filesystem::path> metadata_beside(const std::filesystem::path& capture);
 [[nodiscard]] Expected<std::filesystem::path> can_beside(const Beside& recording);
 [[nodiscard]] Expected<std::filesystem::path> dbc_beside(const Beside& recording);
 

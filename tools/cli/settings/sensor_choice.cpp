@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "calib/ouster/ouster_metadata.hpp"
 #include "firmware_io/streams/heard_senders.hpp"
 #include "firmware_io/streams/stream_names.hpp"
 #include "pipeline/status/figure_lines.hpp"
@@ -66,18 +67,26 @@ std::string why_nothing_came(const capture::PcapCounters& read, std::uint64_t of
       offered, status::counts_text(status::causes_of(losses)));
 }
 
+std::optional<sensor::SensorModel> named_model(const CaptureOptions& options) {
+  if (options.sensor || !ouster::is_metadata_name(options.calibration)) return options.sensor;
+  const auto unit = ouster::read_ouster_metadata(options.calibration);
+  if (!unit) return std::nullopt;
+  return ouster::model_of_rows(unit->format.rows);
+}
+
 std::vector<streams::SensorStream> sensors_in(const CaptureOptions& options,
                                               capture::PcapSource& source) {
-  return streams::hear_beginning(source, options.sensor).senders.sensors();
+  return streams::hear_beginning(source, named_model(options)).senders.sensors();
 }
 
 Expected<SensorChoice> choose_sensor(const CaptureOptions& options, capture::PcapSource& source) {
-  const streams::HeardCapture heard = streams::hear_beginning(source, options.sensor);
+  const std::optional<sensor::SensorModel> named = named_model(options);
+  const streams::HeardCapture heard = streams::hear_beginning(source, named);
   const std::vector<streams::SensorStream> sensors = heard.senders.sensors();
   if (sensors.empty() && heard.broke_off) return tl::unexpected(*heard.broke_off);
   if (sensors.empty()) {
-    const std::string expected = options.sensor ? fmt::format("a {}", to_string(*options.sensor))
-                                                : "a Velodyne, RS-Ruby128 or Hesai";
+    const std::string expected =
+        named ? fmt::format("a {}", to_string(*named)) : "a Velodyne, RS-Ruby128, Hesai or Ouster";
     return fail(ErrorCode::kUnsupported,
                 fmt::format("{}: expected data packets of {}, found none: {}", source.name(),
                             expected, found_instead(options, heard.senders, source)));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct SensorChoice {
   double spin_hz = 0;
   bool dual_return = false;
 };
+
+/// Returns the model that the user has named: that of --sensor, or of an Ouster's metadata given as
+/// --calibration.
+[[nodiscard]] std::optional<sensor::SensorModel> named_model(const CaptureOptions& options);
 
 /// Returns the sensors at the beginning of `source`, of the model of --sensor or of any, told apart
 /// by address or as in streams::SenderStreams. A sender of less than a hundredth of the busiest

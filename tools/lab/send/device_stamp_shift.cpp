@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "calib/ouster/packet_format.hpp"
 #include "firmware_io/hesai/models.hpp"
 #include "firmware_io/hesai/stamp.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"
@@ -43,6 +44,17 @@ void shift_ruby128(std::span<std::uint8_t> payload, const ruby128::ruby128_wire:
            ruby128::write_ruby_timestamp(std::max<std::int64_t>(stamp_ns, 0), encoding));
 }
 
+void shift_ouster(std::span<std::uint8_t> payload, const ouster::PacketFormat& format,
+                  std::int64_t shift_ns) noexcept {
+  for (int column = 0; column < format.columns; ++column) {
+    std::uint64_t stamp_ns =
+        format.head(payload.data(), column).stamp_ns + static_cast<std::uint64_t>(shift_ns);
+    for (std::size_t byte = 0; byte < sizeof(stamp_ns); ++byte, stamp_ns >>= 8) {
+      payload[format.column_at(column) + byte] = static_cast<std::uint8_t>(stamp_ns & 0xFF);
+    }
+  }
+}
+
 }  // namespace
 
 bool DeviceStampShift::operator()(std::span<std::uint8_t> payload, std::int64_t shift_ns) noexcept {
@@ -64,6 +76,10 @@ bool DeviceStampShift::operator()(std::span<std::uint8_t> payload, std::int64_t 
     const hesai::PacketLayout& layout = hesai::layout_of(model);
     const std::int64_t stamp_us = hesai::read_stamp_us(layout, payload) + rounded_us(shift_ns);
     hesai::write_stamp_us(layout, stamp_us, payload);
+    return true;
+  }
+  if (const auto format = ouster::format_of(payload); sensor::is_ouster(model) && format) {
+    shift_ouster(payload, *format, shift_ns);
     return true;
   }
   return false;

@@ -11,6 +11,7 @@
 #include "calib/ouster/packet_format.hpp"
 #include "calib/sensor/sensor_model.hpp"
 #include "rt/error.hpp"
+#include "rt/threads/nonblocking.hpp"
 
 namespace terracut::ouster {
 
@@ -42,10 +43,10 @@ struct OusterCalibration {
 [[nodiscard]] OusterCalibration nominal_ouster(sensor::SensorModel model);
 
 /// Returns the model with so many rows; kUnknown if there is none.
-[[nodiscard]] sensor::SensorModel model_of_rows(int rows) noexcept;
+[[nodiscard]] sensor::SensorModel model_of_rows(int rows) noexcept TERRACUT_NONBLOCKING;
 
 /// Returns the rows of one of Ouster's models.
-[[nodiscard]] int rows_of(sensor::SensorModel model) noexcept;
+[[nodiscard]] int rows_of(sensor::SensorModel model) noexcept TERRACUT_NONBLOCKING;
 
 /// Fails with kMalformed if a value is not finite or outside what a unit can have: as many beams as
 /// rows, elevations within 60 and azimuth offsets within 20 degrees, beams that begin within 0.2 m

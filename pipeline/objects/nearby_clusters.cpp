@@ -9,10 +9,6 @@ namespace {
 
 using stage::FourFloats;
 
-FourFloats greater(FourFloats a, FourFloats b) noexcept {
-  return a > b ? a : b;
-}
-
 /// Counts squares along both axes up to a place, from beyond any return.
 struct Steps {
   std::uint32_t x, y;

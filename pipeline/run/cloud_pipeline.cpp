@@ -5,6 +5,17 @@
 #include <limits>
 
 namespace terracut::run {
+namespace {
+
+/// Puts a value of each return, by return index, at the return's point.
+template <class Value>
+void put_at_points(std::span<const Value> of_returns,
+                   std::span<const std::uint32_t> point_of_return,
+                   std::vector<Value>& of_points) noexcept {
+  for (std::size_t i = 0; i < of_returns.size(); ++i) of_points[point_of_return[i]] = of_returns[i];
+}
+
+}  // namespace
 
 CloudPipeline::CloudPipeline(const cloud::SensorRows& rows, const mount::RingProfile& profile,
                              const ground::MethodMaker& method)
@@ -21,14 +32,9 @@ void CloudPipeline::reserve(std::size_t points) {
 }
 
 void CloudPipeline::find_point_heights(std::size_t points) {
-  point_heights_m_.clear();
-  if (!method_->gives_heights()) return;
-  const std::span<const float> of_returns = heights_m();
-  point_heights_m_.resize(points, std::numeric_limits<float>::quiet_NaN());
-  const std::span<const std::uint32_t> point_of_return = placement_.point_of_return();
-  for (std::size_t i = 0; i < of_returns.size(); ++i) {
-    point_heights_m_[point_of_return[i]] = of_returns[i];
-  }
+  point_heights_m_.assign(method_->gives_heights() ? points : 0,
+                          std::numeric_limits<float>::quiet_NaN());
+  put_at_points(heights_m(), placement_.point_of_return(), point_heights_m_);
 }
 
 Status CloudPipeline::label(const cloud::CloudView& cloud, status::FrameRecord& record,
@@ -51,10 +57,7 @@ Status CloudPipeline::label(const cloud::CloudView& cloud, status::FrameRecord& 
 std::span<const std::uint16_t> CloudPipeline::numbers_of_points(
     std::span<const std::uint16_t> of_returns) {
   point_numbers_.assign(of_returns.empty() ? 0 : point_labels_.size(), 0);
-  const std::span<const std::uint32_t> point_of_return = placement_.point_of_return();
-  for (std::size_t i = 0; i < of_returns.size(); ++i) {
-    point_numbers_[point_of_return[i]] = of_returns[i];
-  }
+  put_at_points(of_returns, placement_.point_of_return(), point_numbers_);
   return point_numbers_;
 }
 

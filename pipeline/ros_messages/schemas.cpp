@@ -2,9 +2,61 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/ros_messages/schemas.hpp"
 
-namespace terracut::ros_messages {
+#include <algorithm>
+#include <array>
 
-constinit const Schema kPointCloud2{"sensor_msgs/msg/PointCloud2", R"(std_msgs/Header header
+namespace terracut::ros_messages {
+namespace {
+
+/// Texts put together while compiling.
+template <const std::string_view&... kParts>
+struct Joined {
+  static constexpr auto kText = [] {
+    std::array<char, (kParts.size() + ...)> text{};
+    auto end = text.begin();
+    ((end = std::ranges::copy(kParts, end).out), ...);
+    return text;
+  }();
+  static constexpr std::string_view kView{kText.data(), kText.size()};
+};
+
+// Definitions that several types need.
+constexpr std::string_view kHeader =
+    R"(================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+)";
+constexpr std::string_view kPoseAndPoint =
+    R"(================================================================================
+MSG: geometry_msgs/Pose
+geometry_msgs/Point position
+geometry_msgs/Quaternion orientation
+================================================================================
+MSG: geometry_msgs/Point
+float64 x
+float64 y
+float64 z
+)";
+constexpr std::string_view kVectorAndQuaternion =
+    R"(================================================================================
+MSG: geometry_msgs/Vector3
+float64 x
+float64 y
+float64 z
+================================================================================
+MSG: geometry_msgs/Quaternion
+float64 x
+float64 y
+float64 z
+float64 w
+)";
+
+constexpr std::string_view kPointCloud2Itself = R"(std_msgs/Header header
 uint32 height
 uint32 width
 sensor_msgs/PointField[] fields
@@ -13,15 +65,9 @@ uint32 point_step
 uint32 row_step
 uint8[] data
 bool is_dense
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
+)";
+constexpr std::string_view kPointCloud2Parts =
+    R"(================================================================================
 MSG: sensor_msgs/PointField
 uint8 INT8=1
 uint8 UINT8=2
@@ -35,20 +81,12 @@ string name
 uint32 offset
 uint8 datatype
 uint32 count
-)"};
-
-constinit const Schema kDiagnosticArray{"diagnostic_msgs/msg/DiagnosticArray",
-                                        R"(std_msgs/Header header
+)";
+constexpr std::string_view kDiagnosticArrayItself = R"(std_msgs/Header header
 diagnostic_msgs/DiagnosticStatus[] status
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
+)";
+constexpr std::string_view kDiagnosticArrayParts =
+    R"(================================================================================
 MSG: diagnostic_msgs/DiagnosticStatus
 byte OK=0
 byte WARN=1
@@ -63,52 +101,25 @@ diagnostic_msgs/KeyValue[] values
 MSG: diagnostic_msgs/KeyValue
 string key
 string value
-)"};
-
-constinit const Schema kTfMessage{"tf2_msgs/msg/TFMessage",
-                                  R"(geometry_msgs/TransformStamped[] transforms
+)";
+constexpr std::string_view kTfMessageItself = R"(geometry_msgs/TransformStamped[] transforms
 ================================================================================
 MSG: geometry_msgs/TransformStamped
 std_msgs/Header header
 string child_frame_id
 geometry_msgs/Transform transform
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
+)";
+constexpr std::string_view kTfMessageParts =
+    R"(================================================================================
 MSG: geometry_msgs/Transform
 geometry_msgs/Vector3 translation
 geometry_msgs/Quaternion rotation
-================================================================================
-MSG: geometry_msgs/Vector3
-float64 x
-float64 y
-float64 z
-================================================================================
-MSG: geometry_msgs/Quaternion
-float64 x
-float64 y
-float64 z
-float64 w
-)"};
-
-constinit const Schema kDetection3DArray{"vision_msgs/msg/Detection3DArray",
-                                         R"(std_msgs/Header header
+)";
+constexpr std::string_view kDetection3DArrayItself = R"(std_msgs/Header header
 vision_msgs/Detection3D[] detections
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
+)";
+constexpr std::string_view kDetection3DArrayParts =
+    R"(================================================================================
 MSG: vision_msgs/Detection3D
 std_msgs/Header header
 vision_msgs/ObjectHypothesisWithPose[] results
@@ -130,30 +141,8 @@ float64[36] covariance
 MSG: vision_msgs/BoundingBox3D
 geometry_msgs/Pose center
 geometry_msgs/Vector3 size
-================================================================================
-MSG: geometry_msgs/Pose
-geometry_msgs/Point position
-geometry_msgs/Quaternion orientation
-================================================================================
-MSG: geometry_msgs/Point
-float64 x
-float64 y
-float64 z
-================================================================================
-MSG: geometry_msgs/Vector3
-float64 x
-float64 y
-float64 z
-================================================================================
-MSG: geometry_msgs/Quaternion
-float64 x
-float64 y
-float64 z
-float64 w
-)"};
-
-constinit const Schema kMarkerArray{"visualization_msgs/msg/MarkerArray",
-                                    R"(visualization_msgs/Marker[] markers
+)";
+constexpr std::string_view kMarkerArrayItself = R"(visualization_msgs/Marker[] markers
 ================================================================================
 MSG: visualization_msgs/Marker
 int32 ARROW=0
@@ -191,35 +180,9 @@ string text
 string mesh_resource
 visualization_msgs/MeshFile mesh_file
 bool mesh_use_embedded_materials
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
-MSG: geometry_msgs/Pose
-geometry_msgs/Point position
-geometry_msgs/Quaternion orientation
-================================================================================
-MSG: geometry_msgs/Point
-float64 x
-float64 y
-float64 z
-================================================================================
-MSG: geometry_msgs/Vector3
-float64 x
-float64 y
-float64 z
-================================================================================
-MSG: geometry_msgs/Quaternion
-float64 x
-float64 y
-float64 z
-float64 w
-================================================================================
+)";
+constexpr std::string_view kMarkerArrayParts =
+    R"(================================================================================
 MSG: std_msgs/ColorRGBA
 float32 r
 float32 g
@@ -242,6 +205,24 @@ float32 v
 MSG: visualization_msgs/MeshFile
 string filename
 uint8[] data
-)"};
+)";
+
+}  // namespace
+
+constinit const Schema kPointCloud2{"sensor_msgs/msg/PointCloud2",
+                                    Joined<kPointCloud2Itself, kHeader, kPointCloud2Parts>::kView};
+constinit const Schema kDiagnosticArray{
+    "diagnostic_msgs/msg/DiagnosticArray",
+    Joined<kDiagnosticArrayItself, kHeader, kDiagnosticArrayParts>::kView};
+constinit const Schema kTfMessage{
+    "tf2_msgs/msg/TFMessage",
+    Joined<kTfMessageItself, kHeader, kTfMessageParts, kVectorAndQuaternion>::kView};
+constinit const Schema kDetection3DArray{
+    "vision_msgs/msg/Detection3DArray",
+    Joined<kDetection3DArrayItself, kHeader, kDetection3DArrayParts, kPoseAndPoint,
+           kVectorAndQuaternion>::kView};
+constinit const Schema kMarkerArray{"visualization_msgs/msg/MarkerArray",
+                                    Joined<kMarkerArrayItself, kHeader, kPoseAndPoint,
+                                           kVectorAndQuaternion, kMarkerArrayParts>::kView};
 
 }  // namespace terracut::ros_messages

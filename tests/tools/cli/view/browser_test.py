@@ -106,6 +106,18 @@ READ_PIXELS = """new Promise(resolve => {
   });
 })"""
 
+# `asked` are objects that the page asked for; their answers come once letGo() was called.
+HELD_OBJECTS = """{
+  window.asked = [];
+  const isLetGo = new Promise(resolve => { window.letGo = resolve; });
+  const fetchNow = window.fetch;
+  window.fetch = (url, options) => {
+    if (!String(url).startsWith('objects/')) return fetchNow(url, options);
+    asked.push(url);
+    return isLetGo.then(() => fetchNow(url, options));
+  };
+}"""
+
 
 class APage(unittest.TestCase):
     def setUp(self):
@@ -220,6 +232,19 @@ class APage(unittest.TestCase):
         picture(self.browser, "boxes")
         self.browser.press("x")
         self.assertEqual(drawn(), 0)
+
+    def test_boxes_follow_a_frame_that_came_while_others_were_awaited(self):
+        served = self.served("view", DRIVE, "--objects", "--at", "127.0.0.1:0")
+        served.stand_at(0.5)
+        self.browser.call("Page.addScriptToEvaluateOnNewDocument", source=HELD_OBJECTS)
+        self.browser.open(served.url)
+        held = self.browser.wait_for("window.asked && asked.at(-1)")
+        served.tell(step=True)
+        shown = self.browser.wait_for(
+            f"(number => 'objects/' + number !== '{held}' && 'objects/' + number)(document.getElementById('frame').dataset.number)"
+        )
+        self.browser.evaluate("void letGo()")
+        self.browser.wait_for(f"asked.at(-1) === '{shown}'")
 
     def test_a_capture_is_played_stepped_and_sought(self):
         served = self.served("view", DRIVE, "--at", "127.0.0.1:0")

@@ -69,18 +69,20 @@ function noteLabels({ header, points }) {
 
 // --- the objects of the frame that is shown ---
 
-const objects = { areGiven: false, isAsked: false, of: null };
+const objects = { areGiven: false, isAsked: false, of: undefined };
 
+// Frames come while an answer is awaited: asks until the boxes are those of the frame that is shown.
 async function askForObjects() {
-  const frame = at("frame").dataset.number;
-  if (!objects.areGiven || objects.isAsked || !look.shown.has("box") || frame === objects.of) return;
+  if (objects.isAsked) return;
   objects.isAsked = true;
   try {
-    scene.setBoxes((await (await fetch(`objects/${frame}`, { cache: "no-store" })).json()).boxes);
-    objects.of = frame;
-    isDirty = true;
+    for (let frame; objects.areGiven && look.shown.has("box") && (frame = at("frame").dataset.number) !== objects.of; objects.of = frame) {
+      scene.setBoxes((await (await fetch(`objects/${frame}`, { cache: "no-store" })).json()).boxes);
+      isDirty = true;
+    }
   } catch (error) {
     console.warn(error);
+    objects.of = undefined;
   }
   objects.isAsked = false;
 }

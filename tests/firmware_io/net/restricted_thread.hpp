@@ -35,26 +35,11 @@ void as_nobody(Body&& body) {
   }).join();
 }
 
-/// Runs `body` where setsockopt(SOL_SOCKET, `option`) is not permitted; false when the system has
-/// no such filters.
-template <class Body>
-[[nodiscard]] bool without_socket_option(int option, Body&& body) {
+/// Runs `body` where the system's calls pass `filter`; false when the system has no such filters.
+template <std::size_t Steps, class Body>
+[[nodiscard]] bool filtered(std::array<sock_filter, Steps> filter, Body&& body) {
   bool done = false;
   std::thread([&] {
-    const auto load = [](std::size_t offset) {
-      return sock_filter{BPF_LD | BPF_W | BPF_ABS, 0, 0, static_cast<std::uint32_t>(offset)};
-    };
-    const auto unless = [](int value, std::uint8_t skip) {
-      return sock_filter{BPF_JMP | BPF_JEQ | BPF_K, 0, skip, static_cast<std::uint32_t>(value)};
-    };
-    std::array filter{load(offsetof(seccomp_data, nr)),
-                      unless(SYS_setsockopt, 5),
-                      load(offsetof(seccomp_data, args[1])),
-                      unless(SOL_SOCKET, 3),
-                      load(offsetof(seccomp_data, args[2])),
-                      unless(option, 1),
-                      sock_filter{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | EPERM},
-                      sock_filter{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW}};
     const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1UL, 0UL, 0UL, 0UL) != 0) return;
     if (::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0) return;
@@ -62,6 +47,37 @@ template <class Body>
     done = true;
   }).join();
   return done;
+}
+
+[[nodiscard]] inline sock_filter load(std::size_t offset) {
+  return {BPF_LD | BPF_W | BPF_ABS, 0, 0, static_cast<std::uint32_t>(offset)};
+}
+[[nodiscard]] inline sock_filter unless(int value, std::uint8_t skip) {
+  return {BPF_JMP | BPF_JEQ | BPF_K, 0, skip, static_cast<std::uint32_t>(value)};
+}
+[[nodiscard]] inline sock_filter fail_by(int error) {
+  return {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error)};
+}
+inline constexpr sock_filter kAllow{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW};
+
+/// Runs `body` where setsockopt(SOL_SOCKET, `option`) fails by `error`; by 0 it says that it
+/// worked, but does nothing. False when the system has no such filters.
+template <class Body>
+[[nodiscard]] bool without_socket_option(int option, int error, Body&& body) {
+  return filtered(
+      std::array{load(offsetof(seccomp_data, nr)), unless(SYS_setsockopt, 5),
+                 load(offsetof(seccomp_data, args[1])), unless(SOL_SOCKET, 3),
+                 load(offsetof(seccomp_data, args[2])), unless(option, 1), fail_by(error), kAllow},
+      body);
+}
+
+/// Runs `body` where the system call `number` fails by `error`; false when the system has no such
+/// filters.
+template <class Body>
+[[nodiscard]] bool without_call(int number, int error, Body&& body) {
+  return filtered(
+      std::array{load(offsetof(seccomp_data, nr)), unless(number, 1), fail_by(error), kAllow},
+      body);
 }
 
 /// Two machines joined by a cable, without hardware: the calling thread sees only this one.

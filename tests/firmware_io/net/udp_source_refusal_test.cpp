@@ -104,7 +104,7 @@ TEST_F(UdpSourceRefusal, DoesNotBefallAReceiveBufferWithinTheLimit) {
 }
 
 TEST_F(UdpSourceRefusal, ToBindToAnInterfaceStillLeavesOutWhatComesInElsewhere) {
-  const bool filtered = without_socket_option(SO_BINDTODEVICE, [&] {
+  const bool filtered = without_socket_option(SO_BINDTODEVICE, EPERM, [&] {
     auto source = open({.interface = "lo", .receive_buffer_bytes = 64U << 10});
     EXPECT_THAT(source.warnings(), Contains(HasSubstr("CAP_NET_RAW")));
     auto sender = sender_to(source);
@@ -121,7 +121,7 @@ TEST_F(UdpSourceRefusal, ToBindToAnInterfaceCountsWhatComesInElsewhere) {
   const bool made = PrivateNetwork::run([&](PrivateNetwork& network) {
     plugged = network.plug_in();
     if (!plugged) return;
-    filtered = without_socket_option(SO_BINDTODEVICE, [&] {
+    filtered = without_socket_option(SO_BINDTODEVICE, EPERM, [&] {
       auto source = open({.interface = "sensor0"});
       auto sender = sender_to(source);  // by way of lo
       Numbered numbered(5);

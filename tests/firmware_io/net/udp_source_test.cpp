@@ -9,6 +9,7 @@
 #include <numeric>
 #include <thread>
 
+#include "restricted_thread.hpp"
 #include "wire.hpp"
 
 namespace terracut::test {
@@ -90,6 +91,34 @@ TEST_F(UdpSourceTest, ReturnsAtMostABatchAtATime) {
   std::vector<std::uint64_t> expected(10);
   std::iota(expected.begin(), expected.end(), 0U);
   EXPECT_EQ(numbers, expected);
+}
+
+TEST_F(UdpSourceTest, CountsDatagramsThatTheKernelDidNotStampAndTakesTheTimeOfReading) {
+  const bool is_filtered = without_socket_option(SO_TIMESTAMPNS, 0, [&] {
+    auto source = open();
+    auto sender = sender_to(source);
+    Numbered numbered(3);
+    const std::int64_t before_ns = utc_ns();
+    sender.send(numbered.datagrams());
+    const auto received = receive(source, 3);
+    ASSERT_EQ(received.size(), 3U);
+    EXPECT_GE(received.front().datagram.stamp_ns, before_ns - 60'000 * kMillisecond_ns);
+    EXPECT_EQ(source.counters().unstamped, 3U);
+  });
+  if (!is_filtered) GTEST_SKIP() << "no system call filters here";
+}
+
+TEST_F(UdpSourceTest, CountsReadsThatTheSystemRefuses) {
+  auto source = open();
+  auto sender = sender_to(source);
+  Numbered numbered(1);
+  sender.send(numbered.datagrams());
+  const bool is_filtered = without_call(SYS_recvmmsg, ENOMEM, [&] {
+    EXPECT_TRUE(source.receive(kMillisecond_ns).empty());
+    EXPECT_GT(source.counters().receive_errors, 0U);
+  });
+  if (!is_filtered) GTEST_SKIP() << "no system call filters here";
+  EXPECT_EQ(receive(source, 1).size(), 1U) << "it was only late";
 }
 
 TEST_F(UdpSourceTest, ReturnsEmptyWhenNothingComes) {

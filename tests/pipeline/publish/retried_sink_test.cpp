@@ -105,6 +105,18 @@ TEST_F(RetriedSinkTest, OpensAsSoonAsThatIsPossible) {
   EXPECT_TRUE(retried.finish()) << "nobody expects what was before";
 }
 
+TEST_F(RetriedSinkTest, CountsTheSectorsThatCameWhileItWasClosed) {
+  door_.can_be_opened = false;
+  RetriedSink retried({.name = "door",
+                       .wants_sectors = true,
+                       .inner = {.open = [this] { return open(); },
+                                 .on_news = [](const Status&) {},
+                                 .again_after = kAtOnce}});
+  for (int n = 0; n < 4; ++n) EXPECT_TRUE(retried.put_sector({}));
+  EXPECT_EQ(losses(retried)["door_sectors_while_closed"], 4U);
+  EXPECT_EQ(losses(retried)["door_frames_while_closed"], 0U);
+}
+
 TEST_F(RetriedSinkTest, OpensAnewWhatHasFailedAndGoesOnCountingItsLosses) {
   RetriedSink retried = sink(kAtOnce, true);
   put(retried, 2);

@@ -58,16 +58,17 @@ class TakenPort {
 
 TEST_F(CliLiveOutputs, WhosePortsAreTakenKeepNoRunFromLabelling) {
   const TakenPort view, foxglove, metrics, stream;
-  LiveRun run = live_with_table("--view " + view.text() + " --foxglove " + foxglove.text() +
-                                " --metrics " + metrics.text() + " --stream " + stream.text());
+  LiveRun run =
+      live_with_table("--view " + view.text() + " --foxglove " + foxglove.text() + " --metrics " +
+                      metrics.text() + " --stream " + stream.text() + " --stream-sectors");
   const Sensors sender = sensor(run);
   EXPECT_TRUE(labels(run, 3));
   for (const char* what : {"no /metrics", "no frames for view", "no frames for foxglove",
                            "no stream of labelled points"}) {
     EXPECT_TRUE(run.says("warning: " + std::string(what) + ", which is tried again every 10 s: "));
   }
-  for (const char* loss :
-       {"view_frames_while_closed", "foxglove_frames_while_closed", "stream_frames_while_closed"}) {
+  for (const char* loss : {"view_frames_while_closed", "foxglove_frames_while_closed",
+                           "stream_frames_while_closed", "stream_sectors_while_closed"}) {
     EXPECT_TRUE(run.shows([=](const auto& figures) { return LiveRun::loss(figures, loss) > 0; }));
   }
   expect_good_end(run.interrupted());

@@ -12,7 +12,7 @@
 #include "firmware_io/net/live_source.hpp"
 #include "firmware_io/streams/hear_sensor.hpp"
 #include "pipeline/live/live_parts.hpp"
-#include "pipeline/points/objects_of_points.hpp"
+#include "pipeline/points/scene_of_points.hpp"
 #include "pipeline/run/mount_on_air.hpp"
 #include "rt/memory/locked_memory.hpp"
 
@@ -31,10 +31,14 @@ Expected<streams::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Co
   return streams::hear_sensor(first, source, nullptr, {config.patience_s, stop_wanted, {}});
 }
 
+scene::Wanted wanted_of(const LiveRun::Config& config) noexcept {
+  return {.objects = config.objects};
+}
+
 live::LiveConfig live_config_of(const LiveRun::Config& config, int columns) {
   live::LiveConfig of_run;
   of_run.decoder.columns = columns;
-  of_run.method.gives_heights = config.heights || config.objects;
+  of_run.method.gives_heights = config.heights || wanted_of(config).any();
   of_run.thread.deadline_ns = static_cast<std::int64_t>(config.deadline_ms * 1e6);
   of_run.thread.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
   of_run.thread.keeps_points = true;
@@ -52,7 +56,7 @@ struct LiveRun::Engine {
         source(std::move(opened)),
         sensor(std::move(heard)),
         found_mount(mount),
-        gives_objects(config.objects),
+        wanted(wanted_of(config)),
         on_sector(config.on_sector) {}
 
   Status build(const live::LiveConfig& config, const Mount& mount, bool locks_memory,
@@ -65,9 +69,9 @@ struct LiveRun::Engine {
     points.resize(parts->turns.decoder().return_capacity());
     labels.resize(points.size());
     times_s.resize(points.size());
-    if (gives_objects) {
-      objects = std::make_unique<points::ObjectsOfPoints>(profile, parts->turns.decoder().shape(),
-                                                          points.size());
+    if (wanted.any()) {
+      scene = std::make_unique<points::SceneOfPoints>(
+          wanted, profile, parts->turns.decoder().shape(), points.size());
     }
     return {};
   }
@@ -93,10 +97,10 @@ struct LiveRun::Engine {
                   .labels = std::span<const Label>(labels).first(taken.items.size()),
                   .time_s = std::span<const float>(times_s).first(taken.items.size()),
                   .height_above_ground_m = taken.heights_m};
-      if (objects != nullptr) {
-        objects->find(taken.items, taken.heights_m);
-        frame.objects = objects->objects();
-        frame.object_of_return = objects->object_of_point();
+      if (scene != nullptr) {
+        scene->find(taken.items, taken.heights_m);
+        frame.objects = scene->found().objects();
+        frame.object_of_return = scene->found().object_of_return();
       }
       on_frame(frame);
       slots.give_back(true);
@@ -140,9 +144,9 @@ struct LiveRun::Engine {
   net::LiveSource source;
   streams::SensorOnAir sensor;
   std::optional<FoundMount> found_mount;
-  bool gives_objects;
-  OnSector on_sector;                                ///< May be empty.
-  std::unique_ptr<points::ObjectsOfPoints> objects;  ///< Null unless asked for.
+  scene::Wanted wanted;
+  OnSector on_sector;                            ///< May be empty.
+  std::unique_ptr<points::SceneOfPoints> scene;  ///< Null unless anything is to be found.
   std::unique_ptr<live::LiveParts> parts;
   std::vector<Point> points;
   std::vector<Label> labels;

@@ -10,16 +10,20 @@
 #include "firmware_io/api/points.hpp"
 #include "pipeline/api/profile.hpp"
 #include "pipeline/ground/stream_segmenter.hpp"
-#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
+#include "pipeline/scene/scene_finder.hpp"
 
 namespace terracut {
 
 namespace {
 
+scene::Wanted wanted_of(const PacketPipeline::Config& config) noexcept {
+  return {.objects = config.objects};
+}
+
 ground::SegmenterConfig method_of(const PacketPipeline::Config& config) noexcept {
   ground::SegmenterConfig method = config_of(config.profile);
-  method.gives_heights = config.heights || config.objects;
+  method.gives_heights = config.heights || wanted_of(config).any();
   return method;
 }
 
@@ -33,16 +37,16 @@ struct PacketPipeline::Engine {
                  ground::turn_maker_of(method_of(config)), memory,
                  run::PacketPipeline::Makes::kPoints),
         room(pipeline.decoder().return_capacity()) {
-    if (config.objects) {
+    if (const scene::Wanted wanted = wanted_of(config); wanted.any()) {
       const decode::Decoder& frames = pipeline.decoder();
-      objects.emplace(calib::ring_profile(calibration.table().unit, mount_of(config.mount)),
-                      frames.shape(), frames.return_capacity(), memory);
+      scene.emplace(wanted, calib::ring_profile(calibration.table().unit, mount_of(config.mount)),
+                    frames.shape(), frames.return_capacity(), memory);
     }
   }
 
   memory::FixedMemory memory;
   run::PacketPipeline pipeline;
-  std::optional<objects::ImageObjects> objects;  ///< Exists if they were asked for.
+  std::optional<scene::SceneFinder> scene;  ///< Exists if anything is to be found.
   std::vector<Point> room;
   Frame frame;
 };
@@ -76,11 +80,10 @@ const Frame* PacketPipeline::next() noexcept {
   engine_->frame = public_frame(frame->record.info, *frame->image, engine_->room);
   engine_->frame.labels = engine_->pipeline.labels();
   engine_->frame.height_above_ground_m = engine_->pipeline.heights_m();
-  if (engine_->objects) {
-    engine_->objects->find(*frame->image, engine_->pipeline.labels(),
-                           engine_->pipeline.heights_m());
-    engine_->frame.objects = engine_->objects->objects();
-    engine_->frame.object_of_return = engine_->objects->object_of_return();
+  if (engine_->scene) {
+    engine_->scene->find(*frame->image, engine_->pipeline.labels(), engine_->pipeline.heights_m());
+    engine_->frame.objects = engine_->scene->objects();
+    engine_->frame.object_of_return = engine_->scene->object_of_return();
   }
   return &engine_->frame;
 }

@@ -20,8 +20,8 @@
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/ground/segmenter.hpp"
-#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
+#include "pipeline/scene/scene_finder.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut {
@@ -38,9 +38,13 @@ Status check(const Mount& mount) {
                   mount.height_m, mount.roll_rad, mount.pitch_rad));
 }
 
+scene::Wanted wanted_of(const Segmenter::Config& config) noexcept {
+  return {.objects = config.objects};
+}
+
 Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {
   ground::SegmenterConfig method = config_of(config.profile);
-  method.gives_heights = config.heights || config.objects;
+  method.gives_heights = config.heights || wanted_of(config).any();
   for (const std::string& setting : config.parameters) {
     if (const Status set = ground::apply_setting(method, setting); !set) {
       return tl::unexpected(set.error());
@@ -88,11 +92,11 @@ struct Segmenter::Engine {
     bool is_done_ = false;
   };
 
-  struct Objects {
-    Objects(const mount::RingProfile& profile, const frame::RangeImage& image)
-        : finder(profile, image.shape(), image.return_capacity(), memory) {}
+  struct Scene {
+    Scene(scene::Wanted wanted, const mount::RingProfile& profile, const frame::RangeImage& image)
+        : finder(wanted, profile, image.shape(), image.return_capacity(), memory) {}
     memory::FixedMemory memory;
-    objects::ImageObjects finder;
+    scene::SceneFinder finder;
   };
 
   explicit Engine(const Config& wanted) : config(wanted), mount(mount_of(wanted.mount)) {}
@@ -115,9 +119,9 @@ struct Segmenter::Engine {
     if (const Status labelled = pipeline->label(view, record); !labelled) {
       return tl::unexpected(labelled.error());
     }
-    if (objects) {
-      objects->finder.find(pipeline->image(), pipeline->labels(), pipeline->heights_m());
-      object_of_point = pipeline->numbers_of_points(objects->finder.object_of_return());
+    if (scene) {
+      scene->finder.find(pipeline->image(), pipeline->labels(), pipeline->heights_m());
+      object_of_point = pipeline->numbers_of_points(scene->finder.object_of_return());
     }
     // Reserves only here, after labelling: `view` may point into these buffers, which reserve() may
     // move.
@@ -140,7 +144,8 @@ struct Segmenter::Engine {
   void make_pipeline() {
     const mount::RingProfile profile = scan::ring_profile(rows->rings.table, mount);
     pipeline.emplace(*rows, profile, ground::maker_of(*method_of(config)));
-    if (config.objects) objects.emplace(profile, pipeline->image());
+    const scene::Wanted wanted = wanted_of(config);
+    if (wanted.any()) scene.emplace(wanted, profile, pipeline->image());
     most_points = std::max(most_points, pipeline->image().return_capacity());
     pipeline->reserve(most_points);
   }
@@ -168,7 +173,7 @@ struct Segmenter::Engine {
   std::size_t most_points = 0;                     ///< The most points a cloud may have.
   std::optional<run::CloudPipeline> pipeline;      ///< Set by the first cloud.
   std::optional<MountOfFirstClouds> first_clouds;  ///< Set while the mount is looked for.
-  std::optional<Objects> objects;                  ///< Set with the pipeline, if asked for.
+  std::optional<Scene> scene;  ///< Set with the pipeline, if anything is to be found.
   std::span<const std::uint16_t> object_of_point;
 };
 
@@ -199,8 +204,8 @@ std::span<const float> Segmenter::height_above_ground_m() const noexcept {
 }
 
 std::span<const Object> Segmenter::objects() const noexcept {
-  if (!engine_->objects) return {};
-  return engine_->objects->finder.objects();
+  if (!engine_->scene) return {};
+  return engine_->scene->finder.objects();
 }
 
 std::span<const std::uint16_t> Segmenter::object_of_point() const noexcept {

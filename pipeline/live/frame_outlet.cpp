@@ -11,13 +11,13 @@ namespace terracut::live {
 
 FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
                          SectorPool* sectors, const threads::WakeEvent& ready,
-                         std::unique_ptr<points::ObjectsOfPoints> objects)
+                         std::unique_ptr<points::SceneOfPoints> scene)
     : stream_(std::move(stream)),
       publisher_(publisher),
       slots_(slots),
       sectors_(sectors),
       ready_(ready),
-      objects_(std::move(objects)),
+      scene_(std::move(scene)),
       // A failure of this thread needs no handler: the slots count the frames that nobody takes.
       thread_([this] { work(); }, [](std::string_view) {}) {}
 
@@ -105,9 +105,9 @@ bool FrameOutlet::hand_out(const Slots::Frame& frame) {
     shared->record = frame.record;
     shared->points.assign(frame.items.begin(), frame.items.end());
     shared->heights_m.assign(frame.heights_m.begin(), frame.heights_m.end());
-    if (objects_ != nullptr) {
-      objects_->find(shared->points, shared->heights_m);
-      publish::set_objects(objects_->found(), *shared);
+    if (scene_ != nullptr) {
+      scene_->find(shared->points, shared->heights_m);
+      publish::set_scene(scene_->found(), *shared);
     }
     publisher_.put(shared);
     return {};

@@ -10,7 +10,7 @@
 
 #include "frame_pool.hpp"
 #include "pipeline/live/sector_pool.hpp"
-#include "pipeline/points/objects_of_points.hpp"
+#include "pipeline/points/scene_of_points.hpp"
 #include "pipeline/publish/publisher.hpp"
 #include "pipeline/publish/reopened.hpp"
 #include "pipeline/stream/frame_stream_server.hpp"
@@ -35,11 +35,11 @@ class FrameOutlet {
   };
 
   /// `ready` is woken when `slots` has a frame or `sectors` a sector, and by finish(). `sectors`
-  /// may be null. All must outlive this object. With `objects`, which may be null, frames for
-  /// outputs (not for the stream) get their objects on this thread.
+  /// may be null. All must outlive this object. With `scene`, which may be null, frames for outputs
+  /// (not for the stream) get what it finds on this thread.
   FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
               SectorPool* sectors, const threads::WakeEvent& ready,
-              std::unique_ptr<points::ObjectsOfPoints> objects = nullptr);
+              std::unique_ptr<points::SceneOfPoints> scene = nullptr);
   ~FrameOutlet() { begin_to_finish(); }
 
   /// Ends the thread; call it after LiveThreads::stop(). Returns false if the thread does not end
@@ -82,7 +82,7 @@ class FrameOutlet {
   Slots& slots_;
   SectorPool* sectors_;
   const threads::WakeEvent& ready_;
-  std::unique_ptr<points::ObjectsOfPoints> objects_;
+  std::unique_ptr<points::SceneOfPoints> scene_;
   std::atomic<bool> finish_{false};
   std::atomic<std::uint64_t> while_closed_{0}, sectors_while_closed_{0};
   mutable queues::LatestValue<stream::FrameStreamFigures> figures_;

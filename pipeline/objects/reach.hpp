@@ -7,6 +7,7 @@
 #include <span>
 
 #include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/point_distance.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/objects/run.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -52,14 +53,5 @@ class Reach {
   float gap_m_, column_step_rad_;
   std::span<float> row_steps_rad_;  // by the lower row
 };
-
-/// Returns the square of the distance between two cells' returns.
-[[nodiscard]] inline float distance_squared_m2(const frame::PointPlanes& points, std::size_t a,
-                                               std::size_t b) noexcept {
-  const float x_m = points.x_m[a] - points.x_m[b];
-  const float y_m = points.y_m[a] - points.y_m[b];
-  const float z_m = points.z_m[a] - points.z_m[b];
-  return x_m * x_m + y_m * y_m + z_m * z_m;
-}
 
 }  // namespace terracut::objects

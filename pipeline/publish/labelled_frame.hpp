@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/points/labelled_point.hpp"
 #include "pipeline/points/sector_record.hpp"
+#include "pipeline/scene/scene_finder.hpp"
 #include "pipeline/status/frame_record.hpp"
 
 namespace terracut::publish {
@@ -26,8 +26,8 @@ struct LabelledFrame {
   std::vector<std::uint16_t> object_of_point;
 };
 
-/// Copies the objects and numbers that a finder (objects::ImageObjects) has found to a frame.
-inline void set_objects(const objects::ImageObjects& found, LabelledFrame& frame) {
+/// Copies what was found in a frame to it.
+inline void set_scene(const scene::SceneFinder& found, LabelledFrame& frame) {
   const std::span<const std::uint16_t> numbers = found.object_of_return();
   frame.objects.assign(found.objects().begin(), found.objects().end());
   frame.object_of_point.assign(numbers.begin(), numbers.end());

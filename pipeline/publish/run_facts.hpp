@@ -6,6 +6,7 @@
 #include <string>
 
 #include "calib/mount/mount.hpp"
+#include "pipeline/scene/wanted.hpp"
 
 namespace terracut::publish {
 
@@ -17,7 +18,7 @@ struct RunFacts {
   std::int64_t deadline_ns = 0;  ///< From a frame's last packet to its labels; 0: no deadline.
   bool gives_sectors = false;    ///< True if each frame's sectors come before it.
   bool has_road = false;         ///< True if ground that is not road has its own label.
-  bool has_objects = false;      ///< True if frames come with their objects.
+  scene::Wanted found{};         ///< What frames come with.
 
   /// Names of coordinate frames in ROS' transform tree. Points lie in the vehicle frame
   /// (calib/mount/mount.hpp), which is published as a child of the sensor's frame, not as its

@@ -47,7 +47,7 @@ inline constexpr std::array<Topic, 8> kTopics{
 /// True if a run makes messages of the topic.
 [[nodiscard]] constexpr bool is_made(const Topic& topic, const publish::RunFacts& facts) noexcept {
   if (&topic.schema == &kDetection3DArray || &topic.schema == &kMarkerArray) {
-    return facts.has_objects;
+    return facts.found.objects;
   }
   if (&topic.schema == &kTfMessage) return !facts.sensor_frame_id.empty();
   return topic.cloud != CloudOf::kRoad || facts.has_road;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware_io/frame/point_distance.hpp"
+
 namespace terracut::visibility {
 namespace {
 
@@ -124,11 +126,8 @@ bool SectorSights::is_alone(int row, int column, const frame::RangeImage& image)
       if (other_row == row && aside == 0) continue;
       const int other_column = (column + aside + shape_.columns) % shape_.columns;
       const std::size_t other = shape_.cell(other_row, other_column);
-      const float x_m = points.x_m[cell] - points.x_m[other];
-      const float y_m = points.y_m[cell] - points.y_m[other];
-      const float z_m = points.z_m[cell] - points.z_m[other];
-      // A cell without a return has no height, and this is false.
-      if (x_m * x_m + y_m * y_m + z_m * z_m < kAlone_m * kAlone_m) return false;
+      // False for a cell without a return.
+      if (distance_squared_m2(points, cell, other) < kAlone_m * kAlone_m) return false;
     }
   }
   return true;

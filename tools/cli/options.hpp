@@ -17,6 +17,7 @@
 #include "firmware_io/frame/range_image.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/vehicle/motion_signals.hpp"
+#include "pipeline/scene/wanted.hpp"
 #include "pipeline/stage/stage.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 #include "tools/research/detection/assumptions.hpp"
@@ -63,9 +64,9 @@ struct MethodOptions {
   stage::Stage last_stage = stage::Stage::kMinCut;
   std::vector<std::string> settings;  ///< KEY=VALUE, checked; docs/reference/parameters.md
   bool heights = false;  ///< Also gives each return's height above the ground, to every output.
-  bool objects = false;  ///< Also gives the objects of each frame; they need heights.
+  scene::Wanted scene;   ///< What is to be found in each frame, too; it needs heights.
 
-  [[nodiscard]] bool gives_heights() const noexcept { return heights || objects; }
+  [[nodiscard]] bool gives_heights() const noexcept { return heights || scene.any(); }
 };
 
 enum class McapClouds : std::uint8_t { kAll, kPoints };
@@ -208,9 +209,9 @@ struct EncodeOptions {
 };
 
 struct EvalOptions {
-  std::string dataset;         ///< A built-in class table, "own", "simulated", "hazards",
-                               ///< "objects", "free" or "sight".
-  std::filesystem::path root;  ///< For simulated: scenes, separated by commas.
+  std::string dataset;                  ///< A built-in class table, "own", "simulated", "hazards",
+                                        ///< "objects", "free" or "sight".
+  std::filesystem::path root;           ///< For simulated: scenes, separated by commas.
   std::vector<std::string> more_roots;  ///< Of the last four: the words after `root`.
   std::vector<std::string> kinds;       ///< Kinds of hazards; empty: all.
   int trials = 3;                       ///< Hazards of a kind for each ground, range and frame.

@@ -43,7 +43,7 @@ Expected<LiveRun::Config> config_of(const cli::Options& options) {
   config.lock_memory = options.realtime.lock_memory;
   config.patience_s = options.patience_s;
   config.heights = options.method.heights;
-  config.objects = options.method.objects;
+  config.objects = options.method.scene.objects;
   return config;
 }
 

@@ -18,12 +18,12 @@ ReplayedFrames::ReplayedFrames(const std::vector<std::string>& words)
     : capture_(or_raise(without_the_lock([&]() -> Expected<std::unique_ptr<cli::LabelledCapture>> {
         const auto arguments = cli::parse_arguments(words);
         if (!arguments) return tl::unexpected(arguments.error());
-        gives_objects_ = arguments->options.method.objects;
+        wanted_ = arguments->options.method.scene;
         return cli::LabelledCapture::open(arguments->options, cli::LabelledCapture::Makes::kPoints);
       }))) {
-  if (!gives_objects_) return;
+  if (!wanted_.any()) return;
   const decode::Decoder& decoder = capture_->decoder();
-  objects_.emplace(capture_->profile(), decoder.shape(), decoder.return_capacity(), memory_);
+  scene_.emplace(wanted_, capture_->profile(), decoder.shape(), decoder.return_capacity(), memory_);
 }
 
 std::shared_ptr<FrameData> ReplayedFrames::next() {
@@ -48,10 +48,8 @@ Expected<std::shared_ptr<FrameData>> ReplayedFrames::next_unlocked() {
     const std::span<const float> heights_m = capture_->heights_m();
     data->heights_m.assign(heights_m.begin(), heights_m.end());
     data->objects.reset();
-    if (objects_) {
-      objects_->find(*frame->image, capture_->labels(), heights_m);
-      data->set_objects(objects_->objects(), objects_->object_of_return());
-    }
+    if (scene_) scene_->find(*frame->image, capture_->labels(), heights_m);
+    if (wanted_.objects) data->set_objects(scene_->objects(), scene_->object_of_return());
     return data;
   }
   if (std::exchange(concluded_, true)) return nullptr;

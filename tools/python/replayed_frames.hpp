@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "frame_arrays.hpp"
-#include "pipeline/objects/image_objects.hpp"
+#include "pipeline/scene/scene_finder.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "tools/cli/input/labelled_capture.hpp"
 
@@ -33,10 +33,10 @@ class ReplayedFrames {
   [[nodiscard]] Expected<std::shared_ptr<FrameData>> next_unlocked();
 
   std::mutex mutex_;
-  bool gives_objects_ = false;  ///< Declared before the capture, which it is read with.
+  scene::Wanted wanted_;  ///< Declared before the capture, which it is read with.
   std::unique_ptr<cli::LabelledCapture> capture_;
   memory::FixedMemory memory_;
-  std::optional<objects::ImageObjects> objects_;  ///< Exists if they were asked for.
+  std::optional<scene::SceneFinder> scene_;  ///< Exists if anything is to be found.
   FrameBuffers buffers_;
   std::vector<points::LabelledPoint> labelled_;  ///< Points of the current frame.
   bool concluded_ = false;

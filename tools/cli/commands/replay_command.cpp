@@ -104,11 +104,11 @@ class Replay {
                             .rows = capture_.decoder().shape().rows,
                             .mount = capture_.sensor_mount(),
                             .has_road = method_config_of(options_.method).segmenter.road.enabled,
-                            .has_objects = options_.method.objects});
+                            .found = options_.method.scene});
     if (!sinks_) return refuse(sinks_.error());
-    if (options_.method.objects) {
-      outputs_.find_objects(capture_.profile(), capture_.decoder().shape(),
-                            capture_.decoder().return_capacity());
+    if (options_.method.scene.any()) {
+      outputs_.find_scene(options_.method.scene, capture_.profile(), capture_.decoder().shape(),
+                          capture_.decoder().return_capacity());
     }
     Report& report = capture_.report();
     for (int pass = 0; options_.replay.loops == 0 || pass < options_.replay.loops; ++pass) {
@@ -186,7 +186,7 @@ ExitCode run_replay(const Options& options) {
                                              options.output.truth.string()));
   }
   auto capture = LabelledCapture::open(
-      options, FrameOutputs::need_points(options.output) || options.method.objects
+      options, FrameOutputs::need_points(options.output) || options.method.scene.any()
                    ? LabelledCapture::Makes::kPoints
                    : LabelledCapture::Makes::kLabels);
   if (!capture) return refuse_work(capture.error());

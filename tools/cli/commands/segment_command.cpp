@@ -77,15 +77,16 @@ ExitCode run_segment(const Options& options) {
   Report::ScanPoints points;  // over all scans
   std::vector<std::uint32_t> truth;
   FrameOutputs outputs(options.output);
-  if (options.method.objects) {
-    outputs.find_objects(*profile, pipeline.image().shape(), pipeline.image().return_capacity());
+  if (options.method.scene.any()) {
+    outputs.find_scene(options.method.scene, *profile, pipeline.image().shape(),
+                       pipeline.image().return_capacity());
   }
   const Status outputs_open =
       outputs.open({.sensor = sensor_line,
                     .rows = pipeline.image().shape().rows,
                     .mount = profile->mount,
                     .has_road = method_config_of(options.method).segmenter.road.enabled,
-                    .has_objects = options.method.objects});
+                    .found = options.method.scene});
   if (!outputs_open) return refuse(outputs_open.error());
   Report report{"segment", options.scans.string(), "", sensor_line, options.method};
   if (!options.output.json.empty()) report.entries.emplace(options.output.json);

@@ -55,7 +55,7 @@ ExitCode run_view(const Options& as_said) {
                 {.sensor = (*clouds)->sensor_line(),
                  .rows = (*clouds)->rows(),
                  .mount = (*clouds)->sensor_mount(),
-                 .has_objects = options.method.objects},
+                 .found = options.method.scene},
                 options);
   }
   auto capture = LabelledCapture::open(options, LabelledCapture::Makes::kPoints);
@@ -66,7 +66,7 @@ ExitCode run_view(const Options& as_said) {
               {.sensor = (*capture)->capture().sensor_line,
                .rows = (*capture)->decoder().shape().rows,
                .mount = (*capture)->sensor_mount(),
-               .has_objects = options.method.objects},
+               .found = options.method.scene},
               options);
 }
 

@@ -196,7 +196,7 @@ class Writers {
                        .deadline_ns = deadline_ns,
                        .gives_sectors = true,
                        .has_road = method_config_of(options.method).segmenter.road.enabled,
-                       .has_objects = options.method.objects}),
+                       .found = options.method.scene}),
         publish::WhenFull::kDropOldest, warn_of_failure);
     if (parts.thread.points()) {
       std::optional<live::FrameOutlet::Stream> stream;
@@ -204,14 +204,14 @@ class Writers {
         stream = {publish::Reopened<stream::FrameStreamServer>(stream_at(options, parts)),
                   sensor.model, deadline_ns, options.stream_sectors};
       }
-      std::unique_ptr<points::ObjectsOfPoints> objects;
-      if (options.method.objects) {
+      std::unique_ptr<points::SceneOfPoints> scene;
+      if (options.method.scene.any()) {
         const decode::Decoder& decoder = parts.turns.decoder();
-        objects = std::make_unique<points::ObjectsOfPoints>(profile, decoder.shape(),
-                                                            decoder.return_capacity());
+        scene = std::make_unique<points::SceneOfPoints>(options.method.scene, profile,
+                                                        decoder.shape(), decoder.return_capacity());
       }
       outlet_.emplace(std::move(stream), *publisher_, *parts.thread.points(),
-                      parts.thread.sectors(), parts.thread.points_ready(), std::move(objects));
+                      parts.thread.sectors(), parts.thread.points_ready(), std::move(scene));
     }
     if (parts.thread.labels()) labels_.emplace(options.output, *parts.thread.labels());
     if (parts.recorder) {

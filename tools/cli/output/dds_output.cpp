@@ -79,7 +79,7 @@ Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& op
                                   .obstacles = topic(topics.obstacles),
                                   .road = facts.has_road ? topic(topics.road) : "",
                                   .raw = topic(topics.raw),
-                                  .objects = facts.has_objects ? topic(topics.objects) : "",
+                                  .objects = facts.found.objects ? topic(topics.objects) : "",
                                   .object_markers = topic(topics.objects + "/markers"),
                                   .diagnostics = topic(topics.diagnostics),
                                   .tf_static = topic("/tf_static"),

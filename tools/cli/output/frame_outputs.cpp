@@ -36,9 +36,9 @@ Mistake mistake_of(Label label, std::uint32_t truth) noexcept {
 
 }  // namespace
 
-void FrameOutputs::find_objects(const mount::RingProfile& profile, frame::ImageShape shape,
-                                std::size_t return_capacity) {
-  finder_.emplace(profile, shape, return_capacity, memory_);
+void FrameOutputs::find_scene(scene::Wanted wanted, const mount::RingProfile& profile,
+                              frame::ImageShape shape, std::size_t return_capacity) {
+  finder_.emplace(wanted, profile, shape, return_capacity, memory_);
 }
 
 void FrameOutputs::look(const frame::RangeImage& image, std::span<const Label> labels,
@@ -111,7 +111,7 @@ Status FrameOutputs::publish(const status::FrameRecord& record, const frame::Ran
   shared->points.resize(labels.size());
   shared->heights_m.assign(heights_m.begin(), heights_m.end());
   (void)points::pack_labelled_points(image, labels, shared->points, timing);
-  if (finder_) publish::set_objects(*finder_, *shared);
+  if (finder_) publish::set_scene(*finder_, *shared);
   publisher_->put(shared);
   return publisher_->outcome();
 }

@@ -10,13 +10,13 @@
 
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/output/frame_folder.hpp"
 #include "pipeline/pictures/frame_colours.hpp"
 #include "pipeline/pictures/png_picture.hpp"
 #include "pipeline/points/labelled_points.hpp"
 #include "pipeline/publish/publisher.hpp"
 #include "pipeline/publish/run_facts.hpp"
+#include "pipeline/scene/scene_finder.hpp"
 #include "rt/error.hpp"
 #include "tools/cli/files/frame_folder_of.hpp"
 #include "tools/cli/options.hpp"
@@ -41,10 +41,10 @@ class FrameOutputs {
   /// Opens the outputs that get every frame in turn (output/output_sinks.hpp), before the first
   /// frame.
   [[nodiscard]] Status open(const publish::RunFacts& facts);
-  /// Lets look() find objects, which are then part of all outputs. The arguments are those of
-  /// objects::ImageObjects.
-  void find_objects(const mount::RingProfile& profile, frame::ImageShape shape,
-                    std::size_t return_capacity);
+  /// Lets look() find what is wanted, which is then part of all outputs. The arguments are those of
+  /// scene::SceneFinder.
+  void find_scene(scene::Wanted wanted, const mount::RingProfile& profile, frame::ImageShape shape,
+                  std::size_t return_capacity);
 
   /// Looks at a frame before it is written; `labels` and `heights_m` are by return index.
   void look(const frame::RangeImage& image, std::span<const frame::Label> labels,
@@ -86,7 +86,7 @@ class FrameOutputs {
 
   OutputOptions options_;
   memory::FixedMemory memory_;
-  std::optional<objects::ImageObjects> finder_;  ///< Exists after find_objects().
+  std::optional<scene::SceneFinder> finder_;  ///< Exists after find_scene().
   output::FrameFolder labels_, pcd_, png_;
   std::vector<pictures::Mistake> mistakes_;
   std::optional<publish::Publisher> publisher_;  ///< Exists if open() opened an output.

@@ -233,7 +233,7 @@ constexpr std::array kSettings{
     Setting{.key = "output.heights", .option = "--heights", .commands = kPublished | C::kView | C::kNode | C::kBench, .help = "Each return's height above the ground, too, in metres, wherever its label goes but to label files (docs/reference/outputs.md)",
             .bare = "yes", .excludes = "--method", .field = [](O& o) -> F { return &o.method.heights; }},
     Setting{.key = "output.objects", .option = "--objects", .commands = kPublished | C::kView, .help = "The objects of each frame, too, with boxes and footprints, in messages, pictures and (but for live) label files; with --heights (docs/guide/objects.md)",
-            .bare = "yes", .excludes = "--method", .field = [](O& o) -> F { return &o.method.objects; }},
+            .bare = "yes", .excludes = "--method", .field = [](O& o) -> F { return &o.method.scene.objects; }},
     Setting{.key = "output.png", .option = "--png", .commands = kFrames, .help = "Folder for pictures: from above and as the sensor sees it",
             .writes = Kind::kFrames, .ending = ".png", .field = [](O& o) -> F { return &o.output.png; }},
     Setting{.option = "--overwrite", .commands = kFrames | C::kLive | C::kCompare, .help = "In these folders, take away what was made of another input, too; of the same input it is always replaced",

@@ -50,9 +50,10 @@ class PlayedCapture::Counter {
 
 PlayedCapture::PlayedCapture(LabelledCapture& capture, const Options& options)
     : capture_(capture), options_(options), begins_(options.capture.start_s == 0) {
-  if (!options.method.objects) return;
+  const scene::Wanted wanted = options.method.scene;
+  if (!wanted.any()) return;
   const decode::Decoder& decoder = capture.decoder();
-  objects_.emplace(capture.profile(), decoder.shape(), decoder.return_capacity(), memory_);
+  scene_.emplace(wanted, capture.profile(), decoder.shape(), decoder.return_capacity(), memory_);
 }
 PlayedCapture::~PlayedCapture() = default;
 
@@ -81,9 +82,9 @@ void PlayedCapture::take(publish::LabelledFrame& frame) {
                                      capture_.timing(*frame_));
   const std::span<const float> heights_m = capture_.heights_m();
   frame.heights_m.assign(heights_m.begin(), heights_m.end());
-  if (objects_) {
-    objects_->find(*frame_->image, capture_.labels(), heights_m);
-    publish::set_objects(*objects_, frame);
+  if (scene_) {
+    scene_->find(*frame_->image, capture_.labels(), heights_m);
+    publish::set_scene(*scene_, frame);
   }
   if (!ahead_) ahead_ = frame.record.info.number - number_of(span_.end_ns);
   frame.record.info.number -= *ahead_;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/objects/image_objects.hpp"
+#include "pipeline/scene/scene_finder.hpp"
 #include "played_recording.hpp"
 #include "tools/cli/input/labelled_capture.hpp"
 
@@ -36,7 +36,7 @@ class PlayedCapture : public PlayedRecording {
   LabelledCapture& capture_;
   const Options& options_;
   memory::FixedMemory memory_;
-  std::optional<objects::ImageObjects> objects_;  ///< Exists if they were asked for.
+  std::optional<scene::SceneFinder> scene_;  ///< Exists if anything is to be found.
   const run::Frame* frame_ = nullptr;
   Span span_{};
   /// The decoder's frame number, which never restarts, minus the frame's number in file names.

@@ -38,9 +38,10 @@ Expected<std::unique_ptr<PlayedClouds>> PlayedClouds::open(const std::filesystem
   opened->mount_ = profile->mount;
   opened->pipeline_ =
       std::make_unique<run::CloudPipeline>(*rows, *profile, method_of(options.method));
-  if (options.method.objects) {
+  if (const scene::Wanted wanted = options.method.scene; wanted.any()) {
     const frame::RangeImage& image = opened->pipeline_->image();
-    opened->objects_.emplace(*profile, image.shape(), image.return_capacity(), opened->memory_);
+    opened->scene_.emplace(wanted, *profile, image.shape(), image.return_capacity(),
+                           opened->memory_);
   }
   return opened;
 }
@@ -84,9 +85,9 @@ void PlayedClouds::take(publish::LabelledFrame& frame) {
   (void)points::pack_labelled_points(pipeline_->image(), pipeline_->labels(), frame.points);
   const std::span<const float> heights_m = pipeline_->heights_m();
   frame.heights_m.assign(heights_m.begin(), heights_m.end());
-  if (!objects_) return;
-  objects_->find(pipeline_->image(), pipeline_->labels(), heights_m);
-  publish::set_objects(*objects_, frame);
+  if (!scene_) return;
+  scene_->find(pipeline_->image(), pipeline_->labels(), heights_m);
+  publish::set_scene(*scene_, frame);
 }
 
 Status PlayedClouds::go_to(double seek_s) {

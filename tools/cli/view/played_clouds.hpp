@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/objects/image_objects.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
+#include "pipeline/scene/scene_finder.hpp"
 #include "played_recording.hpp"
 #include "tools/cli/input/cloud_input.hpp"
 #include "tools/cli/options.hpp"
@@ -44,7 +44,7 @@ class PlayedClouds : public PlayedRecording {
   mount::Mount mount_;
   std::unique_ptr<run::CloudPipeline> pipeline_;
   memory::FixedMemory memory_;
-  std::optional<objects::ImageObjects> objects_;  ///< Exists if they were asked for.
+  std::optional<scene::SceneFinder> scene_;  ///< Exists if anything is to be found.
   status::FrameRecord record_;
   std::size_t next_ = 0;
   std::string trouble_;  ///< The reason why the newest cloud could not be labelled.

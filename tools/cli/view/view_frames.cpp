@@ -119,7 +119,7 @@ nlohmann::ordered_json ViewFrames::figures() const {
   const std::lock_guard lock(mutex_);
   json["sensor"] = facts_.sensor;
   json["rows"] = facts_.rows;
-  json["objects"] = facts_.has_objects;
+  json["objects"] = facts_.found.objects;
   json["deadline_ms"] = nullptr;
   if (facts_.deadline_ns > 0) json["deadline_ms"] = milliseconds(facts_.deadline_ns);
   json["frames"] = nlohmann::ordered_json::array();

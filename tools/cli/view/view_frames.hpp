@@ -57,7 +57,7 @@ class ViewFrames {
   /// Returns the objects of a frame for the page: boxes[] of four corners [x_m, y_m], bottom_m and
   /// top_m in the vehicle frame; none if it is not among the last kFramesWithObjects.
   [[nodiscard]] nlohmann::ordered_json objects(std::uint32_t frame) const;
-  [[nodiscard]] bool gives_objects() const noexcept { return facts_.has_objects; }
+  [[nodiscard]] bool gives_objects() const noexcept { return facts_.found.objects; }
 
  private:
   struct Shown {

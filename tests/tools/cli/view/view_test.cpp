@@ -55,14 +55,14 @@ class NotedCapture : public ViewedCapture {
 class Page : public testing::Test {
  protected:
   explicit Page(ViewedCapture* capture = nullptr, bool gives_sectors = false,
-                bool has_objects = false) {
+                scene::Wanted found = {}) {
     auto opened = ViewSink::open("127.0.0.1:0",
                                  {.sensor = "a made sensor",
                                   .rows = 64,
                                   .mount = {},
                                   .deadline_ns = 50'000'000,
                                   .gives_sectors = gives_sectors,
-                                  .has_objects = has_objects},
+                                  .found = found},
                                  capture);
     if (!opened) throw std::runtime_error(opened.error().message);
     sink_ = *std::move(opened);
@@ -94,7 +94,7 @@ class PageBySectors : public Page {
 
 class PageWithObjects : public Page {
  protected:
-  PageWithObjects() : Page(nullptr, false, true) {}
+  PageWithObjects() : Page(nullptr, false, {.objects = true}) {}
 };
 
 class PageOfACapture : public Page {

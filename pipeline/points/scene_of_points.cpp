@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/points/objects_of_points.hpp"
+#include "pipeline/points/scene_of_points.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,24 +11,24 @@
 
 namespace terracut::points {
 
-ObjectsOfPoints::ObjectsOfPoints(const mount::RingProfile& profile, frame::ImageShape shape,
-                                 std::size_t most_points)
+SceneOfPoints::SceneOfPoints(scene::Wanted wanted, const mount::RingProfile& profile,
+                             frame::ImageShape shape, std::size_t most_points)
     : most_points_(most_points),
       image_(shape, most_points, memory_),
-      objects_(profile, shape, most_points, memory_) {
+      scene_(wanted, profile, shape, most_points, memory_) {
   labels_.reserve(most_points);
 }
 
-void ObjectsOfPoints::find(std::span<const LabelledPoint> points,
-                           std::span<const float> heights_m) noexcept {
+void SceneOfPoints::find(std::span<const LabelledPoint> points,
+                         std::span<const float> heights_m) noexcept {
   points = points.first(std::min(points.size(), most_points_));
   place(points);
   labels_.resize(points.size());
   std::ranges::transform(points, labels_.begin(), &LabelledPoint::label);
-  objects_.find(image_, labels_, heights_m);
+  scene_.find(image_, labels_, heights_m);
 }
 
-void ObjectsOfPoints::place(std::span<const LabelledPoint> points) noexcept {
+void SceneOfPoints::place(std::span<const LabelledPoint> points) noexcept {
   constexpr std::size_t kBlock = 512;
   std::array<CloudPoint, kBlock> block;
   std::array<float, kBlock> azimuth_rad;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/points/objects_of_points.hpp"
+#include "pipeline/points/scene_of_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,21 +34,21 @@ struct PointsOfATurn : testing::Test, test::BoxScene {
       }
     }
   }
-  void find(ObjectsOfPoints& finder) {
+  void find(SceneOfPoints& finder) {
     heights_m.clear();
     for (const LabelledPoint& point : points) heights_m.push_back(point.z_m);
     finder.find(points, heights_m);
   }
   /// The number of each object's points, by the object's least x.
-  std::map<int, int> sizes(const ObjectsOfPoints& finder) const {
+  std::map<int, int> sizes(const SceneOfPoints& finder) const {
     std::map<int, int> sizes, least_x_cm;
-    for (std::size_t i = 0; i < finder.object_of_point().size(); ++i) {
-      const int number = finder.object_of_point()[i];
+    for (std::size_t i = 0; i < finder.found().object_of_return().size(); ++i) {
+      const int number = finder.found().object_of_return()[i];
       const auto x_cm = static_cast<int>(points[i].x_m * 100);
       const auto [at, is_new] = least_x_cm.try_emplace(number, x_cm);
       at->second = std::min(at->second, x_cm);
     }
-    for (const std::uint16_t number : finder.object_of_point()) {
+    for (const std::uint16_t number : finder.found().object_of_return()) {
       if (number != 0) ++sizes[least_x_cm[number]];
     }
     return sizes;
@@ -59,21 +59,21 @@ struct PointsOfATurn : testing::Test, test::BoxScene {
 };
 
 TEST_F(PointsOfATurn, HaveTheObjectsThatStandThere) {
-  ObjectsOfPoints finder(profile, kShape, points.size());
+  SceneOfPoints finder({.objects = true}, profile, kShape, points.size());
   find(finder);
-  ASSERT_EQ(finder.objects().size(), 3U);
-  for (const objects::Object& object : finder.objects()) {
+  ASSERT_EQ(finder.found().objects().size(), 3U);
+  for (const objects::Object& object : finder.found().objects()) {
     EXPECT_GT(object.top_m, 1.3F);
     EXPECT_NEAR(object.ground_z_m, 0, 1e-5);
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].label != Label::kGround) continue;
-    EXPECT_EQ(finder.object_of_point()[i], 0);
+    EXPECT_EQ(finder.found().object_of_return()[i], 0);
   }
 }
 
 TEST_F(PointsOfATurn, HaveTheSameObjectsInAnyOrder) {
-  ObjectsOfPoints finder(profile, kShape, points.size());
+  SceneOfPoints finder({.objects = true}, profile, kShape, points.size());
   find(finder);
   const auto before = sizes(finder);
   std::ranges::shuffle(points, std::mt19937(7));
@@ -82,14 +82,14 @@ TEST_F(PointsOfATurn, HaveTheSameObjectsInAnyOrder) {
 }
 
 TEST_F(PointsOfATurn, BeyondTheMostBelongToNoObject) {
-  ObjectsOfPoints finder(profile, kShape, 1000);
+  SceneOfPoints finder({.objects = true}, profile, kShape, 1000);
   find(finder);
-  EXPECT_EQ(finder.object_of_point().size(), 1000U);
+  EXPECT_EQ(finder.found().object_of_return().size(), 1000U);
 }
 
 TEST_F(PointsOfATurn, AreLookedAtWithoutAllocating) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer counts its own";
-  ObjectsOfPoints finder(profile, kShape, points.size());
+  SceneOfPoints finder({.objects = true}, profile, kShape, points.size());
   find(finder);
   const std::uint64_t before = test::allocations_of_this_thread();
   finder.find(points, heights_m);

@@ -21,13 +21,17 @@ SceneFinder::SceneFinder(Wanted wanted, const mount::RingProfile& profile, frame
   if (wanted.free_way) free_way_.emplace(profile, shape, memory);
 }
 
-void SceneFinder::find(const frame::RangeImage& image, std::span<const frame::Label> labels,
+void SceneFinder::find(const frame::RangeImage& image, const frame::RangeImage& as_measured,
+                       std::span<const frame::Label> labels,
                        std::span<const float> heights_m) noexcept {
-  take(image, labels, heights_m);
-  if (objects_) objects_->find(image, planes_, labels);
+  if (objects_) {
+    take(image, labels, heights_m);
+    objects_->find(image, planes_, labels);
+  }
   if (!free_way_) return;
-  find_steep(image);
-  free_way_->way.find(image, planes_, labels);
+  if (!objects_ || &image != &as_measured) take(as_measured, labels, heights_m);
+  find_steep(as_measured);
+  free_way_->way.find(as_measured, planes_, labels);
 }
 
 void SceneFinder::take(const frame::RangeImage& image, std::span<const frame::Label> labels,

@@ -135,7 +135,9 @@ class Replay {
     const std::string name = fmt::format("{:06}", info.number);
     const std::span<const std::uint32_t> truth = truth_.read(name, info.returns);
     if (!truth.empty()) capture_.report().score(labels, truth);
-    if (frame.image != nullptr) outputs_.look(*frame.image, labels, capture_.heights_m());
+    if (frame.image != nullptr) {
+      outputs_.look(*frame.image, *frame.as_measured, labels, capture_.heights_m());
+    }
     sinks_ = outputs_.write_labels(name, labels, outputs_.object_of_return());
     if (sinks_ && frame.image != nullptr) sinks_ = write_points(name, frame, truth);
     progress_.update(static_cast<double>(capture_.report().totals.frames));

@@ -208,7 +208,8 @@ class Writers {
       if (options.method.scene.any()) {
         const decode::Decoder& decoder = parts.turns.decoder();
         scene = std::make_unique<points::SceneOfPoints>(options.method.scene, profile,
-                                                        decoder.shape(), decoder.return_capacity());
+                                                        decoder.shape(), decoder.return_capacity(),
+                                                        decoder.beam_turns());
       }
       outlet_.emplace(std::move(stream), *publisher_, *parts.thread.points(),
                       parts.thread.sectors(), parts.thread.points_ready(), std::move(scene));

@@ -46,9 +46,9 @@ class FrameOutputs {
   void find_scene(scene::Wanted wanted, const mount::RingProfile& profile, frame::ImageShape shape,
                   std::size_t return_capacity);
 
-  /// Looks at a frame before it is written; `labels` and `heights_m` are by return index.
-  void look(const frame::RangeImage& image, std::span<const frame::Label> labels,
-            std::span<const float> heights_m);
+  /// Looks at a frame before it is written. The arguments are those of scene::SceneFinder::find().
+  void look(const frame::RangeImage& image, const frame::RangeImage& as_measured,
+            std::span<const frame::Label> labels, std::span<const float> heights_m);
   /// Returns the number of each return's object; empty unless objects are found.
   [[nodiscard]] std::span<const std::uint16_t> object_of_return() const noexcept {
     return finder_ ? finder_->object_of_return() : std::span<const std::uint16_t>();
@@ -82,6 +82,9 @@ class FrameOutputs {
 
   [[nodiscard]] std::span<const objects::Object> objects() const noexcept {
     return finder_ ? finder_->objects() : std::span<const objects::Object>();
+  }
+  [[nodiscard]] std::span<const free_way::Sector> free_way() const noexcept {
+    return finder_ ? finder_->free_way() : std::span<const free_way::Sector>();
   }
 
   OutputOptions options_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 
-// Draws points as they lie in the stream, boxes of objects, circles ten metres apart, and the vehicle.
+// Draws points as they lie in the stream, boxes of objects, the free way, circles ten metres apart, and the vehicle.
 
 import { KINDS, RAMP_STEPS, RANGES, ramp } from "./colours.js";
 
@@ -88,6 +88,15 @@ function boxSegments(boxes) {
   return new Float32Array(places);
 }
 
+// The line around the free area, of these corners.
+function outlineSegments(corners) {
+  return new Float32Array(corners.flatMap((corner, i) => [...corner, 0, 1, ...corners[(i + 1) % corners.length], 0, 1]));
+}
+// The area itself, as triangles around the vehicle.
+function areaTriangles(corners) {
+  return new Float32Array(corners.flatMap((corner, i) => [0, 0, 0, 0.3, ...corner, 0, 0.3, ...corners[(i + 1) % corners.length], 0, 0.3]));
+}
+
 function program(gl, vertex) {
   const made = gl.createProgram();
   for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, PAINT]]) {
@@ -119,6 +128,8 @@ export class Scene {
     const places = lineSegments();
     this.floor = this.lineLayout(places);
     this.boxes = this.lineLayout(new Float32Array(0));
+    this.wayOutline = this.lineLayout(new Float32Array(0));
+    this.wayArea = this.lineLayout(new Float32Array(0));
     gl.enable(gl.DEPTH_TEST);
     gl.clearColor(0.055, 0.075, 0.094, 1);
   }
@@ -134,19 +145,34 @@ export class Scene {
     return lines;
   }
 
-  setBoxes(boxes) {
+  // `found`: {boxes, free_way: corners of the free area}
+  setFound(found) {
+    this.setPlaces(this.boxes, boxSegments(found.boxes));
+    this.setPlaces(this.wayOutline, outlineSegments(found.free_way));
+    this.setPlaces(this.wayArea, areaTriangles(found.free_way));
+  }
+
+  setPlaces(lines, places) {
     const gl = this.gl;
-    const places = boxSegments(boxes);
-    this.boxes.vertices = places.length / 4;
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.boxes.buffer);
+    lines.vertices = places.length / 4;
+    gl.bindBuffer(gl.ARRAY_BUFFER, lines.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, places, gl.STREAM_DRAW);
   }
 
-  drawLines(lines, tint) {
+  // Draws the free area below everything, however the ground slopes.
+  drawWay(tint) {
+    const gl = this.gl;
+    gl.depthMask(false);
+    this.drawLines(this.wayArea, tint, gl.TRIANGLES);
+    this.drawLines(this.wayOutline, tint);
+    gl.depthMask(true);
+  }
+
+  drawLines(lines, tint, as = this.gl.LINES) {
     const gl = this.gl;
     gl.uniform3fv(this.lines.uniform("tint"), tint);
     gl.bindVertexArray(lines.layout);
-    gl.drawArrays(gl.LINES, 0, lines.vertices);
+    gl.drawArrays(as, 0, lines.vertices);
   }
 
   setPoints(bytes, count, pointBytes) {
@@ -198,6 +224,7 @@ export class Scene {
 
     gl.useProgram(this.lines.made);
     gl.uniformMatrix4fv(this.lines.uniform("view"), false, view);
+    if (look.shown.has("way")) this.drawWay(unit(KINDS.way));
     this.drawLines(this.floor, [0.415, 0.515, 0.594]);
     if (look.shown.has("box")) this.drawLines(this.boxes, unit(KINDS.box));
     if (this.pieces.length === 0) return;

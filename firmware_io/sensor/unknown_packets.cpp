@@ -122,7 +122,7 @@ std::string packet_inside(std::span<const std::uint8_t> payload) {
     const std::size_t around = payload.size() - size;
     for (std::size_t before = 0; before <= around; ++before) {
       const auto model = sensor::recognise_sensor(payload.subspan(before, size));
-      if (model == SensorModel::kUnknown) continue;
+      if (!is_decoded(model)) continue;
       return fmt::format(
           "packets of a {} with {} bytes before and {} behind them (user_layer_bytes and "
           "tail_layer_bytes of rs_driver?), which have to be sent without",

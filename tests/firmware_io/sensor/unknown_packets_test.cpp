@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -80,7 +81,7 @@ TEST(GuessOfUnknown, ReadsRoboSensesHeaders) {
 TEST(GuessOfUnknown, ReadsNothingOutsideAnyPayload) {
   std::mt19937 random(1);
   for (std::size_t size = 0; size < 200; ++size) {
-    for (const std::uint8_t first : {0x00, 0x05, 0x55, 0xEE}) {
+    for (const std::uint8_t first : std::array<std::uint8_t, 4>{0x00, 0x05, 0x55, 0xEE}) {
       std::vector<std::uint8_t> payload(size);  // its own allocation: a sanitizer sees its end
       for (auto& byte : payload) byte = static_cast<std::uint8_t>(random());
       if (size > 0) payload[0] = first;

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "calib/beams/angle.hpp"
+#include "calib/ouster/ouster_product.hpp"
 #include "calib/text/fnv1a.hpp"
 
 namespace terracut::ouster {
@@ -65,20 +66,7 @@ int rows_of(sensor::SensorModel model) noexcept {
 }
 
 OusterCalibration nominal_ouster(sensor::SensorModel model) {
-  constexpr double kHighest_deg = 22.5;
-  constexpr std::array kOffsets_deg{4.2, 1.4, -1.4, -4.2};
-  OusterCalibration unit;
-  unit.format.profile = Profile::kSingle;
-  unit.format.rows = rows_of(model);
-  for (int row = 0; row < unit.format.rows; ++row) {
-    const double down = static_cast<double>(row) / (unit.format.rows - 1);
-    unit.lasers.push_back({beams::deg_to_rad(kHighest_deg - 2 * kHighest_deg * down),
-                           beams::deg_to_rad(kOffsets_deg[static_cast<std::size_t>(row % 4)]), 0});
-  }
-  unit.ahead_m = unit.beam_origin_m = 0.015806;
-  unit.T_sensor_lidar = {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0.03618};
-  unit.origin = fmt::format("nominal table of a {}", to_string(model));
-  return unit;
+  return nominal_product(Product::kOs1, model);
 }
 
 Status validate(const OusterCalibration& unit) {

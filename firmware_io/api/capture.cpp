@@ -6,6 +6,7 @@
 #include "calib/api/calibration_table.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
+#include "firmware_io/sensor/unknown_packets.hpp"
 #include "firmware_io/streams/heard_senders.hpp"
 #include "terracut/decoder.hpp"
 
@@ -30,7 +31,8 @@ Expected<streams::SensorStream> sender_in(capture::PcapSource& source) {
   if (found.empty() && heard.broke_off) return tl::unexpected(*heard.broke_off);
   if (found.empty()) {
     return fail(ErrorCode::kUnsupported,
-                source.name() + ": no sensor that can be decoded: " + heard.senders.others());
+                source.name() + ": no sensor that can be decoded: " + heard.senders.others() +
+                    ". " + std::string(sensor::kWhatInstead));
   }
   if (found.size() > 1) {
     return fail(ErrorCode::kInvalidArgument, source.name() + ": several sensors send");

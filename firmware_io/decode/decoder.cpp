@@ -330,7 +330,8 @@ void Decoder::place() noexcept {
       .late_columns = job_.late_columns,
       .owner = azimuths_.dual_return ? dual_owner_ : frame::CellOwner::kFirstArrived};
   const bool is_placed = with_sensor([&](auto& returns) noexcept {
-    returns.add(job_.payload, azimuths_, place, frames_);
+    // Packets of a Pandar40P never fill a tile, so that some of their returns always wait.
+    if (returns.add(job_.payload, azimuths_, place, frames_)) placed_ticks_ = complete_ticks_;
     return returns.is_flushed();
   });
   ++packets_;

@@ -61,13 +61,19 @@ class PacketReturns {
   [[nodiscard]] const Sensor& trait() const noexcept { return sensor_; }
 
   /// Reads a packet that the trait's check() has accepted. flush() places its returns, or a later
-  /// add() once enough are collected; the packet's frames must stay open until then.
-  void add(std::span<const std::uint8_t> payload, const packet::PacketAzimuths& azimuths,
+  /// add() once enough are collected; the packet's frames must stay open until then. Returns true
+  /// if it has placed all returns of the packets before.
+  bool add(std::span<const std::uint8_t> payload, const packet::PacketAzimuths& azimuths,
            const PacketPlace& place, FrameBuilder& frames) noexcept {
     const auto columns = static_cast<std::size_t>(azimuths.columns);
     const bool may_be_split = columns > frame::kTileFirings / 2;
     const bool fits = may_be_split || firings_ + columns <= frame::kTileFirings;
-    if (place.owner != owner_ || !fits) flush(frames);
+    bool has_placed = firings_ == 0;
+    const auto place_all = [&] {
+      flush(frames);
+      has_placed = true;
+    };
+    if (place.owner != owner_ || !fits) place_all();
     owner_ = place.owner;
     sensor_.begin_packet(azimuths);
     for (std::size_t c = 0; c < columns; ++c) {
@@ -80,13 +86,14 @@ class PacketReturns {
       if (firings_ == 0) first_ns_ = place.stamp_ns;
       last_ns_ = place.stamp_ns;
       if (c < static_cast<std::size_t>(place.late_columns)) leave_out(firing, frames.losses());
-      if (++firings_ == frame::kTileFirings) flush(frames);
+      if (++firings_ == frame::kTileFirings) place_all();
     }
     // Both returns of a pair count as one firing.
     if (place.late_columns > 0) {
       frames.losses().azimuth_hole_columns +=
           azimuths.dual_return ? 1U : static_cast<std::uint64_t>(place.late_columns);
     }
+    return has_placed;
   }
   /// Places all returns added.
   void flush(FrameBuilder& frames) noexcept {

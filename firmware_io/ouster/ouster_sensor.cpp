@@ -2,10 +2,21 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/ouster/ouster_sensor.hpp"
 
+#include <cmath>
+
 namespace terracut::ouster {
 
 Mode mode_of(const OusterCalibration& unit) noexcept {
   return {unit.format, unit.columns_per_frame, unit.rate_hz};
+}
+
+std::vector<std::int32_t> beam_ticks(const OusterCalibration& unit) {
+  std::vector<std::int32_t> ticks;
+  for (const beams::TableBeam& beam : unit.lasers) {
+    ticks.push_back(
+        static_cast<std::int32_t>(std::lround(beam.azimuth_offset_rad / packet::kRadPerTick)));
+  }
+  return ticks;
 }
 
 mount::RigidTransform T_vehicle_lidar(const OusterCalibration& unit,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -28,6 +27,8 @@ struct OusterConfig {};
 
 /// Returns how the unit measures, for reading its packets.
 [[nodiscard]] Mode mode_of(const OusterCalibration& calibration) noexcept;
+/// Returns the beams' azimuth offsets in ticks (packet_azimuths.hpp), by laser.
+[[nodiscard]] std::vector<std::int32_t> beam_ticks(const OusterCalibration& calibration);
 /// Returns the transform from the rotating lidar's frame to the vehicle's.
 [[nodiscard]] mount::RigidTransform T_vehicle_lidar(const OusterCalibration& calibration,
                                                     const mount::Mount& mount) noexcept;
@@ -55,9 +56,7 @@ class OusterSensor {
         beam_origin_m_(static_cast<float>(unit.beam_origin_m)) {
     const std::vector<int> rows = mount::rows_upward(rows_by_elevation(unit), mount);
     std::ranges::copy(rows, rows_.begin());
-    std::ranges::transform(unit.lasers, ticks_.begin(), [](const beams::TableBeam& beam) {
-      return static_cast<std::int32_t>(std::lround(beam.azimuth_offset_rad / packet::kRadPerTick));
-    });
+    std::ranges::copy(ouster::beam_ticks(unit), ticks_.begin());
   }
 
   [[nodiscard]] std::optional<frame::Reject> check(const packet::Datagram& datagram,

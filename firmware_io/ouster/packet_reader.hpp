@@ -14,6 +14,9 @@
 
 namespace terracut::ouster {
 
+/// The port to which units send by the factory's settings.
+inline constexpr std::uint16_t kDataPort = 7502;
+
 /// Stamps count nanoseconds from the unit's start or, with PTP, from 1970, and never wrap: this is
 /// larger than all.
 inline constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
@@ -39,14 +42,19 @@ struct Mode {
       columns_per_frame);
 }
 
-/// Returns how far the head is past its azimuth in hundredths of a degree (PacketAzimuths), which
-/// is rounded down: [0, 1000) ticks.
+/// Returns the number of the column of an azimuth in hundredths of a degree (PacketAzimuths), which
+/// is the head's rounded down.
+[[nodiscard]] constexpr int measurement_at(std::int32_t azimuth_cdeg,
+                                           int columns_per_frame) noexcept {
+  const std::int64_t most_ticks = std::int64_t{azimuth_cdeg + 1} * packet::kTicksPerCdeg - 1;
+  return static_cast<int>(most_ticks * columns_per_frame / packet::kRevolution_ticks);
+}
+
+/// Returns how far the head is past its azimuth in hundredths of a degree: [0, 1000) ticks.
 [[nodiscard]] constexpr std::int32_t rest_ticks(std::int32_t azimuth_cdeg,
                                                 int columns_per_frame) noexcept {
-  const std::int64_t most_ticks = std::int64_t{azimuth_cdeg + 1} * packet::kTicksPerCdeg - 1;
-  const auto measurement =
-      static_cast<int>(most_ticks * columns_per_frame / packet::kRevolution_ticks);
-  const std::int32_t ticks = measurement_ticks(measurement, columns_per_frame);
+  const std::int32_t ticks =
+      measurement_ticks(measurement_at(azimuth_cdeg, columns_per_frame), columns_per_frame);
   const std::int32_t rest = ticks - azimuth_cdeg * packet::kTicksPerCdeg;
   return rest < 0 ? 0 : rest;
 }

@@ -116,6 +116,24 @@ std::string_view ruby_model(Bytes payload) noexcept {
   }
 }
 
+/// Names the models that have these blocks, of payloads of another RoboSense.
+std::string_view other_robosense(Bytes payload) noexcept {
+  constexpr std::array<std::uint8_t, 2> kBlockStart{0xFF, 0xEE};
+  const auto has_blocks = [&](std::size_t count, std::size_t bytes) {
+    for (std::size_t block = 0; block < count; ++block) {
+      const Bytes start = payload.subspan(42 + block * bytes, 2);
+      if (!std::equal(start.begin(), start.end(), kBlockStart.begin())) return false;
+    }
+    return true;
+  };
+  if (payload.size() != ruby128::kRubyPacketBytes) return {};
+  if (has_blocks(8, 4 + 3 * 48)) return "8 blocks of 48 channels, an Airy's";
+  if (!has_blocks(12, 4 + 3 * 32)) return {};
+  return starts_with(payload, kOlderMsopStart)
+             ? "12 blocks of 32 channels, an RS-16's, RS-32's or Bpearl's"
+             : "12 blocks of 32 channels, a Helios's";
+}
+
 }  // namespace
 
 SensorModel recognise_sensor(Bytes payload) noexcept {
@@ -153,6 +171,8 @@ std::string describe_sensor_hints(Bytes payload) {
     return fmt::format("profile {}", ouster::row_of(format->profile).name);
   }
   switch (model) {
+    case SensorModel::kOtherRoboSense:
+      return std::string(other_robosense(payload));
     case SensorModel::kRuby128:
     case SensorModel::kRubyPlus:
     case SensorModel::kRubyLite:

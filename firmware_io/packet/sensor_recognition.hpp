@@ -28,9 +28,8 @@ namespace terracut::sensor {
     TERRACUT_NONBLOCKING;
 
 /// Returns, for people, what else the payload says about the model: product number and return mode
-/// of a Velodyne, type bytes of a RoboSense with their documented meaning, profile of an Ouster.
-/// Empty if it says
-/// nothing.
+/// of a Velodyne, type bytes or blocks of a RoboSense with what they mean, profile of an Ouster.
+/// Empty if it says nothing.
 [[nodiscard]] std::string describe_sensor_hints(std::span<const std::uint8_t> payload);
 
 }  // namespace terracut::sensor

@@ -12,6 +12,7 @@
 
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
+#include "firmware_io/sensor/unknown_packets.hpp"
 #include "firmware_io/streams/stream_names.hpp"
 
 namespace terracut::streams {
@@ -114,7 +115,8 @@ std::string FirstSeconds::heard_instead() const {
 }
 
 Error FirstSeconds::nobody(std::optional<double> patience_s) const {
-  const std::string heard = heard_instead();
+  std::string heard = heard_instead();
+  if (!heard.empty() && !config_.model) heard += fmt::format(". {}", sensor::kWhatInstead);
   const std::string patience = patience_s ? fmt::format(" within {:g} s", *patience_s) : "";
   return {
       ErrorCode::kUnsupported,

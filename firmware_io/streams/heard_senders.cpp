@@ -26,6 +26,9 @@ void HeardSenders::Sender::add(const packet::Datagram& datagram,
     first_unknown = fmt::format("{} bytes to port {}{}{}", datagram.payload.size(),
                                 datagram.destination_port, guess.empty() ? "" : ": ", guess);
   }
+  if (foreign_hints.empty() && !sensor::is_decoded(model)) {
+    foreign_hints = sensor::describe_sensor_hints(datagram.payload);
+  }
   (void)ruby128_device.add(datagram.payload);
   const auto* packet = hdl64e::packet_in(datagram.payload);
   if (packet != nullptr && hdl64e::is_hdl64e(*packet)) {
@@ -140,7 +143,10 @@ std::string HeardSenders::describe(const Sender& sender) const {
       return fmt::format("{} data packets of {}", packets, to_string(model));
     return fmt::format("{}, whose head does not rotate,", to_string(model));
   }
-  if (std::string models = sender.probe.foreign_models(); !models.empty()) return models;
+  if (std::string models = sender.probe.foreign_models(); !models.empty()) {
+    return sender.foreign_hints.empty() ? models
+                                        : fmt::format("{} ({})", models, sender.foreign_hints);
+  }
   // votes() is ordered by model, and kUnknown comes first. If there are no unknown datagrams, only
   // device packets came.
   const auto [model, datagrams] = *sender.probe.votes().begin();

@@ -78,6 +78,7 @@ class HeardSenders {
     sensor::SensorProbe probe;
     std::map<sensor::SensorModel, SenderStreams> streams;
     std::string first_unknown;  ///< "1218 bytes to port 2368: ..."; empty: none.
+    std::string foreign_hints;  ///< Of the first packet that is known and not decoded.
     hdl64e::StatusStreamReader hdl64e_status;
     sensor::Ruby128DeviceReader ruby128_device;
     std::int64_t newest_ns = 0;

@@ -128,10 +128,12 @@ class SimulatedDriveDecoded : public test::InScratchFolder {
     config.threads = 2;
     config.mount = {.height_m = 1.9, .roll_rad = 0.01, .pitch_rad = 0.02};
     config.sensor.returns = returns;
+    config.calibration = packets::unit_in_mode<EncoderTraits>(config.calibration, returns, spin_hz);
     const auto measured = write(config);
     // A third of the rays at least.
     const auto firings = static_cast<std::size_t>(
-        1e9 / (spin_hz * static_cast<double>(EncoderTraits::firing_ns(returns))));
+        1e9 / (spin_hz * static_cast<double>(
+                             packets::firing_ns<EncoderTraits>(config.calibration, returns))));
     EXPECT_GT(measured.size(), firings * EncoderTraits::kLasers / 3);
     expect_truth_of(measured);
     EXPECT_LT(worst_error_m(config, measured), allowed_m);
@@ -178,6 +180,17 @@ TEST_F(SimulatedDriveDecoded, BothReturnsOfAVelodyneWithABuiltInTableArriveWhere
                                                                  kFourMmRounding_m);
   expect_whole<packets::VelodyneEncoderTraits<velodyne::Vls128>>(packets::ReturnMode::kDual, 10,
                                                                  kFourMmRounding_m);
+}
+
+TEST_F(SimulatedDriveDecoded, EveryReturnOfAnOusterArrivesWhereItWas) {
+  expect_whole<packets::OusterEncoderTraits<32>>(packets::ReturnMode::kSingle, 20, kHdlRounding_m);
+  expect_whole<packets::OusterEncoderTraits<64>>(packets::ReturnMode::kSingle, 5, kHdlRounding_m);
+  expect_whole<packets::OusterEncoderTraits<128>>(packets::ReturnMode::kSingle, 10, kHdlRounding_m);
+}
+
+TEST_F(SimulatedDriveDecoded, BothReturnsOfAnOusterArriveWhereTheyWere) {
+  expect_whole<packets::OusterEncoderTraits<32>>(packets::ReturnMode::kDual, 5, kHdlRounding_m);
+  expect_whole<packets::OusterEncoderTraits<128>>(packets::ReturnMode::kDual, 20, kHdlRounding_m);
 }
 
 }  // namespace

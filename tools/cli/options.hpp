@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "calib/hdl64e/hdl64e_geometry.hpp"
+#include "calib/ouster/ouster_product.hpp"
 #include "calib/sensor/sensor_model.hpp"
 #include "firmware_io/frame/deskew_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
@@ -199,6 +200,7 @@ struct SimulateOptions {
   double spin_hz = 10;
   packets::ReturnMode returns = packets::ReturnMode::kSingle;
   ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
+  ouster::Product product = ouster::Product::kOs1;
   double noise_m = 0.015;
   double speed_mps = -1;    ///< Speed; below 0: the scene's usual speed.
   double yaw_rate_dps = 0;  ///< Not 0: the vehicle drives an arc.

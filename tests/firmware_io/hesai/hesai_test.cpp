@@ -5,6 +5,7 @@
 // absent).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -117,6 +118,34 @@ TYPED_TEST(HesaiStream, CountsLostPacketsByTheDevicesStamps) {
     EXPECT_EQ(both.losses.network_gap_packets, lost);
     EXPECT_EQ(both.losses.azimuth_hole_columns,
               lost * static_cast<std::size_t>(TypeParam::kColumns));
+  }
+}
+
+TYPED_TEST(HesaiStream, ColumnsAreCompleteAsTheHeadPassesThem) {
+  std::mt19937 random(7);
+  const auto unit = TypeParam::random_unit(random);
+  for (const bool dual_return : {false, true}) {
+    const double firings = 1e5 / TypeParam::firing_us(dual_return);
+    RotatingHead head{.dual_return = dual_return};
+    head.packets = static_cast<int>(2.5 * firings / TypeParam::firings_per_packet(dual_return));
+    memory::FixedMemory memory;
+    decode::Decoder::Config config;
+    config.columns = static_cast<int>(std::lround(firings));
+    decode::Decoder decoder(unit, {}, config, memory);
+    int frames = 0, complete = 0, most_at_once = 0;
+    const auto on_frame = [&](const frame::FrameInfo&, const frame::MeasuredReturns&) noexcept {
+      ++frames;
+    };
+    for (const Payload& payload : TypeParam::payloads(head)) {
+      test::decode(decoder, {.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, on_frame);
+      const int now = decoder.arriving().complete_columns;
+      // The first frame begins wherever the stream does.
+      if (frames > 0) most_at_once = std::max(most_at_once, now - complete);
+      complete = now;
+    }
+    EXPECT_GE(frames, 2);
+    EXPECT_GT(complete, 0);
+    EXPECT_LE(most_at_once, 48);
   }
 }
 

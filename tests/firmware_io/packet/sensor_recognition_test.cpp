@@ -5,7 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <random>
+#include <vector>
 
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "tests/firmware_io/capture/capture_bytes.hpp"
@@ -89,6 +93,26 @@ TEST(SensorRecognition, NamesTheRubyFamilyByItsBlocks) {
   EXPECT_THAT(describe_sensor_hints(plus), HasSubstr("Ruby Plus"));
   plus[7] = 3;
   EXPECT_THAT(describe_sensor_hints(plus), HasSubstr("dual return"));
+}
+
+TEST(SensorRecognition, NamesOtherRoboSensesByTheirBlocks) {
+  const auto of_blocks = [](std::vector<std::uint8_t> start, std::size_t blocks,
+                            std::size_t bytes) {
+    Bytes payload(1248);
+    std::ranges::copy(start, payload.begin());
+    for (std::size_t block = 0; block < blocks; ++block) {
+      payload[42 + block * bytes] = 0xFF;
+      payload[43 + block * bytes] = 0xEE;
+    }
+    return payload;
+  };
+  const auto helios = of_blocks({0x55, 0xAA, 0x05, 0x5A}, 12, 100);
+  EXPECT_EQ(recognise_sensor(helios), SensorModel::kOtherRoboSense);
+  EXPECT_THAT(describe_sensor_hints(helios), HasSubstr("Helios"));
+  EXPECT_THAT(describe_sensor_hints(of_blocks({0x55, 0xAA, 0x05, 0x0A, 0x5A, 0xA5}, 12, 100)),
+              HasSubstr("RS-16's, RS-32's or Bpearl's"));
+  EXPECT_THAT(describe_sensor_hints(of_blocks({0x55, 0xAA, 0x05, 0x5A}, 8, 148)),
+              HasSubstr("Airy"));
 }
 
 TEST(SensorRecognition, ReadsNothingOutsideAnyPayload) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -97,6 +98,22 @@ TEST_F(HeardSendersTest, WhatIsNoPacketOfASensorIsCounted) {
   for (int i = 0; i < 12; ++i) senders_.add({.payload = bytes, .source_address = kOther});
   EXPECT_EQ(senders_.others(),
             "12 datagrams of no sensor known here, 100 bytes to port 0, from 192.168.1.7");
+}
+
+TEST_F(HeardSendersTest, WhatAModelThatIsNotReadIsLikeIsNamed) {
+  std::vector<std::uint8_t> helios(1248), hesai(861);
+  std::ranges::copy(std::array<std::uint8_t, 4>{0x55, 0xAA, 0x05, 0x5A}, helios.begin());
+  for (std::size_t block = 0; block < 12; ++block) {
+    helios[42 + 100 * block] = 0xFF;
+    helios[43 + 100 * block] = 0xEE;
+  }
+  senders_.add({.payload = helios, .source_address = kOther});
+  EXPECT_EQ(senders_.others(),
+            "1 packets of another RoboSense (12 blocks of 32 channels, a Helios's) from "
+            "192.168.1.7");
+  std::ranges::copy(std::array<std::uint8_t, 8>{0xEE, 0xFF, 1, 4, 0, 0, 128, 2}, hesai.begin());
+  senders_.add({.payload = hesai, .source_address = kSensor});
+  EXPECT_THAT(senders_.others(), HasSubstr("of a Hesai that is not read: 128 lasers"));
 }
 
 TEST_F(HeardSendersTest, ASensorIsHeardHoweverManyOthersSendOneByte) {

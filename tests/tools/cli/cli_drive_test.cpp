@@ -197,6 +197,23 @@ TEST_F(Cli, SimulatesEitherSensorInEitherReturnModeAtAnySpin) {
   }
 }
 
+TEST_F(Cli, AnOustersDriveIsReplayedWithTheMetadataBesideIt) {
+  expect_done("simulate --sensor ouster32 --product os0 --scene flat --duration 0.3 -o o.pcap");
+  EXPECT_TRUE(fs::exists(folder_ / "o.calibration.json"));
+  const Outcome info = run("info o.pcap");
+  EXPECT_THAT(info.out, HasSubstr("32-row Ouster (profile RNG19_RFL8_SIG16_NIR16)"));
+  expect_done(
+      "replay o.pcap --truth o.truth --json o.json --mount-height 1.73 --mount-roll 0 "
+      "--mount-pitch 0");
+  EXPECT_GT(json("o.json").at("summary").at("iou_g"), 0.9);
+  EXPECT_EQ(run("simulate --sensor ouster32 --spin-hz 9 --duration 0.1 -o p.pcap").exit_code, 2);
+  // Another unit's beams and mode, of two returns.
+  expect_done(
+      "simulate --sensor ouster32 --calibration o.calibration.json --returns dual --scene "
+      "flat --duration 0.1 -o p.pcap");
+  EXPECT_THAT(run("info p.pcap").out, HasSubstr("profile RNG19_RFL8_SIG16_NIR16_DUAL"));
+}
+
 TEST_F(Cli, ARuby128sDriveCarriesItsTable) {
   expect_done("simulate --sensor ruby128 --scene flat --duration 0.1 -o d.pcap");
   const Outcome outcome = run("replay d.pcap");

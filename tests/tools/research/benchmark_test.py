@@ -72,6 +72,14 @@ class Printed(unittest.TestCase):
         self.assertIn("| memory planned, MiB | 12.0 | 12.0 |", table)
         self.assertNotIn("times that of", table)
 
+    def test_every_sensor_that_was_measured_has_a_row_beside_the_hdl64e_of_the_same_round(self):
+        quality = {"quality": [0.5, 0.75]}
+        table = printed(results_of(models={"hdl64e": [round_of(2, **quality), round_of(4, **quality)],
+                                           "vlp16": [round_of(1, **quality), round_of(1, **quality)]}), "models")  # fmt: skip
+        self.assertIn("| VLP-16 (`vlp16`) | two real captures, single and dual return | 0.38 (0.25-0.50) | 1.00 / 2.00 | 1.00 / 2.00 "
+                      "| 12.0 | 128,000 | 50.00 / 75.00 |", table)  # fmt: skip
+        self.assertNotIn("ruby128", table)
+
     def test_ratios_to_another_version_are_printed_where_it_was_measured(self):
         rounds = [round_of(2, beside=[0.5, 0.25]), round_of(2, beside=[0.7, 0.35])]
         table = printed(results_of(sensors={"hdl64e, street": rounds, "hdl64e, rural": [round_of(3)]}), "sensors")

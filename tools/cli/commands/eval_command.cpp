@@ -358,10 +358,6 @@ Expected<eval::EvaluationOutcome> evaluate_drives(const Options& options,
                                                                 static_cast<double>(of));
                                            evaluating->update(static_cast<double>(done));
                                          }};
-  if (const auto model = options.capture.sensor; model && sensor::is_ouster(*model)) {
-    return fail(ErrorCode::kUnsupported,
-                fmt::format("packets of a {} are read, not made", to_string(*model)));
-  }
   return eval::evaluate_simulated({drives_of(options), config.frames, config.methods, config.mount,
                                    config.find_mount, config.predictions, config.on_labelled},
                                   journal ? &*journal : nullptr, progress, stop_wanted);

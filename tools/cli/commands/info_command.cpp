@@ -15,6 +15,7 @@
 #include "firmware_io/bag/packet_messages.hpp"
 #include "firmware_io/bag/topic_choice.hpp"
 #include "firmware_io/sensor/capture_survey.hpp"
+#include "firmware_io/sensor/unknown_packets.hpp"
 #include "firmware_io/streams/stream_names.hpp"
 #include "firmware_io/streams/stream_text.hpp"
 #include "pipeline/status/figures.hpp"
@@ -191,6 +192,13 @@ std::string text_of(const CaptureSurvey& survey) {
     if (stream.ruby128) describe("RS-Ruby128", text_of(*stream.ruby128));
     if (stream.head) describe(to_string(stream.sensor), text_of(*stream.head));
     if (stream.device) describe("RS-Ruby128 device information", text_of(*stream.device));
+  }
+  // Of a LiDAR, by its packets or by what they look like.
+  const auto is_not_read = [](const UdpStream& stream) {
+    return !sensor::is_decoded(stream.sensor) && !stream.sensor_hints.empty();
+  };
+  if (std::ranges::any_of(survey.streams, is_not_read)) {
+    text += fmt::format("\nPackets that are not read: {}\n", sensor::kWhatInstead);
   }
   return text;
 }

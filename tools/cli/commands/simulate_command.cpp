@@ -49,6 +49,21 @@ typename packets::TableEncoderTraits<Model, Sender>::Config sensor_config(
     const Options& options, packets::TableEncoderTraits<Model, Sender>) {
   return {.returns = options.simulate.returns};
 }
+template <int kRows>
+typename packets::OusterEncoderTraits<kRows>::Config sensor_config(
+    const Options& options, packets::OusterEncoderTraits<kRows>) {
+  return {.returns = options.simulate.returns};
+}
+
+template <class EncoderTraits>
+Expected<typename EncoderTraits::Calibration> unit_to_make(const Options& options,
+                                                           EncoderTraits traits) {
+  if constexpr (packets::kHasNumberedColumns<EncoderTraits>) {
+    return made_calibration(options.capture, traits, options.simulate.product);
+  } else {
+    return made_calibration(options.capture, traits);
+  }
+}
 
 template <class EncoderTraits>
 Expected<simulator::SimulationConfig<EncoderTraits>> simulation_config(const Options& options) {
@@ -65,9 +80,10 @@ Expected<simulator::SimulationConfig<EncoderTraits>> simulation_config(const Opt
   const auto mount = mount_of(options.mount);
   if (!mount) return tl::unexpected(mount.error());
   config.mount = *mount;
-  auto calibration = made_calibration(options.capture, EncoderTraits{});
+  auto calibration = unit_to_make(options, EncoderTraits{});
   if (!calibration) return tl::unexpected(calibration.error());
-  config.calibration = *std::move(calibration);
+  config.calibration =
+      packets::unit_in_mode<EncoderTraits>(*calibration, config.sensor.returns, config.spin_hz);
   return config;
 }
 
@@ -196,9 +212,6 @@ ExitCode simulate_sending_the_beginning(const Options& options, const std::files
 
 ExitCode run_simulate(const Options& options) {
   catch_stop_signals();
-  if (const auto model = options.capture.sensor; model && sensor::is_ouster(*model)) {
-    return refuse(kUsage, fmt::format("packets of a {} are read, not made", to_string(*model)));
-  }
   if (!options.simulate.pattern.empty()) return simulate_clouds(options);
   if (options.send.to.empty()) {
     if (options.written.empty()) {

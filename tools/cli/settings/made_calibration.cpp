@@ -6,6 +6,7 @@
 
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/hesai/hesai_csv.hpp"
+#include "calib/ouster/ouster_metadata.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 
 namespace terracut::cli {
@@ -29,6 +30,13 @@ Expected<beams::BeamTable> made_calibration(const CaptureOptions& options,
   return fail(ErrorCode::kInvalidArgument,
               fmt::format("{}: the table of a {} is built in; leave --calibration away",
                           options.calibration.string(), to_string(model)));
+}
+
+Expected<ouster::OusterCalibration> made_ouster(const CaptureOptions& options,
+                                                ouster::Product product,
+                                                sensor::SensorModel model) {
+  if (options.calibration.empty()) return ouster::nominal_product(product, model);
+  return ouster::read_ouster_metadata(options.calibration, model);
 }
 
 }  // namespace terracut::cli

@@ -21,5 +21,14 @@ template <class Model, class Sender>
     const CaptureOptions& options, packets::TableEncoderTraits<Model, Sender>) {
   return made_calibration(options, Model::kModel);
 }
+[[nodiscard]] Expected<ouster::OusterCalibration> made_ouster(const CaptureOptions& options,
+                                                              ouster::Product product,
+                                                              sensor::SensorModel model);
+template <int kRows>
+[[nodiscard]] Expected<ouster::OusterCalibration> made_calibration(
+    const CaptureOptions& options, packets::OusterEncoderTraits<kRows>,
+    ouster::Product product = ouster::Product::kOs1) {
+  return made_ouster(options, product, ouster::model_of_rows(kRows));
+}
 
 }  // namespace terracut::cli

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calib/ouster/ouster_metadata.hpp"
+#include "firmware_io/sensor/unknown_packets.hpp"
 #include "firmware_io/streams/heard_senders.hpp"
 #include "firmware_io/streams/stream_names.hpp"
 #include "pipeline/status/figure_lines.hpp"
@@ -23,9 +24,7 @@ std::string found_instead(const CaptureOptions& options, const streams::HeardSen
   std::string others = senders.others();
   if (others.empty()) return why_nothing_came(source.counters(), 0, 0, {});
   if (options.sensor) return others;
-  return others +
-         ". Clouds that its own driver makes of them are labelled by `terracut segment` (files) "
-         "and `terracut node` (ROS 2)";
+  return fmt::format("{}. {}", others, sensor::kWhatInstead);
 }
 
 /// Explains why no datagram came from a capture that has frames.

@@ -367,6 +367,8 @@ constexpr std::array kSettings{
             .field = [](O& o) -> F { return choice(o.simulate.returns, kReturnsWords); }},
     Setting{.key = "simulate.timestamp", .option = "--timestamp", .commands = C::kSimulate, .help = "Ruby128: how its stamps are encoded",
             .field = [](O& o) -> F { return choice(o.simulate.timestamp, kTimestampWords); }},
+    Setting{.key = "simulate.product", .option = "--product", .commands = C::kSimulate, .help = "Ouster: whose beams, where no --calibration tells a unit's",
+            .field = [](O& o) -> F { return choice(o.simulate.product, kProductWords); }},
     Setting{.key = "simulate.noise_m", .option = "--noise", .commands = C::kSimulate, .unit = "m", .help = "Standard deviation of the range noise",
             .least = 0, .most = 1, .field = [](O& o) -> F { return &o.simulate.noise_m; }},
     Setting{.option = "--speed", .commands = C::kSimulate, .unit = "m/s", .help = "Of the vehicle (default: what is usual there)",

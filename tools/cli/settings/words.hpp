@@ -56,6 +56,9 @@ inline constexpr std::array kInstantWords{Word{"start", frame::FrameInstant::kSt
                                           Word{"end", frame::FrameInstant::kEnd}};
 inline constexpr std::array kReturnsWords{Word{"single", packets::ReturnMode::kSingle},
                                           Word{"dual", packets::ReturnMode::kDual}};
+inline constexpr std::array kProductWords{Word{"os0", ouster::Product::kOs0},
+                                          Word{"os1", ouster::Product::kOs1},
+                                          Word{"os2", ouster::Product::kOs2}};
 inline constexpr std::array kStreamModeWords{
     Word{"600", ::mode_t{0600}}, Word{"660", ::mode_t{0660}}, Word{"666", ::mode_t{0666}}};
 inline constexpr std::array kFormatWords{Word{"labels", FleetFormat::kLabels},

@@ -14,6 +14,13 @@ namespace {
 constexpr double kLeastRunUp_cdeg = 1100;
 constexpr double kSpareRunUp_cdeg = 100;
 
+/// How far the head turns before and after the frames, so that every laser covers them.
+template <class EncoderTraits>
+double run_up_cdeg(const typename EncoderTraits::Calibration& calibration) {
+  const double widest_cdeg = 100 * beams::rad_to_deg(EncoderTraits::widest_offset_rad(calibration));
+  return std::max(kLeastRunUp_cdeg, widest_cdeg + kSpareRunUp_cdeg);
+}
+
 }  // namespace
 
 template <class EncoderTraits>
@@ -23,19 +30,12 @@ FiringPlan<EncoderTraits>::FiringPlan(const typename EncoderTraits::Calibration&
     : returns_(returns),
       frames_(frames),
       group_(EncoderTraits::firings_per_group(returns)),
-      cdeg_per_s_(spin_hz * beams::kRevolution_cdeg),
-      firing_s_(static_cast<double>(EncoderTraits::firing_ns(returns)) * 1e-9) {
-  const double widest_cdeg = 100 * beams::rad_to_deg(EncoderTraits::widest_offset_rad(calibration));
-  const double run_up_cdeg = std::max(kLeastRunUp_cdeg, widest_cdeg + kSpareRunUp_cdeg);
-  start_cdeg_ = -run_up_cdeg;
-  const double way_cdeg = static_cast<double>(frames) * beams::kRevolution_cdeg + 2 * run_up_cdeg;
-  const double firings = way_cdeg / (cdeg_per_s_ * firing_s_);
+      firing_ns_(packets::firing_ns<EncoderTraits>(calibration, returns)),
+      head_(calibration, returns, spin_hz, -run_up_cdeg<EncoderTraits>(calibration)) {
+  const double way_cdeg = static_cast<double>(frames) * beams::kRevolution_cdeg -
+                          head_.start_cdeg() + run_up_cdeg<EncoderTraits>(calibration);
+  const double firings = way_cdeg / (head_.cdeg_per_s() * head_.firing_s());
   firings_ = static_cast<std::int64_t>(std::ceil(firings / static_cast<double>(group_))) * group_;
-}
-
-template <class EncoderTraits>
-std::int64_t FiringPlan<EncoderTraits>::azimuth_cdeg(std::int64_t index) const noexcept {
-  return std::llround(start_cdeg_ + static_cast<double>(index) * firing_s_ * cdeg_per_s_);
 }
 
 template <class EncoderTraits>
@@ -44,12 +44,12 @@ Firing FiringPlan<EncoderTraits>::firing(std::int64_t index) const noexcept {
   const std::int64_t first = index - place;
   packets::GroupAzimuths rotor;
   for (std::int64_t i = 0; i < group_; ++i) {
-    rotor.cdeg[static_cast<std::size_t>(i)] = beams::wrap_cdeg(azimuth_cdeg(first + i));
+    rotor.cdeg[static_cast<std::size_t>(i)] = beams::wrap_cdeg(head_.azimuth_cdeg(first + i));
   }
-  if (first > 0) rotor.before_cdeg = beams::wrap_cdeg(azimuth_cdeg(first - 1));
-  return {index, azimuth_cdeg(index),
+  if (first > 0) rotor.before_cdeg = beams::wrap_cdeg(head_.azimuth_cdeg(first - 1));
+  return {index, head_.azimuth_cdeg(index),
           EncoderTraits::step_ticks(rotor, static_cast<int>(place), returns_),
-          static_cast<double>(index) * firing_s_ + start_cdeg_ / cdeg_per_s_};
+          static_cast<double>(index) * head_.firing_s() + head_.start_cdeg() / head_.cdeg_per_s()};
 }
 
 #define TERRACUT_INSTANTIATE(EncoderTraits) template class FiringPlan<EncoderTraits>;

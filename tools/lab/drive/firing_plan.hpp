@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "tools/lab/drive/head_azimuths.hpp"
 #include "tools/lab/packets/encoder_traits.hpp"
 #include "tools/lab/packets/return_mode.hpp"
 
@@ -30,7 +31,7 @@ class FiringPlan {
   [[nodiscard]] Firing firing(std::int64_t index) const noexcept;
   /// Returns the time from the first firing to the firing `index`.
   [[nodiscard]] std::int64_t after_ns(std::int64_t index) const noexcept {
-    return index * EncoderTraits::firing_ns(returns_);
+    return index * firing_ns_;
   }
   /// True unless the frame lies before the first seam or after the last one.
   [[nodiscard]] bool wants(std::int64_t frame) const noexcept {
@@ -38,14 +39,11 @@ class FiringPlan {
   }
 
  private:
-  [[nodiscard]] std::int64_t azimuth_cdeg(std::int64_t index) const noexcept;
-
   packets::ReturnMode returns_;
   std::int64_t frames_;
   std::int64_t group_;  ///< Number of firings that fill whole packets.
-  double start_cdeg_;   ///< < 0
-  double cdeg_per_s_;
-  double firing_s_;
+  std::int64_t firing_ns_;
+  HeadAzimuths<EncoderTraits> head_;  ///< Starts before straight ahead.
   std::int64_t firings_;
 };
 

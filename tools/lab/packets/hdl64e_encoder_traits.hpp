@@ -37,6 +37,7 @@ struct Hdl64eEncoderTraits {
 
   static constexpr int kLasers = hdl64e::kHdl64eLasers;
   static constexpr bool kStrongestFirst = true;
+  static constexpr bool kSecondIsLast = true;
   /// Half of the 2 mrad that the manual gives for the whole beam.
   static constexpr double kBeamHalfWidth_rad = 1.0e-3;
   static constexpr std::string_view kCalibrationSuffix = ".calibration.xml";

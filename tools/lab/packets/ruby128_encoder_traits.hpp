@@ -38,6 +38,7 @@ struct Ruby128EncoderTraits {
 
   static constexpr int kLasers = ruby128::kRuby128Lasers;
   static constexpr bool kStrongestFirst = false;
+  static constexpr bool kSecondIsLast = true;
   static constexpr double kBeamHalfWidth_rad = 1.25e-3;
   static constexpr std::string_view kCalibrationSuffix = ".calibration.csv";
 

@@ -36,6 +36,7 @@ struct TableEncoderTraits {
 
   static constexpr int kLasers = Model::kChannels;
   static constexpr bool kStrongestFirst = false;
+  static constexpr bool kSecondIsLast = true;
   /// Half of the 3 mrad that the manuals give.
   static constexpr double kBeamHalfWidth_rad = 1.5e-3;
 

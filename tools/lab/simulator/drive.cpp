@@ -178,6 +178,14 @@ struct DrivePlan {
     for (const Status& status : {validate(config.calibration), check(config)}) {
       if (!status) return tl::unexpected(status.error());
     }
+    if constexpr (packets::kHasNumberedColumns<EncoderTraits>) {
+      if (config.calibration.rate_hz != config.spin_hz) {
+        return fail(ErrorCode::kInvalidArgument,
+                    fmt::format("simulation: spin_hz is {:g}, but the unit turns at {:g} Hz; "
+                                "without a unit's own mode there are 5, 10 and 20 Hz",
+                                config.spin_hz, config.calibration.rate_hz));
+      }
+    }
     const std::int64_t frames =
         std::max<std::int64_t>(1, std::llround(config.duration_s * config.spin_hz));
     const double duration_s = static_cast<double>(frames) / config.spin_hz;

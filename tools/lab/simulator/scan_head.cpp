@@ -158,14 +158,16 @@ void ScanHead<EncoderTraits>::cast_dual(const Beam& beam, const Moment& moment,
   if (on_axis) strongest = measure(beam, moment, *on_axis);
   if (beside) last = measure_along(beam, *beside, beam.direction);
   if (!strongest && !last) return;
+  const bool are_two = strongest && last;
   if (!strongest) strongest = last;
   if (!last) last = strongest;
   if (on_axis && beside) {
     if (beside->echo.signal > on_axis->echo.signal) std::swap(strongest, last);
     // The weaker return lies before the strongest.
-    if (strongest->wire.raw > last->wire.raw) last = strongest;
+    if (EncoderTraits::kSecondIsLast && strongest->wire.raw > last->wire.raw) last = strongest;
   }
   put(*strongest, beam.laser, columns[EncoderTraits::kStrongestFirst ? 0 : 1]);
+  if (!are_two && !EncoderTraits::kSecondIsLast) return;
   put(*last, beam.laser, columns[EncoderTraits::kStrongestFirst ? 1 : 0]);
 }
 

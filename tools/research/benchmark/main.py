@@ -7,7 +7,7 @@
     ./tools/benchmark --quick --results /tmp/tried
     ./tools/benchmark --only ''         # the documents anew, from what was measured
 
-Parts: sensors (`terracut bench` and `plan`), instructions (./tools/instructions), live and outputs (./tools/live_trial), peers
+Parts: sensors (`terracut bench` and `plan`), models (a row for every sensor, in docs/reference/sensors.md), instructions (./tools/instructions), live and outputs (./tools/live_trial), peers
 (./tools/beside_peer). Every figure goes into RESULTS/PART.json as soon as it is measured, so that a run which breaks off goes on
 where it was. Another program, machine, --beside or --quick begins a part anew, as does --anew. What there is no data, peer or
 package for is left out, and the page says why. With --results the tables are printed and no document changes. The program is

@@ -7,9 +7,9 @@ import statistics
 from peers.programs import AFTER_FRAME, FROM_PACKETS, SEGMENTING
 from tables import table
 
-from .parts import CASES
+from .parts import CASES, MODELS
 
-DOCUMENTS = ("README.md", "docs/reference/benchmark.md")
+DOCUMENTS = ("README.md", "docs/reference/benchmark.md", "docs/reference/sensors.md")
 STAGE_ROWS = {
     "total": "**total**",
     "after_frame": "of it after the turn's last packet",
@@ -109,6 +109,28 @@ def sensor_table(sensors, results):
     return [*table(f"{NAMES[sensors[0]] if len(sensors) == 1 else 'others'}; ms, p50 / p99", titles, rows), ""]
 
 
+def models_table(results):
+    measured = results["models"].cases
+    unit = measured.get("hdl64e", ())
+    rows = []
+    for model, (name, proved) in MODELS.items():
+        rounds = measured.get(model)
+        if not rounds:
+            continue
+        times = spanned([ours["total"][0] / its["total"][0] for ours, its in zip(rounds, unit)])
+        iou, recall = rounds[-1]["quality"]
+
+        def both(stage):
+            return " / ".join(f"{median(rounds, stage, of):.2f}" for of in (0, 1))
+
+        rows.append((f"{name} (`{model}`)", [proved, times, both("total"), both("after_frame"), f"{median(rounds, 'planned_bytes') / MEBI:.1f}",
+                                             f"{median(rounds, 'returns'):,.0f}", f"{100 * iou:.2f} / {100 * recall:.2f}"]))  # fmt: skip
+    if not rows:
+        return []
+    return table("sensor (word)", ["packets proved on", "times an HDL-64E", "whole work, ms", "after the turn's last packet, ms",
+                                   "memory, MiB", "returns a turn", "IoU_g / Recall_o, %"], rows)  # fmt: skip
+
+
 def instructions_table(results):
     cases = results["instructions"].cases
     if not cases:
@@ -178,6 +200,7 @@ def blocks(results):
     """{name: lines} of all that the documents show; `results`: {part: Results}."""
     tables = {
         "sensors": [line for sensors in TABLES for line in sensor_table(sensors, results)][:-1],
+        "models": models_table(results),
         "instructions": instructions_table(results),
         "live": live_table(results),
         "outputs": (outputs_table("each", results) + outputs_table("stalled", results))[:-1],

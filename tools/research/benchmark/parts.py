@@ -67,6 +67,26 @@ CASES = (
     Case("vls128", "capture", capture="pcap/vls128_nebula.pcap"),
 )
 DRIVE_S, COUNTED_S = 2, 0.3  # of a simulated drive; of one whose instructions are counted
+# Every sensor that is decoded, by its word: how it is called, and what its packets are proved on beside made ones.
+MODELS = {
+    "hdl64e": ("HDL-64E", "the S1: a real capture; S2 and S3: made ones"),
+    "ruby128": ("RS-Ruby128", "made ones"),
+    "vlp16": ("VLP-16", "two real captures, single and dual return"),
+    "hdl32e": ("HDL-32E", "a real capture"),
+    "vlp32c": ("VLP-32C", "a real capture of half its view"),
+    "vls128": ("VLS-128", "a real capture"),
+    "pandar40p": ("Pandar40P", "a real capture, dual return"),
+    "pandar64": ("Pandar64", "a real capture, dual return"),
+    "pandarqt64": ("PandarQT64", "a real capture, dual return"),
+    "pandarqt128": ("PandarQT128", "a real capture, dual return"),
+    "pandarxt16": ("PandarXT-16", "made ones"),
+    "pandarxt32": ("PandarXT-32", "a real capture, dual return"),
+    "pandarxt32m": ("PandarXT-32M", "made ones"),
+    "ouster32": ("Ouster, 32 rows", "made ones"),
+    "ouster64": ("Ouster, 64 rows", "a real capture, legacy profile"),
+    "ouster128": ("Ouster, 128 rows", "four real captures, RNG19, RNG15 and FUSA dual profiles"),
+}
+MODEL_S = 1  # of a drive of each of them
 
 
 class Failed(Exception):
@@ -163,6 +183,25 @@ def planned_bytes(sensor, setting):
     return json.loads(plan.read_text(encoding="utf-8"))["total_bytes"]
 
 
+def models(setting, results):
+    """`terracut bench` of a drive of every sensor, all in each round, and how right the labels are by `replay --truth`."""
+    row = re.search(r"^\| `sensor\.model` \|  \| auto, ([^|]*?) \|", quietly([setting.program, "config", "--print-table"]), re.MULTILINE)
+    if row is None or row[1].split(", ") != list(MODELS):
+        raise Failed(f"the program decodes {row and row[1]}, and the table is of {', '.join(MODELS)}")
+    program = Program(setting.program, setting.scratch)
+    for number in range(setting.rounds):
+        for model in MODELS:
+            if results.rounds(model) > number:
+                continue
+            drive = program.drive(model, "single", "street", MODEL_S)
+            report = bench(setting.program, options_of(drive), setting)
+            quality = program.replay(drive.pcap, drive.calibration, None, "--truth", drive.truth)["summary"]
+            results.add(model, {"returns": report["returns_per_frame"], "planned_bytes": planned_bytes(model, setting),
+                                "quality": [quality["iou_g"], quality["recall_o"]],
+                                **{stage: [report["ms"][stage][of] for of in ("p50", "p99")] for stage in ("total", "after_frame")}})  # fmt: skip
+            print(f"round {number + 1}/{setting.rounds}: {model}", file=sys.stderr)
+
+
 def instructions(setting, results):
     """./tools/instructions."""
     for case in [case for case in CASES if case.drive and case.drive[0] == "single" and case.sensor != "vlp16"]:
@@ -245,6 +284,7 @@ class Part:
 
 PARTS = (
     Part("sensors", sensors, lambda quick: "1 round of 2 passes (--quick)" if quick else "5 rounds of 5 passes"),
+    Part("models", models, lambda quick: "1 round of 2 passes (--quick)" if quick else "5 rounds of 5 passes"),
     Part("instructions", instructions, lambda quick: "3 frames"),
     Part("live", live, lambda quick: "half a minute a sensor (--quick)" if quick else "3 minutes a sensor"),
     Part("outputs", outputs, lambda quick: "4 s a run, 1 round (--quick)" if quick else "20 s a run, 3 rounds"),

@@ -257,7 +257,8 @@ class Run {
       return fail(ErrorCode::kWriteFailed, "no temporary folder can be made for the drive");
     }
     const fs::path capture = scratch.path() / "drive.pcap";
-    const auto calibration = EncoderTraits::nominal();
+    const auto calibration =
+        packets::unit_in_mode<EncoderTraits>(EncoderTraits::nominal(), returns(), kSpin_hz);
     const auto simulated = simulate(scene, capture, calibration);
     if (!simulated) return tl::unexpected(simulated.error());
     if (!*simulated) return {};

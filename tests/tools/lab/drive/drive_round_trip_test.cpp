@@ -47,6 +47,10 @@ class DriveRoundTrip : public terracut::test::InScratchFolder {
   using Column = typename Written::Column;
 
   [[nodiscard]] fs::path pcap() const { return folder_ / "drive.pcap"; }
+  [[nodiscard]] static typename Written::Calibration unit(packets::ReturnMode returns,
+                                                          double spin_hz) {
+    return packets::unit_in_mode<Written>(Written::nominal(), returns, spin_hz);
+  }
 
   DriveSummary write(const std::vector<Column>& columns,
                      const typename Written::Config& config = {},
@@ -126,11 +130,13 @@ class DriveRoundTrip : public terracut::test::InScratchFolder {
 };
 
 template <class... VelodyneModel>
-using SensorsWith = testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits,
-                                   packets::VelodyneEncoderTraits<VelodyneModel>...,
-                                   packets::HesaiEncoderTraits<hesai::Pandar40p>,
-                                   packets::HesaiEncoderTraits<hesai::PandarQt128>,
-                                   packets::HesaiEncoderTraits<hesai::PandarXt32m>>;
+using SensorsWith =
+    testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits,
+                   packets::VelodyneEncoderTraits<VelodyneModel>...,
+                   packets::HesaiEncoderTraits<hesai::Pandar40p>,
+                   packets::HesaiEncoderTraits<hesai::PandarQt128>,
+                   packets::HesaiEncoderTraits<hesai::PandarXt32m>,
+                   packets::OusterEncoderTraits<32>, packets::OusterEncoderTraits<128>>;
 using Sensors = velodyne::Models::In<SensorsWith>;
 TYPED_TEST_SUITE(DriveRoundTrip, Sensors);
 
@@ -143,7 +149,7 @@ TYPED_TEST(DriveRoundTrip, TheNthTruthEntryIsTheNthReturnDecodedInEveryModeAtEve
                    std::to_string(spin_hz) + " Hz");
       const auto columns = test::random_columns<EncoderTraits>(
           {.returns = returns, .spin_hz = spin_hz, .share_of_returns = 0.3});
-      const auto written = this->write(columns, {.returns = returns});
+      const auto written = this->write(columns, {.returns = returns}, this->unit(returns, spin_hz));
       EXPECT_EQ(written.frames, 4U);
       EXPECT_EQ(written.columns, columns.size());
       EXPECT_EQ(
@@ -164,7 +170,8 @@ TYPED_TEST(DriveRoundTrip, SeamsFallOnAnyPlaceOfAGroup) {
                                                               .last_cdeg = 37'100,
                                                               .share_of_returns = 0.9,
                                                               .seed = seed});
-    const auto written = this->write(columns, {.returns = packets::ReturnMode::kDual});
+    const auto written = this->write(columns, {.returns = packets::ReturnMode::kDual},
+                                     this->unit(packets::ReturnMode::kDual, 10));
     this->expect_truth_fits(written, packets::ReturnMode::kDual, 10);
   }
 }

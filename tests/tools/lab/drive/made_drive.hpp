@@ -24,6 +24,7 @@ Expected<typename EncoderTraits::Calibration> table_beside(const std::filesystem
 
 template <class EncoderTraits>
 constexpr std::uint16_t data_port() {
+  if (packets::kHasNumberedColumns<EncoderTraits>) return ouster::kDataPort;
   return std::is_same_v<EncoderTraits, packets::Ruby128EncoderTraits> ? ruby128::kRubyDataPort
                                                                       : hdl64e::kHdl64eDataPort;
 }

@@ -2,11 +2,11 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <random>
 #include <vector>
 
+#include "tools/lab/drive/head_azimuths.hpp"
 #include "tools/lab/packets/encoder_traits.hpp"
 
 namespace terracut::test {
@@ -29,19 +29,21 @@ std::vector<typename EncoderTraits::Column> random_columns(const RandomColumns& 
   std::mt19937 random(settings.seed);
   std::uniform_real_distribution<double> chance(0, 1);
   std::uniform_int_distribution<unsigned> distance(1, 65'535), byte(0, 255);
-  const std::int64_t firing_ns = EncoderTraits::firing_ns(settings.returns);
-  const double step_cdeg =
-      settings.spin_hz * beams::kRevolution_cdeg * 1e-9 * static_cast<double>(firing_ns);
+  const auto unit = packets::unit_in_mode<EncoderTraits>(EncoderTraits::nominal(), settings.returns,
+                                                         settings.spin_hz);
+  const std::int64_t firing_ns = packets::firing_ns<EncoderTraits>(unit, settings.returns);
+  const drive::HeadAzimuths<EncoderTraits> head(unit, settings.returns, settings.spin_hz,
+                                                settings.first_cdeg);
   const int group = EncoderTraits::firings_per_group(settings.returns);
   std::vector<typename EncoderTraits::Column> columns;
   std::uint32_t number = 0;
   for (std::int64_t firing = 0;; ++firing) {
-    const double rotor_cdeg = settings.first_cdeg + static_cast<double>(firing) * step_cdeg;
-    if (rotor_cdeg > settings.last_cdeg && firing % group == 0) return columns;
+    const std::int64_t rotor_cdeg = head.azimuth_cdeg(firing);
+    if (static_cast<double>(rotor_cdeg) > settings.last_cdeg && firing % group == 0) return columns;
     for (int i = 0; i < packets::returns_per_firing(settings.returns); ++i) {
       auto& column = columns.emplace_back();
       column.stamp_ns = settings.first_stamp_ns + firing * firing_ns;
-      column.unwrapped_azimuth_cdeg = std::llround(rotor_cdeg);
+      column.unwrapped_azimuth_cdeg = rotor_cdeg;
       for (packets::LabelledReturn& beam : column.by_laser) {
         if (chance(random) >= settings.share_of_returns) continue;
         beam.raw = static_cast<std::uint16_t>(distance(random));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "pipeline/points/row_times.hpp"
+
 namespace terracut::points {
 namespace {
 
@@ -20,26 +22,6 @@ LabelledPoint labelled_point(const frame::Return& point, int row, frame::Label l
                              float time_s) noexcept TERRACUT_NONBLOCKING {
   return {point.x_m, point.y_m, point.z_m, point.intensity, label, static_cast<std::uint16_t>(row),
           time_s};
-}
-
-/// The times of measurement in a row: its beam measures column 0 at `first_s` and each further
-/// column `step_s` later.
-struct RowTimes {
-  float first_s = 0, step_s = 0;
-
-  [[nodiscard]] float at(int column) const noexcept {
-    return std::max(first_s + static_cast<float>(column) * step_s, 0.0F);
-  }
-};
-
-RowTimes times_of(int row, int columns, const FrameTiming& timing) noexcept TERRACUT_NONBLOCKING {
-  const float swept_turns = timing.head.last_turns - timing.head.first_turns;
-  const auto n = static_cast<std::size_t>(row);
-  if (n >= timing.beam_turns.size() || swept_turns <= 0) return {};
-  const float turn_s = static_cast<float>(timing.duration_s) / swept_turns;
-  const float column_turns = 1.0F / static_cast<float>(columns);
-  const float head_turns = column_turns / 2 - timing.beam_turns[n];
-  return {(head_turns - timing.head.first_turns) * turn_s, column_turns * turn_s};
 }
 
 /// Moves a laser's points in x and y, the only coordinates of a labelled point that change.
@@ -69,7 +51,7 @@ void pack_tile(const frame::MeasuredReturns& returns, std::size_t tile,
     if (hits == 0) continue;
     reader.compute_points(i, all_of(made));
     const int row = reader.rows()[i];
-    const RowTimes times = times_of(row, returns.shape().columns, timing);
+    const RowTimes times = RowTimes::of(row, returns.shape().columns, timing);
     const frame::TileRow<std::uint16_t> columns = returns.columns(tile, i);
     const std::uint8_t* const intensity = returns.intensity(tile, i);
     if (!motions.empty()) {
@@ -95,7 +77,7 @@ bool pack_labelled_points(const frame::RangeImage& image, std::span<const frame:
   for (int left = 0; left < columns; left += kColumnsAtOnce) {
     const int right = std::min(left + kColumnsAtOnce, columns);
     for (int row = 0; row < rows; ++row) {
-      const RowTimes times = times_of(row, columns, timing);
+      const RowTimes times = RowTimes::of(row, columns, timing);
       for (int column = left; column < right; ++column) {
         const std::size_t cell = image.shape().cell(row, column);
         if (!image.has_return(cell)) continue;
@@ -109,8 +91,9 @@ bool pack_labelled_points(const frame::RangeImage& image, std::span<const frame:
   for (const frame::OverflowReturn& extra : image.overflow()) {
     const auto cell = static_cast<int>(extra.cell);
     const int row = cell / stride;
-    points[extra.return_index] = labelled_point(extra.point, row, labels[extra.return_index],
-                                                times_of(row, columns, timing).at(cell % stride));
+    points[extra.return_index] =
+        labelled_point(extra.point, row, labels[extra.return_index],
+                       RowTimes::of(row, columns, timing).at(cell % stride));
   }
   return true;
 }

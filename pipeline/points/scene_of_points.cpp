@@ -15,7 +15,7 @@ SceneOfPoints::SceneOfPoints(scene::Wanted wanted, const mount::RingProfile& pro
                              frame::ImageShape shape, std::size_t most_points)
     : most_points_(most_points),
       image_(shape, most_points, memory_),
-      scene_(wanted, profile, shape, most_points, memory_) {
+      scene_(wanted.without_sight(), profile, shape, most_points, memory_) {
   labels_.reserve(most_points);
 }
 

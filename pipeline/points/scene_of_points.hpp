@@ -18,13 +18,14 @@ namespace terracut::points {
 
 /// Finds what is wanted in a labelled turn that has left the threads with a deadline: puts its
 /// points back into an image, by their rows and azimuths, and looks there (scene::SceneFinder).
-/// Points may be deskewed.
+/// Points may be deskewed. How far the sensor sees needs them in the cells in which they were
+/// measured: SightOfPoints.
 ///
 /// Takes its memory in the constructor; allocates nothing later. One thread at a time.
 class SceneOfPoints {
  public:
   /// `profile` must have shape.rows rings; a turn has at most `most_points` points, further ones
-  /// are not looked at.
+  /// are not looked at. `wanted.sight` makes no difference.
   SceneOfPoints(scene::Wanted wanted, const mount::RingProfile& profile, frame::ImageShape shape,
                 std::size_t most_points);
 

@@ -19,11 +19,13 @@ SceneFinder::SceneFinder(Wanted wanted, const mount::RingProfile& profile, frame
     objects_.emplace(objects::ObjectFinder::Config{}, profile, shape, return_capacity, memory);
   }
   if (wanted.free_way) free_way_.emplace(profile, shape, memory);
+  if (wanted.sight) sight_.emplace(profile, shape, memory);
 }
 
 void SceneFinder::find(const frame::RangeImage& image, std::span<const frame::Label> labels,
-                       std::span<const float> heights_m) noexcept {
+                       std::span<const float> heights_m, bool is_whole) noexcept {
   take(image, labels, heights_m);
+  if (sight_) sight_->look(image, planes_, is_whole);
   if (objects_) objects_->find(image, planes_, labels);
   if (!free_way_) return;
   find_steep(image);

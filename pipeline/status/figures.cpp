@@ -404,6 +404,8 @@ std::vector<Figure> figures_of(const visibility::SightFigures& f) {
     of_turns.each.emplace_back(to_string(cause), f.turns[i]);
   }
   const bool is_well = worst.state == visibility::State::kClear;
+  // The first turn is always left out, for it is not whole.
+  const bool is_mostly_left_out = f.left_out_turns > 1 + f.learning_turns + f.turns[0];
   table.add("sight", {
     {"state", State{f.has_learnt == 0 ? 0 : state, states},
      {"terracut_sight_state", "1 for the state of the sensor's view, the worst of any direction."}},
@@ -417,8 +419,9 @@ std::vector<Figure> figures_of(const visibility::SightFigures& f) {
     {"learning_turns", f.learning_turns, {}, {}},
     {"left_out_turns", f.left_out_turns,
      {"terracut_sight_turns_left_out_total",
-      "Turns not looked at because packets are missing; the state stays what it was."},
-     {"sight", "{} turns left out: packets are missing", Shown::kIfAny}}});
+      "Turns not looked at because packets are missing; the state stays what it was."}},
+    {{}, is_mostly_left_out ? f.left_out_turns : 0, {},
+     {"sight", "turns left out for want of packets: {}", Shown::kAlarm}}});
   for (std::size_t i = 0; i < visibility::kDirections; ++i) {
     const auto direction = static_cast<visibility::Direction>(i);
     const visibility::SightFigures::Of of = f.in(direction);
@@ -430,7 +433,7 @@ std::vector<Figure> figures_of(const visibility::SightFigures& f) {
         {{"direction", name}}}},
       {"visible_m", of.with_view == 0 ? Value(NotKnown{}) : Value(metres(of.visible_m)),
        {"terracut_sight_visible_metres",
-        "How far beams to the ground return, in the worst sector of a direction; 40 at most.",
+        "How far beams to the ground return, the median of a direction's sectors; 40 at most.",
         {{"direction", name}}}}});
   }
   return std::move(table).take();

@@ -77,14 +77,19 @@ int SightFigures::troubled_sectors() const noexcept {
 
 SightFigures::Of SightFigures::in(Direction direction) const noexcept {
   Of of;
+  std::array<float, kSectors> visible_m{};
   for (std::size_t i = 0; i < kSectors; ++i) {
     const Sector& sector = sectors[i];
     if (direction_of(i) != direction) continue;
     of.troubled += is_troubled(sector) ? 1 : 0;
     if (sector.has_view == 0) continue;
-    of.visible_m = of.with_view == 0 ? sector.visible_m : std::min(of.visible_m, sector.visible_m);
-    ++of.with_view;
+    visible_m[static_cast<std::size_t>(of.with_view++)] = sector.visible_m;
   }
+  if (of.with_view == 0) return of;
+  const auto end = visible_m.begin() + of.with_view,
+             middle = visible_m.begin() + (of.with_view - 1) / 2;
+  std::nth_element(visible_m.begin(), middle, end);
+  of.visible_m = *middle;
   return of;
 }
 

@@ -59,13 +59,15 @@ struct SightFigures {
   struct Of {
     int troubled = 0;     ///< Sectors that are not clear.
     int with_view = 0;    ///< Sectors that are judged.
-    float visible_m = 0;  ///< The least visible range of the sectors that are judged.
+    /// The median of the visible ranges of the sectors that are judged: glass beside the vehicle
+    /// takes a single sector's away for a moment.
+    float visible_m = 0;
   };
 
   std::uint8_t is_watched = 0;  ///< 1: turns are looked at.
   std::uint8_t has_learnt = 0;  ///< 0: the view is being learnt; no condition is named.
   std::uint64_t learning_turns = 0;
-  std::uint64_t left_out_turns = 0;  ///< Not looked at, because packets are missing.
+  std::uint64_t left_out_turns = 0;  ///< Not looked at, because too many packets are missing.
   /// The other turns, by the cause of their worst condition.
   std::array<std::uint64_t, kCauses> turns{};
   std::array<Sector, kSectors> sectors{};  ///< Of the last turn, as Visibility::sectors().

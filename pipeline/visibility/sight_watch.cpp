@@ -14,8 +14,8 @@ SightWatch::SightWatch(const mount::RingProfile& profile, frame::ImageShape shap
 }
 
 void SightWatch::look(const frame::RangeImage& image, const stage::CellPlanes& planes,
-                      bool is_complete) noexcept {
-  if (!is_complete) {
+                      bool is_whole) noexcept {
+  if (!is_whole) {
     ++figures_.left_out_turns;
     return;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/stage/cell_planes.hpp"
 #include "pipeline/visibility/sight_figures.hpp"
@@ -21,11 +22,18 @@ class SightWatch {
   SightWatch(const mount::RingProfile& profile, frame::ImageShape shape,
              memory::FixedMemory& memory);
 
-  /// Looks at the next turn; the arguments are those of Visibility::look(). A turn of which packets
-  /// are missing (`is_complete` is false) is counted and not looked at, because beams of these
-  /// packets are not lost.
+  /// True if a turn has so many of its firings that few beams look lost whose packets are missing:
+  /// nine of ten, because each such beam is missed for a turn and no more.
+  [[nodiscard]] static bool is_whole(const frame::FrameInfo& info,
+                                     frame::ImageShape shape) noexcept {
+    const std::uint64_t holes = info.losses.azimuth_hole_columns;
+    return info.complete || (holes > 0 && 10 * holes <= static_cast<std::uint64_t>(shape.columns));
+  }
+
+  /// Looks at the next turn; the arguments are those of Visibility::look(). A turn that is not
+  /// whole is counted and not looked at.
   void look(const frame::RangeImage& image, const stage::CellPlanes& planes,
-            bool is_complete) noexcept TERRACUT_NONBLOCKING;
+            bool is_whole) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const SightFigures& figures() const noexcept { return figures_; }
 

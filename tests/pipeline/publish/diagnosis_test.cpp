@@ -86,7 +86,7 @@ TEST(Diagnoses, JudgeTheViewWhereItIsWatched) {
   const Diagnosis blocked = sight();
   EXPECT_EQ(blocked.level, Severity::kError);
   const std::pair<std::string, std::string> cause{"cause", "covered"},
-      left{"visible_ahead_left_m", "0.0"};
+      left{"visible_ahead_left_m", "30.0"};
   EXPECT_NE(std::ranges::find(blocked.values, cause), blocked.values.end());
   EXPECT_NE(std::ranges::find(blocked.values, left), blocked.values.end());
 }

@@ -60,14 +60,16 @@ TEST_F(FiguresOfAView, SayAllAroundWhereEverySectorWithAViewIsMeant) {
   EXPECT_EQ(sight_text(figures), "reduced, fog: all around");
 }
 
-TEST_F(FiguresOfAView, AreThoseOfTheWorstSectorOfADirection) {
+TEST_F(FiguresOfAView, AreToldByDirection) {
   EXPECT_EQ(figures.worst(), Condition{});
-  figures.sectors[34].visible_m = 12;
+  figures.sectors[34].visible_m = 5;
+  figures.sectors[35].visible_m = 12;
+  figures.sectors[17].visible_m = 5;
   set({1}, kSpray);
   const SightFigures::Of ahead = figures.in(Direction::kAhead);
   EXPECT_EQ(ahead.troubled, 1);
   EXPECT_EQ(ahead.with_view, 4);
-  EXPECT_EQ(ahead.visible_m, 12);
+  EXPECT_EQ(ahead.visible_m, 12) << "the lower of the two in the middle";
   EXPECT_EQ(figures.in(Direction::kBehind).visible_m, 30);
   set({9}, kCovered);
   EXPECT_EQ(figures.worst(), kCovered);

@@ -51,6 +51,19 @@ TEST_F(WatchOfASensor, TellsEachTurnOnce) {
   EXPECT_GT(watch.figures().sectors[20].visible_m, 30);
 }
 
+TEST_F(WatchOfASensor, TakesATurnForWholeThatLacksATenthOfItsFirings) {
+  const auto is_whole = [](bool complete, std::uint64_t holes) {
+    frame::FrameInfo info;
+    info.complete = complete;
+    info.losses.azimuth_hole_columns = holes;
+    return SightWatch::is_whole(info, kShape);
+  };
+  EXPECT_TRUE(is_whole(true, 0));
+  EXPECT_TRUE(is_whole(false, 100));
+  EXPECT_FALSE(is_whole(false, 101));
+  EXPECT_FALSE(is_whole(false, 0)) << "the first turn, of which nobody knows what is missing";
+}
+
 TEST_F(WatchOfASensor, LeavesOutTurnsOfWhichPacketsAreMissing) {
   SightWatch watch(profile, kShape, memory);
   see(watch, 12);

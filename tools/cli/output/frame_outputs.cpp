@@ -42,8 +42,8 @@ void FrameOutputs::find_scene(scene::Wanted wanted, const mount::RingProfile& pr
 }
 
 void FrameOutputs::look(const frame::RangeImage& image, std::span<const Label> labels,
-                        std::span<const float> heights_m) {
-  if (finder_) finder_->find(image, labels, heights_m);
+                        std::span<const float> heights_m, bool is_whole) {
+  if (finder_) finder_->find(image, labels, heights_m, is_whole);
 }
 
 Status FrameOutputs::write_labels(const std::string& name, std::span<const Label> labels,

@@ -47,8 +47,13 @@ class FrameOutputs {
                   std::size_t return_capacity);
 
   /// Looks at a frame before it is written; `labels` and `heights_m` are by return index.
+  /// `is_whole` is visibility::SightWatch::is_whole() of a turn.
   void look(const frame::RangeImage& image, std::span<const frame::Label> labels,
-            std::span<const float> heights_m);
+            std::span<const float> heights_m, bool is_whole = true);
+  /// Returns how far the sensor sees, by the frames so far, as scene::SceneFinder.
+  [[nodiscard]] visibility::SightFigures sight() const noexcept {
+    return finder_ ? finder_->sight() : visibility::SightFigures();
+  }
   /// Returns the number of each return's object; empty unless objects are found.
   [[nodiscard]] std::span<const std::uint16_t> object_of_return() const noexcept {
     return finder_ ? finder_->object_of_return() : std::span<const std::uint16_t>();

@@ -52,7 +52,8 @@ class ViewFrames {
   [[nodiscard]] Message sector_after(std::uint64_t seen) const;
   /// Returns the figures for the page: sensor, rows, deadline_ms or null, frames[] as [ms, level,
   /// missed], losses[] and onlookers[] as [cause, count] (status::is_of_onlookers()); objects if
-  /// there are any; silent_s if the sensor is silent.
+  /// there are any; silent_s if the sensor is silent; sight if the view is watched: state, text,
+  /// sectors[] clockwise from straight ahead as [state, visible_m].
   [[nodiscard]] nlohmann::ordered_json figures() const;
   /// Returns the objects of a frame for the page: boxes[] of four corners [x_m, y_m], bottom_m and
   /// top_m in the vehicle frame; none if it is not among the last kFramesWithObjects.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 
-// Draws points as they lie in the stream, boxes of objects, circles ten metres apart, and the vehicle.
+// Draws points as they lie in the stream, boxes of objects, circles ten metres apart, the vehicle, and how far the
+// sensor sees around it.
 
-import { KINDS, RAMP_STEPS, RANGES, ramp } from "./colours.js";
+import { KINDS, RAMP_STEPS, RANGES, STATES, ramp } from "./colours.js";
 
 const POINTS = `#version 300 es
 layout(location = 0) in vec3 place;
@@ -88,6 +89,25 @@ function boxSegments(boxes) {
   return new Float32Array(places);
 }
 
+// An arc of each sector in one of the states, at the range up to which it sees; of a blocked one the sector's edge, too.
+// Sectors are [state, visible_m], clockwise from straight ahead.
+const LEAST_RING_M = 3;
+function sightSegments(sectors, state) {
+  const places = [];
+  sectors.forEach(([of, visible], i) => {
+    if (of !== state) return;
+    const place = (turns, radius) => [radius * Math.cos(2 * Math.PI * turns), -radius * Math.sin(2 * Math.PI * turns), 0.05, 1];
+    const radius = Math.max(visible, LEAST_RING_M);
+    const parts = 5;
+    for (let part = 0; part < parts; ++part) {
+      const [from, to] = [part, part + 1].map((at) => (i + at / parts) / sectors.length);
+      places.push(...place(from, radius), ...place(to, radius));
+      if (state === "blocked") places.push(...place(from, radius), ...place(from, 10));
+    }
+  });
+  return new Float32Array(places);
+}
+
 function program(gl, vertex) {
   const made = gl.createProgram();
   for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, PAINT]]) {
@@ -119,6 +139,7 @@ export class Scene {
     const places = lineSegments();
     this.floor = this.lineLayout(places);
     this.boxes = this.lineLayout(new Float32Array(0));
+    this.sight = Object.keys(STATES).map((state) => ({ state, lines: this.lineLayout(new Float32Array(0)) }));
     gl.enable(gl.DEPTH_TEST);
     gl.clearColor(0.055, 0.075, 0.094, 1);
   }
@@ -134,12 +155,17 @@ export class Scene {
     return lines;
   }
 
-  setBoxes(boxes) {
+  setLines(lines, places) {
     const gl = this.gl;
-    const places = boxSegments(boxes);
-    this.boxes.vertices = places.length / 4;
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.boxes.buffer);
+    lines.vertices = places.length / 4;
+    gl.bindBuffer(gl.ARRAY_BUFFER, lines.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, places, gl.STREAM_DRAW);
+  }
+  setBoxes(boxes) {
+    this.setLines(this.boxes, boxSegments(boxes));
+  }
+  setSight(sectors) {
+    for (const { state, lines } of this.sight) this.setLines(lines, sightSegments(sectors, state));
   }
 
   drawLines(lines, tint) {
@@ -199,6 +225,7 @@ export class Scene {
     gl.useProgram(this.lines.made);
     gl.uniformMatrix4fv(this.lines.uniform("view"), false, view);
     this.drawLines(this.floor, [0.415, 0.515, 0.594]);
+    for (const { state, lines } of this.sight) this.drawLines(lines, unit(STATES[state]));
     if (look.shown.has("box")) this.drawLines(this.boxes, unit(KINDS.box));
     if (this.pieces.length === 0) return;
 

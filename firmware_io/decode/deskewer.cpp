@@ -32,6 +32,11 @@ std::int64_t shift_of(std::int32_t beam_ticks, const Deskewer::Config& config) {
                       static_cast<double>(config.revolution_ticks));
 }
 
+frame::PlanarMotion motion_of(const vehicle::PlanarPose& pose) noexcept {
+  return {static_cast<float>(pose.cosine), static_cast<float>(pose.sine),
+          static_cast<float>(pose.x_m), static_cast<float>(pose.y_m)};
+}
+
 }  // namespace
 
 Deskewer::Deskewer(const Config& config, std::span<const std::int32_t> beam_ticks,
@@ -176,6 +181,10 @@ Deskewer::Deskewed Deskewer::deskew(std::int64_t frame, std::size_t place) noexc
   if (!motion.poses(node_ns_, info.reference_ns, node_poses_)) return {info, {}};
   spread_poses(first_column, first_node, place);
   info.state = frame::DeskewState::kDone;
+  for (std::size_t i = 0; i < info.moved.size(); ++i) {
+    const std::size_t node = i * (node_ns_.size() - 1) / (info.moved.size() - 1);
+    info.moved[i] = {node_ns_[node], motion_of(node_poses_[node])};
+  }
   const auto rows = static_cast<std::size_t>(config_.shape.rows);
   return {info, by_row_.subspan(place * rows, rows)};
 }

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -39,8 +40,19 @@ struct PlanarMotions {
   std::span<const float> cosine, sine, x_m, y_m;
 };
 
+/// A rigid motion in the ground plane: x' = c x - s y + t_x, y' = s x + c y + t_y.
+struct PlanarMotion {
+  float cosine = 1, sine = 0, x_m = 0, y_m = 0;
+};
+
 /// Whether and how the vehicle's motion was removed from a frame.
 struct DeskewInfo {
+  /// How points that were measured at an instant of the datagrams' clock were moved.
+  struct Moved {
+    std::int64_t measured_ns = 0;
+    PlanarMotion by;
+  };
+
   DeskewState state = DeskewState::kOff;
   FrameInstant at = FrameInstant::kEnd;
   /// Time of the instant `at`, on the datagrams' clock; unset for kOff.
@@ -48,6 +60,9 @@ struct DeskewInfo {
   /// Stamp of the newest motion sample minus the instant of the frame's last firing; about 0 if
   /// both use one clock. 0 if there is no sample.
   std::int64_t newest_motion_ns = 0;
+  /// For kDone: of points measured about the frame's begin, middle and end. Parabolas through these
+  /// tell the motions between to a millimetre, of a vehicle with 20 m/s in a curve of 0.4 rad/s.
+  std::array<Moved, 3> moved{};
 };
 
 }  // namespace terracut::frame

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "terracut/free_way.hpp"
 #include "terracut/object.hpp"
 
 namespace terracut {
@@ -58,6 +59,9 @@ struct Frame {
   /// number i + 1); empty unless asked for.
   std::span<const Object> objects = {};
   std::span<const std::uint16_t> object_of_return = {};
+  /// The free way by direction, clockwise; the first sector begins straight ahead. Empty unless
+  /// asked for.
+  std::span<const FreeWaySector> free_way = {};
 };
 
 /// Some four degrees of a revolution, labelled while the sensor turns on: the returns of successive

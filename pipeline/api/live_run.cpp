@@ -32,7 +32,7 @@ Expected<streams::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Co
 }
 
 scene::Wanted wanted_of(const LiveRun::Config& config) noexcept {
-  return {.objects = config.objects};
+  return {.objects = config.objects, .free_way = config.free_way};
 }
 
 live::LiveConfig live_config_of(const LiveRun::Config& config, int columns) {
@@ -70,8 +70,9 @@ struct LiveRun::Engine {
     labels.resize(points.size());
     times_s.resize(points.size());
     if (wanted.any()) {
-      scene = std::make_unique<points::SceneOfPoints>(
-          wanted, profile, parts->turns.decoder().shape(), points.size());
+      scene = std::make_unique<points::SceneOfPoints>(wanted, profile,
+                                                      parts->turns.decoder().shape(), points.size(),
+                                                      parts->turns.decoder().beam_turns());
     }
     return {};
   }
@@ -98,9 +99,10 @@ struct LiveRun::Engine {
                   .time_s = std::span<const float>(times_s).first(taken.items.size()),
                   .height_above_ground_m = taken.heights_m};
       if (scene != nullptr) {
-        scene->find(taken.items, taken.heights_m);
+        scene->find(taken.record.info, taken.items, taken.heights_m);
         frame.objects = scene->found().objects();
         frame.object_of_return = scene->found().object_of_return();
+        frame.free_way = scene->found().free_way();
       }
       on_frame(frame);
       slots.give_back(true);

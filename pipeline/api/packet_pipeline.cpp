@@ -18,7 +18,7 @@ namespace terracut {
 namespace {
 
 scene::Wanted wanted_of(const PacketPipeline::Config& config) noexcept {
-  return {.objects = config.objects};
+  return {.objects = config.objects, .free_way = config.free_way};
 }
 
 ground::SegmenterConfig method_of(const PacketPipeline::Config& config) noexcept {
@@ -84,6 +84,7 @@ const Frame* PacketPipeline::next() noexcept {
     engine_->scene->find(*frame->image, engine_->pipeline.labels(), engine_->pipeline.heights_m());
     engine_->frame.objects = engine_->scene->objects();
     engine_->frame.object_of_return = engine_->scene->object_of_return();
+    engine_->frame.free_way = engine_->scene->free_way();
   }
   return &engine_->frame;
 }

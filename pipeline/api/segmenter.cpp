@@ -39,7 +39,7 @@ Status check(const Mount& mount) {
 }
 
 scene::Wanted wanted_of(const Segmenter::Config& config) noexcept {
-  return {.objects = config.objects};
+  return {.objects = config.objects, .free_way = config.free_way};
 }
 
 Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {
@@ -210,6 +210,11 @@ std::span<const Object> Segmenter::objects() const noexcept {
 
 std::span<const std::uint16_t> Segmenter::object_of_point() const noexcept {
   return engine_->object_of_point;
+}
+
+std::span<const FreeWaySector> Segmenter::free_way() const noexcept {
+  if (!engine_->scene) return {};
+  return engine_->scene->finder.free_way();
 }
 
 std::optional<FoundMount> Segmenter::found_mount() const noexcept {

@@ -82,6 +82,11 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
     if (!objects) return tl::unexpected(objects.error());
     sink->objects_.emplace(*std::move(objects));
   }
+  if (!config.free_way.empty()) {
+    auto free_way = FreeWayWriter::open(sink->participant_, config.free_way, config.quality);
+    if (!free_way) return tl::unexpected(free_way.error());
+    sink->free_way_.emplace(*std::move(free_way));
+  }
   if (Status told = sink->write_mount(facts); !told) return tl::unexpected(told.error());
   return sink;
 }
@@ -104,7 +109,10 @@ Status DdsSink::put(const publish::LabelledFrame& frame) {
     put_points(writer, frame.points, frame.heights_m, ros_messages::stamp_ns_of(frame.record),
                time_of_first_s_of(frame), which);
   };
-  // Objects and obstacles are published first, because planners stop for them.
+  // The free way, objects and obstacles are published first, because planners stop for them.
+  if (free_way_ && !free_way_->write(frame, frame_id_)) {
+    refused_.fetch_add(1, std::memory_order_relaxed);
+  }
   if (objects_ && !objects_->write(frame, frame_id_)) {
     refused_.fetch_add(1, std::memory_order_relaxed);
   }

@@ -12,6 +12,7 @@
 
 #include "calib/mount/mount.hpp"
 #include "diagnostics_writer.hpp"
+#include "free_way_writer.hpp"
 #include "object_writer.hpp"
 #include "participant.hpp"
 #include "pipeline/publish/frame_sink.hpp"
@@ -23,8 +24,8 @@
 namespace terracut::dds {
 
 /// Publishes labelled frames as ROS 2 messages: labelled points, whole and by sectors; ground,
-/// obstacles and road separately; their objects; points without labels in the sensor frame, as its
-/// driver would send them; diagnostics; and the sensor's transform.
+/// obstacles and road separately; their objects and free way; points without labels in the sensor
+/// frame, as its driver would send them; diagnostics; and the sensor's transform.
 class DdsSink final : public publish::FrameSink {
  public:
   struct Config {
@@ -32,7 +33,7 @@ class DdsSink final : public publish::FrameSink {
     Quality quality{};
     /// Topics from dds_topic(); an empty topic is not published.
     std::string points{}, sectors{}, ground{}, obstacles{}, road{}, raw{}, objects{},
-        object_markers{}, diagnostics{}, tf_static{};
+        object_markers{}, free_way{}, diagnostics{}, tf_static{};
     /// How long a frame waits for reliable readers to acknowledge earlier frames; 0: no wait.
     std::int64_t patience_ns = 0;
   };
@@ -75,6 +76,7 @@ class DdsSink final : public publish::FrameSink {
   mount::RigidTransform T_lidar_vehicle_{};
   Writer points_, sectors_, ground_, obstacles_, road_, raw_, tf_static_;
   std::optional<ObjectWriter> objects_;
+  std::optional<FreeWayWriter> free_way_;
   std::optional<DiagnosticsWriter> diagnostics_;
   std::vector<sensor_msgs_msg_dds__PointField_> fields_, fields_with_height_, raw_fields_;
   std::vector<std::uint8_t> bytes_;  ///< Bytes of the points of one message.

@@ -25,6 +25,15 @@ const MessageType kDetection3DArray{
 const MessageType kMarkerArray{
     &visualization_msgs_msg_dds__MarkerArray__desc,
     "RIHS01_86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf"};
+const MessageType kLaserScan{
+    &sensor_msgs_msg_dds__LaserScan__desc,
+    "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828"};
+const MessageType kPolygonStamped{
+    &geometry_msgs_msg_dds__PolygonStamped__desc,
+    "RIHS01_b7cf07932f1523d4b4088075945c1a0141f7cd21da87cc940fc61652e9138b46"};
+const MessageType kOccupancyGrid{
+    &nav_msgs_msg_dds__OccupancyGrid__desc,
+    "RIHS01_8d348150c12913a31ee0ec170fbf25089e4745d17035792a1ba94d6f0bc0cfc7"};
 const MessageType kFloat64Stamped{
     &autoware_internal_debug_msgs_msg_dds__Float64Stamped__desc,
     "RIHS01_588b194ed7eddc089b6ca098eb093e92f29bdad96ebd906fc9282816335942eb"};

@@ -19,7 +19,7 @@ struct MessageType {
   const char* hash;
 };
 extern const MessageType kPointCloud2, kDiagnosticArray, kTfMessage, kDetection3DArray,
-    kMarkerArray, kFloat64Stamped;
+    kMarkerArray, kLaserScan, kPolygonStamped, kOccupancyGrid, kFloat64Stamped;
 
 /// The quality of service that a writer offers. Reliable and volatile suits ROS 2 readers with
 /// either usual profile, SensorDataQoS or the default.

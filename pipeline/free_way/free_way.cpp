@@ -85,12 +85,12 @@ FreeWay::FreeWay(const Config& config, const mount::RingProfile& profile, frame:
   for (int i = 0; i <= sectors; ++i) {
     first_columns_[static_cast<std::size_t>(i)] = i * shape.columns / sectors;
   }
-}
-
-float FreeWay::azimuth_rad(std::size_t sector) const noexcept {
-  const frame::ColumnRange columns = columns_of(sector);
-  return -std::numbers::pi_v<float> * static_cast<float>(columns.begin + columns.end) /
-         static_cast<float>(shape_.columns);
+  for (std::size_t i = 0; i < sectors_.size(); ++i) {
+    const frame::ColumnRange columns = columns_of(i);
+    const float turns = static_cast<float>(columns.begin + columns.end) /
+                        static_cast<float>(2 * shape.columns);  // clockwise
+    sectors_[i].azimuth_rad = 2 * std::numbers::pi_v<float> * (turns > 0.5F ? 1 - turns : -turns);
+  }
 }
 
 void FreeWay::find(const frame::RangeImage& image, const stage::CellPlanes& planes,
@@ -195,7 +195,7 @@ void FreeWay::go_on(Walk& walk, float range_m, float height_m) const noexcept {
 
 void FreeWay::join_columns() noexcept {
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
-    Sector sector{.seen_m = kNothing_m};
+    Sector sector{.azimuth_rad = sectors_[i].azimuth_rad, .seen_m = kNothing_m};
     const frame::ColumnRange columns = columns_of(i);
     for (auto column = static_cast<std::size_t>(columns.begin);
          column < static_cast<std::size_t>(columns.end); ++column) {

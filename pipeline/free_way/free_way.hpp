@@ -64,9 +64,6 @@ class FreeWay {
   [[nodiscard]] frame::ColumnRange columns_of(std::size_t sector) const noexcept {
     return {first_columns_[sector], first_columns_[sector + 1]};
   }
-  /// Returns the direction of a sector's middle, counterclockwise from straight ahead, in (-2 pi,
-  /// 0).
-  [[nodiscard]] float azimuth_rad(std::size_t sector) const noexcept;
   /// Returns where the lowest row meets level ground: nearer ground is never seen.
   [[nodiscard]] float seen_from_m() const noexcept { return seen_from_m_; }
 

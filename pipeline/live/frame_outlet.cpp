@@ -117,7 +117,7 @@ bool FrameOutlet::hand_out(const Slots::Frame& frame) {
     shared->points.assign(frame.items.begin(), frame.items.end());
     shared->heights_m.assign(frame.heights_m.begin(), frame.heights_m.end());
     if (scene_ != nullptr) {
-      scene_->find(shared->points, shared->heights_m);
+      scene_->find(shared->record.info, shared->points, shared->heights_m);
       publish::set_scene(scene_->found(), *shared);
     }
     publisher_.put(shared);

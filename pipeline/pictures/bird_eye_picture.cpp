@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "firmware_io/frame/each_return.hpp"
+#include "pipeline/free_way/outline.hpp"
 #include "pipeline/pictures/pixel_text.hpp"
 
 namespace terracut::pictures {
@@ -99,25 +100,43 @@ void draw_scale_bar(Canvas& canvas, const BirdEyeView& view) {
             line - kThick - (kGlyphHeight + 2) * kTextScale, text, kTextScale, kTextColour);
 }
 
-void draw_box(Canvas& canvas, const objects::Box& box) {
-  const std::array<objects::Corner, 4> corners = box.corners();
+void draw_around(Canvas& canvas, std::span<const Corner> corners, int width, Colour colour) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const objects::Corner &from = corners[i], &to = corners[(i + 1) % corners.size()];
+    const Corner &from = corners[i], &to = corners[(i + 1) % corners.size()];
     canvas.picture.line(canvas.column(static_cast<double>(from.y_m)),
                         canvas.line(static_cast<double>(from.x_m)),
                         canvas.column(static_cast<double>(to.y_m)),
-                        canvas.line(static_cast<double>(to.x_m)), 2 * kOversampling, kObjectColour);
+                        canvas.line(static_cast<double>(to.x_m)), width * kOversampling, colour);
+  }
+}
+
+/// Fills the area where ground was seen and nothing stands.
+void draw_free_area(Canvas& canvas, std::span<const free_way::Sector> sectors) {
+  if (sectors.empty()) return;
+  for (int line = 0; line < canvas.picture.height(); ++line) {
+    for (int column = 0; column < canvas.picture.width(); ++column) {
+      const double x_m = (canvas.picture.height() / 2.0 - line - 0.5) / canvas.pixels_per_m;
+      const double y_m = (canvas.picture.width() / 2.0 - column - 0.5) / canvas.pixels_per_m;
+      const free_way::Sector& sector = free_way::sector_towards(
+          free_way::clockwise_turns({static_cast<float>(x_m), static_cast<float>(y_m)}), sectors);
+      if (std::hypot(x_m, y_m) >= static_cast<double>(sector.free_m())) continue;
+      canvas.picture.set(column, line, kFreeAreaColour);
+    }
   }
 }
 
 Picture draw(const ColouredFrame& frame, std::span<const objects::Object> objects,
-             const BirdEyeView& view) {
+             std::span<const free_way::Sector> free_way, const BirdEyeView& view) {
   const double pixels_per_m = kOversampling * std::clamp(view.pixels_per_m, 2.0, 40.0);
   const int side =
       static_cast<int>(std::lround(std::clamp(view.side_m, 10.0, 400.0) * pixels_per_m));
   Canvas canvas{Picture(side, side, kPictureBackground), pixels_per_m};
+  draw_free_area(canvas, free_way);
   draw_returns(canvas, frame);
-  for (const objects::Object& object : objects) draw_box(canvas, object.box);
+  draw_around(canvas, free_way::outline(free_way), 1, kFreeWayColour);
+  for (const objects::Object& object : objects) {
+    draw_around(canvas, object.box.corners(), 2, kObjectColour);
+  }
   draw_range_rings(canvas, view);
   draw_vehicle(canvas);
   draw_scale_bar(canvas, view);
@@ -134,11 +153,11 @@ Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view) {
   // Mistakes are drawn over everything else: such a picture is made to show them.
   std::vector<std::uint8_t> mistaken;
   for (const Mistake mistake : frame.mistakes) mistaken.push_back(mistake != Mistake::kNone);
-  return draw(ColouredFrame{frame.image, colours, mistaken}, frame.objects, view);
+  return draw(ColouredFrame{frame.image, colours, mistaken}, frame.objects, frame.free_way, view);
 }
 
 Picture bird_eye_picture(const ColouredFrame& frame, const BirdEyeView& view) {
-  return draw(frame, {}, view);
+  return draw(frame, {}, {}, view);
 }
 
 }  // namespace terracut::pictures

@@ -74,6 +74,7 @@ std::vector<LegendEntry> legend_of(const LabelledFrame& frame) {
     obstacle.colours.push_back(by_height(height_m));
   }
   legend.push_back(std::move(obstacle));
+  if (!frame.free_way.empty()) legend.push_back({"free way", {kFreeWayColour}});
   if (!frame.objects.empty()) legend.push_back({"object", {kObjectColour}});
   return legend;
 }

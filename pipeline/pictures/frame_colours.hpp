@@ -8,6 +8,7 @@
 
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "pipeline/free_way/sector.hpp"
 #include "pipeline/objects/object.hpp"
 #include "pipeline/pictures/caption.hpp"
 #include "pipeline/pictures/png_picture.hpp"
@@ -24,14 +25,17 @@ enum class Mistake : std::uint8_t {
 /// A labelled frame as the pictures need it. All spans are by return index.
 struct LabelledFrame {
   const frame::RangeImage& image;
-  std::span<const frame::Label> labels;        ///< One label per return.
-  std::span<const Mistake> mistakes;           ///< One per return; empty if the truth is unknown.
-  std::span<const objects::Object> objects{};  ///< Drawn from above, by their boxes.
+  std::span<const frame::Label> labels;          ///< One label per return.
+  std::span<const Mistake> mistakes;             ///< One per return; empty if the truth is unknown.
+  std::span<const objects::Object> objects{};    ///< Drawn from above, by their boxes.
+  std::span<const free_way::Sector> free_way{};  ///< Drawn from above, as the area that is free.
 };
 
 inline constexpr Colour kPictureBackground{14, 17, 23};
 inline constexpr Colour kTextColour{240, 244, 248};
 inline constexpr Colour kObjectColour{255, 199, 92};
+inline constexpr Colour kFreeAreaColour{18, 52, 46};
+inline constexpr Colour kFreeWayColour{72, 210, 155};
 inline constexpr Colour kMissedObstacleColour{255, 30, 30};
 inline constexpr Colour kFalseObstacleColour{255, 221, 0};
 

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "pipeline/points/row_times.hpp"
-
 namespace terracut::points {
 namespace {
 

@@ -7,31 +7,14 @@
 
 #include "firmware_io/frame/deskew_info.hpp"
 #include "firmware_io/frame/firing_tile.hpp"
-#include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/measured_returns.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "pipeline/points/frame_timing.hpp"
 #include "pipeline/points/labelled_point.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::points {
-
-/// From this the times of a frame's returns are computed, assuming that the head rotated evenly
-/// from the first packet to the last. The default gives 0 for all returns; it is for clouds without
-/// times.
-struct FrameTiming {
-  frame::HeadSweep head;
-  double duration_s = 0;              ///< Time from the first packet to the last.
-  std::span<const float> beam_turns;  ///< decode::Decoder::beam_turns(), one per row, or empty.
-
-  /// Returns the timing of a frame. `beam_turns` is that of the decoder that made the frame.
-  [[nodiscard]] static FrameTiming of(const frame::FrameInfo& info,
-                                      std::span<const float> beam_turns) noexcept {
-    constexpr double kSecond_ns = 1e9;
-    return {info.head, static_cast<double>(info.last_packet_ns - info.first_packet_ns) / kSecond_ns,
-            beam_turns};
-  }
-};
 
 /// Writes the returns of a labelled frame to the first `image.returns()` elements of `points`, in
 /// order of arrival: the n-th is the n-th of a .label file. `labels` has one entry per return, by

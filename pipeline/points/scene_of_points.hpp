@@ -3,13 +3,16 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/image_shape.hpp"
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "pipeline/points/image_of_points.hpp"
 #include "pipeline/points/labelled_point.hpp"
 #include "pipeline/scene/scene_finder.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -17,30 +20,31 @@
 namespace terracut::points {
 
 /// Finds what is wanted in a labelled turn that has left the threads with a deadline: puts its
-/// points back into an image, by their rows and azimuths, and looks there (scene::SceneFinder).
-/// Points may be deskewed. How far the sensor sees needs them in the cells in which they were
-/// measured: SightOfPoints.
+/// points back into images and looks there (scene::SceneFinder). Objects are found where points
+/// lie, by their azimuths; the free way where they were measured (MeasuredImage).
 ///
 /// Takes its memory in the constructor; allocates nothing later. One thread at a time.
 class SceneOfPoints {
  public:
   /// `profile` must have shape.rows rings; a turn has at most `most_points` points, further ones
-  /// are not looked at. `wanted.sight` makes no difference.
+  /// are not looked at. `beam_turns` is that of the decoder; empty: points have no times.
+  /// `wanted.sight` makes no difference: SightOfPoints watches turn after turn.
   SceneOfPoints(scene::Wanted wanted, const mount::RingProfile& profile, frame::ImageShape shape,
-                std::size_t most_points);
+                std::size_t most_points, std::span<const float> beam_turns);
 
-  /// Looks at a turn. `heights_m` has the height of each point above the ground.
-  void find(std::span<const LabelledPoint> points, std::span<const float> heights_m) noexcept;
+  /// Looks at a turn, of which `info` tells. `heights_m` has the height of each point above the
+  /// ground.
+  void find(const frame::FrameInfo& info, std::span<const LabelledPoint> points,
+            std::span<const float> heights_m) noexcept;
 
   /// Returns what was found; the index of a return is that of its point.
   [[nodiscard]] const scene::SceneFinder& found() const noexcept { return scene_; }
 
  private:
-  void place(std::span<const LabelledPoint> points) noexcept;
-
   memory::FixedMemory memory_;
   std::size_t most_points_;
-  frame::RangeImage image_;
+  std::optional<frame::RangeImage> image_;    ///< Exists if objects are wanted.
+  std::optional<MeasuredImage> as_measured_;  ///< Exists if the free way is wanted.
   scene::SceneFinder scene_;
   std::vector<frame::Label> labels_;
 };

@@ -24,6 +24,7 @@ struct LabelledFrame {
   /// empty unless asked for.
   std::vector<objects::Object> objects;
   std::vector<std::uint16_t> object_of_point;
+  std::vector<free_way::Sector> free_way;  ///< As FreeWay::sectors(); empty unless asked for.
 };
 
 /// Copies what was found in a frame to it.
@@ -31,6 +32,7 @@ inline void set_scene(const scene::SceneFinder& found, LabelledFrame& frame) {
   const std::span<const std::uint16_t> numbers = found.object_of_return();
   frame.objects.assign(found.objects().begin(), found.objects().end());
   frame.object_of_point.assign(numbers.begin(), numbers.end());
+  frame.free_way.assign(found.free_way().begin(), found.free_way().end());
 }
 
 /// A labelled sector on its way to the same outputs, before its frame. The time_s of its points is

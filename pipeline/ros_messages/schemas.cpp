@@ -206,6 +206,43 @@ MSG: visualization_msgs/MeshFile
 string filename
 uint8[] data
 )";
+constexpr std::string_view kLaserScanItself = R"(std_msgs/Header header
+float32 angle_min
+float32 angle_max
+float32 angle_increment
+float32 time_increment
+float32 scan_time
+float32 range_min
+float32 range_max
+float32[] ranges
+float32[] intensities
+)";
+constexpr std::string_view kPolygonStampedItself = R"(std_msgs/Header header
+geometry_msgs/Polygon polygon
+)";
+constexpr std::string_view kPolygonStampedParts =
+    R"(================================================================================
+MSG: geometry_msgs/Polygon
+geometry_msgs/Point32[] points
+================================================================================
+MSG: geometry_msgs/Point32
+float32 x
+float32 y
+float32 z
+)";
+constexpr std::string_view kOccupancyGridItself = R"(std_msgs/Header header
+nav_msgs/MapMetaData info
+int8[] data
+)";
+constexpr std::string_view kOccupancyGridParts =
+    R"(================================================================================
+MSG: nav_msgs/MapMetaData
+builtin_interfaces/Time map_load_time
+float32 resolution
+uint32 width
+uint32 height
+geometry_msgs/Pose origin
+)";
 
 }  // namespace
 
@@ -224,5 +261,13 @@ constinit const Schema kDetection3DArray{
 constinit const Schema kMarkerArray{"visualization_msgs/msg/MarkerArray",
                                     Joined<kMarkerArrayItself, kHeader, kPoseAndPoint,
                                            kVectorAndQuaternion, kMarkerArrayParts>::kView};
+constinit const Schema kLaserScan{"sensor_msgs/msg/LaserScan",
+                                  Joined<kLaserScanItself, kHeader>::kView};
+constinit const Schema kPolygonStamped{
+    "geometry_msgs/msg/PolygonStamped",
+    Joined<kPolygonStampedItself, kHeader, kPolygonStampedParts>::kView};
+constinit const Schema kOccupancyGrid{"nav_msgs/msg/OccupancyGrid",
+                                      Joined<kOccupancyGridItself, kHeader, kOccupancyGridParts,
+                                             kPoseAndPoint, kVectorAndQuaternion>::kView};
 
 }  // namespace terracut::ros_messages

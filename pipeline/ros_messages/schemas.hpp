@@ -13,6 +13,7 @@ struct Schema {
   std::string_view definition;
 };
 
-extern const Schema kPointCloud2, kDiagnosticArray, kTfMessage, kDetection3DArray, kMarkerArray;
+extern const Schema kPointCloud2, kDiagnosticArray, kTfMessage, kDetection3DArray, kMarkerArray,
+    kLaserScan, kPolygonStamped, kOccupancyGrid;
 
 }  // namespace terracut::ros_messages

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/publish/run_facts.hpp"
+#include "pipeline/ros_messages/free_way_messages.hpp"
 #include "pipeline/ros_messages/object_messages.hpp"
 #include "pipeline/ros_messages/point_cloud.hpp"
 #include "pipeline/ros_messages/schemas.hpp"
@@ -33,7 +34,7 @@ void write_cloud(const publish::LabelledFrame& frame, std::string_view frame_id,
 }
 
 inline constexpr std::size_t kDiagnosticsTopic = 4, kTransformsTopic = 5;
-inline constexpr std::array<Topic, 8> kTopics{
+inline constexpr std::array<Topic, 11> kTopics{
     Topic{"/terracut/points", kPointCloud2, write_cloud<CloudOf::kAll>, CloudOf::kAll},
     Topic{"/terracut/ground", kPointCloud2, write_cloud<CloudOf::kGround>, CloudOf::kGround},
     Topic{"/terracut/obstacles", kPointCloud2, write_cloud<CloudOf::kObstacles>,
@@ -42,12 +43,19 @@ inline constexpr std::array<Topic, 8> kTopics{
     Topic{"/diagnostics", kDiagnosticArray, nullptr},
     Topic{"/tf_static", kTfMessage, nullptr},
     Topic{"/terracut/objects", kDetection3DArray, write_detections},
-    Topic{"/terracut/objects/markers", kMarkerArray, write_object_markers}};
+    Topic{"/terracut/objects/markers", kMarkerArray, write_object_markers},
+    Topic{"/terracut/free_way", kLaserScan, write_free_way_scan},
+    Topic{"/terracut/free_way/polygon", kPolygonStamped, write_free_way_polygon},
+    Topic{"/terracut/free_way/grid", kOccupancyGrid, write_free_way_grid}};
 
 /// True if a run makes messages of the topic.
 [[nodiscard]] constexpr bool is_made(const Topic& topic, const publish::RunFacts& facts) noexcept {
   if (&topic.schema == &kDetection3DArray || &topic.schema == &kMarkerArray) {
     return facts.found.objects;
+  }
+  if (&topic.schema == &kLaserScan || &topic.schema == &kPolygonStamped ||
+      &topic.schema == &kOccupancyGrid) {
+    return facts.found.free_way;
   }
   if (&topic.schema == &kTfMessage) return !facts.sensor_frame_id.empty();
   return topic.cloud != CloudOf::kRoad || facts.has_road;

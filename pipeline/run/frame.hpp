@@ -17,6 +17,9 @@ struct Frame {
   const frame::MeasuredReturns* returns = nullptr;
   std::span<const frame::PlanarMotions> motions;  ///< See frame::Frame::motions.
   const frame::RangeImage* image = nullptr;       ///< The points, where they were asked for.
+  /// The same returns where they were measured: another image in deskewed frames, where it was
+  /// asked for.
+  const frame::RangeImage* as_measured = nullptr;
   status::FrameRecord record;
 };
 

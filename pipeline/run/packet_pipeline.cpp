@@ -37,7 +37,10 @@ Frame* PacketPipeline::next() noexcept {
   frame_ = {.returns = turn->returns,
             .motions = turn->motions,
             .image = points_ ? &points_->make(*turn->returns, turn->motions) : nullptr,
+            .as_measured = nullptr,
             .record = {}};
+  frame_.as_measured =
+      as_measured_ && !turn->motions.empty() ? &as_measured_->make(*turn->returns) : frame_.image;
   status::FrameRecord& record = frame_.record;
   record.info = turn->info;
   record.segmentation = turns_.report();

@@ -33,6 +33,7 @@ class PacketPipeline {
   enum class Makes : std::uint8_t {
     kLabels,  ///< Labels alone; Frame::image is null.
     kPoints,  ///< An image of points as well, deskewed if the frame is.
+    kBoth,    ///< Of deskewed frames an image of points as they were measured, too.
   };
 
   /// The first arguments are those of LabelledTurns.
@@ -40,7 +41,8 @@ class PacketPipeline {
                  const decode::Decoder::Config& decoder, const ground::TurnMethodMaker& method,
                  memory::FixedMemory& memory, Makes makes, Timing timing = Timing::kPackets)
       : turns_(calibration, profile, decoder, method, memory), timing_(timing) {
-    if (makes == Makes::kPoints) points_.emplace(turns_.decoder().point_image(memory));
+    if (makes != Makes::kLabels) points_.emplace(turns_.decoder().point_image(memory));
+    if (makes == Makes::kBoth) as_measured_.emplace(turns_.decoder().point_image(memory));
   }
 
   void push(const packet::Datagram& datagram) noexcept;
@@ -72,7 +74,7 @@ class PacketPipeline {
   void pause() noexcept;
 
   LabelledTurns turns_;
-  std::optional<frame::PointImage> points_;
+  std::optional<frame::PointImage> points_, as_measured_;
   Timing timing_;
   StageClock clock_;
   std::int64_t work_ns_ = 0;  ///< Time of work since the last frame.

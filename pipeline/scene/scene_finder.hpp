@@ -32,11 +32,19 @@ class SceneFinder {
   SceneFinder(Wanted wanted, const mount::RingProfile& profile, frame::ImageShape shape,
               std::size_t return_capacity, memory::FixedMemory& memory);
 
-  /// Looks at an image of the shape given at construction. `labels` and `heights_m`, above the
-  /// ground, have one element per return, by return index. `is_whole` is
-  /// visibility::SightWatch::is_whole() of a turn. Overwrites the last result. Real-time safe.
+  /// Looks at an image of the shape given at construction. Objects are found where its returns lie,
+  /// the free way and the view where they were measured: `as_measured` has the same returns, and is
+  /// the same image unless they were moved (deskewed). `labels` and `heights_m`, above the ground,
+  /// have one element per return, by return index. `is_whole` is visibility::SightWatch::is_whole()
+  /// of a turn. Overwrites the last result. Real-time safe.
+  void find(const frame::RangeImage& image, const frame::RangeImage& as_measured,
+            std::span<const frame::Label> labels, std::span<const float> heights_m,
+            bool is_whole = true) noexcept TERRACUT_NONBLOCKING;
+  /// Looks at an image whose returns were not moved.
   void find(const frame::RangeImage& image, std::span<const frame::Label> labels,
-            std::span<const float> heights_m, bool is_whole = true) noexcept TERRACUT_NONBLOCKING;
+            std::span<const float> heights_m, bool is_whole = true) noexcept TERRACUT_NONBLOCKING {
+    find(image, image, labels, heights_m, is_whole);
+  }
 
   /// As of objects::ObjectFinder.
   [[nodiscard]] std::span<const objects::Object> objects() const noexcept {

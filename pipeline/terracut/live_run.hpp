@@ -46,6 +46,7 @@ class LiveRun {
     bool heights = false;              ///< Frames and sectors come with height_above_ground_m.
     /// Frames come with their objects, found on the thread of run(), and with heights.
     bool objects = false;
+    bool free_way = false;  ///< The same of their free way.
     /// If set, run() also calls this for each sector, before on_frame for its frame. A sector is
     /// valid during the call.
     OnSector on_sector;

@@ -26,6 +26,7 @@ class PacketPipeline {
     int reorder_packets = 2;  ///< See Decoder::Config::reorder_packets.
     bool heights = false;     ///< Frames come with height_above_ground_m.
     bool objects = false;     ///< Frames come with their objects, and with heights.
+    bool free_way = false;    ///< Frames come with their free way, and with heights.
   };
 
   /// Fails with kInvalidArgument for a setting out of range, kCapacityExceeded without memory.

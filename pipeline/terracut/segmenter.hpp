@@ -90,8 +90,9 @@ class Segmenter {
     /// Parameters of the method that differ from the profile's, "KEY=VALUE";
     /// docs/reference/parameters.md lists them.
     std::vector<std::string> parameters = {};
-    bool heights = false;  ///< Provides height_above_ground_m().
-    bool objects = false;  ///< Provides objects(), and height_above_ground_m().
+    bool heights = false;   ///< Provides height_above_ground_m().
+    bool objects = false;   ///< Provides objects(), and height_above_ground_m().
+    bool free_way = false;  ///< Provides free_way(), and height_above_ground_m().
   };
 
   /// Fails with kInvalidArgument if the mount or a parameter is out of range or unknown.
@@ -125,6 +126,11 @@ class Segmenter {
   /// Returns the number of the object of each point labelled last, in the cloud's order; 0: none;
   /// object i has the number i + 1. Valid and empty like objects().
   [[nodiscard]] std::span<const std::uint16_t> object_of_point() const noexcept;
+  /// Returns the free way of the cloud labelled last by direction, clockwise; the first sector
+  /// begins straight ahead. Clouds must be as the sensor measured them: in deskewed ones, points of
+  /// a direction lie in other directions. Valid until the next label(); empty without
+  /// Config::free_way.
+  [[nodiscard]] std::span<const FreeWaySector> free_way() const noexcept;
 
   /// Returns the mount used for the last labels, if it was found; empty without Config::find_mount.
   [[nodiscard]] std::optional<FoundMount> found_mount() const noexcept;

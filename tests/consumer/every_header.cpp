@@ -5,6 +5,7 @@
 #include <terracut/decoder.hpp>
 #include <terracut/error.hpp>
 #include <terracut/frame.hpp>
+#include <terracut/free_way.hpp>
 #include <terracut/ground_grid.hpp>
 #include <terracut/live_run.hpp>
 #include <terracut/object.hpp>

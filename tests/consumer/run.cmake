@@ -17,7 +17,7 @@ run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${work}/stage)
 # Nothing is installed but the public headers.
 file(GLOB_RECURSE headers RELATIVE ${work}/stage/include ${work}/stage/include/*)
 list(SORT headers)
-set(public calibration decoder error frame ground_grid live_run object outputs packet_pipeline segmenter sensor)
+set(public calibration decoder error frame free_way ground_grid live_run object outputs packet_pipeline segmenter sensor)
 list(TRANSFORM public PREPEND terracut/)
 list(TRANSFORM public APPEND .hpp)
 if(NOT headers STREQUAL public)

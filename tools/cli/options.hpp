@@ -91,6 +91,7 @@ struct DdsOptions {
   std::string points, ground, obstacles, road;  ///< Topics; empty: the preset's; "off": none.
   std::string diagnostics = "/diagnostics";     ///< Topic; "off": none.
   std::string objects = "~/objects";            ///< Topic, where there are objects; "off": none.
+  std::string free_way = "~/free_way";          ///< Topic, where it is found; "off": none.
   std::string sectors;                          ///< Topic of labelled sectors; empty: none.
   std::string raw;  ///< Topic of unlabelled clouds, as a driver sends them; empty: labelled.
   bool reliable = true;

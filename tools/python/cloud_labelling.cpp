@@ -14,6 +14,7 @@
 #include "object_arrays.hpp"
 #include "pipeline/output/label_sink.hpp"
 #include "raised_error.hpp"
+#include "sector_arrays.hpp"
 
 namespace terracut::python {
 namespace py = pybind11;
@@ -179,9 +180,10 @@ py::dict dict_of(const Mount& mount) {
 
 Segmenter::Config config_of(std::optional<double> height_m, double roll_deg, double pitch_deg,
                             const std::string& profile, std::vector<std::string> parameters,
-                            bool find_mount, bool heights, bool objects) {
+                            bool find_mount, bool heights, bool objects, bool free_way) {
   Segmenter::Config config;
   config.objects = objects;
+  config.free_way = free_way;
   config.heights = heights;
   config.find_mount = find_mount;
   config.mount.height_m = height_m.value_or(config.mount.height_m);
@@ -206,8 +208,9 @@ py::tuple classes_and_heights(const py::array_t<std::uint8_t>& classes,
 }  // namespace
 
 CloudLabelling::CloudLabelling(const Segmenter::Config& config)
-    : gives_heights_(config.heights || config.objects),
+    : gives_heights_(config.heights || config.objects || config.free_way),
       gives_objects_(config.objects),
+      gives_free_way_(config.free_way),
       segmenter_(or_raise(Segmenter::make(config))) {}
 
 py::tuple CloudLabelling::label(const py::object& points, const py::object& laser) {
@@ -261,6 +264,15 @@ py::object CloudLabelling::object_numbers() {
   return py::array_t<std::uint16_t>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
+py::object CloudLabelling::free_way() {
+  if (!gives_free_way_) return py::none();
+  const std::vector<FreeWaySector> sectors = without_the_lock([&] {
+    const std::lock_guard lock(mutex_);
+    return std::vector<FreeWaySector>(segmenter_.free_way().begin(), segmenter_.free_way().end());
+  });
+  return array_of_sectors(sectors, py::object());
+}
+
 py::object CloudLabelling::found_mount() {
   const auto found = without_the_lock([&] {
     const std::lock_guard lock(mutex_);
@@ -277,17 +289,18 @@ void bind_segmenter(py::module_& module) {
   py::class_<CloudLabelling>(module, "Segmenter")
       .def(py::init([](std::optional<double> height_m, double roll_deg, double pitch_deg,
                        const std::string& profile, std::vector<std::string> parameters,
-                       bool find_mount, bool heights, bool objects) {
-             return std::make_unique<CloudLabelling>(config_of(height_m, roll_deg, pitch_deg,
-                                                               profile, std::move(parameters),
-                                                               find_mount, heights, objects));
+                       bool find_mount, bool heights, bool objects, bool free_way) {
+             return std::make_unique<CloudLabelling>(
+                 config_of(height_m, roll_deg, pitch_deg, profile, std::move(parameters),
+                           find_mount, heights, objects, free_way));
            }),
            py::kw_only(), py::arg("mount_height"), py::arg("mount_roll"), py::arg("mount_pitch"),
            py::arg("profile"), py::arg("parameters"), py::arg("find_mount"), py::arg("heights"),
-           py::arg("objects"))
+           py::arg("objects"), py::arg("free_way"))
       .def("label", &CloudLabelling::label, py::arg("points"), py::arg("laser"))
       .def_property_readonly("objects", &CloudLabelling::objects)
       .def_property_readonly("object_numbers", &CloudLabelling::object_numbers)
+      .def_property_readonly("free_way", &CloudLabelling::free_way)
       .def_property_readonly("found_mount", &CloudLabelling::found_mount);
 }
 

@@ -25,12 +25,14 @@ class CloudLabelling {
   [[nodiscard]] pybind11::object objects();
   /// Returns the number of the object of each of these points; None unless asked for.
   [[nodiscard]] pybind11::object object_numbers();
+  /// Returns the free way of these points; None unless asked for.
+  [[nodiscard]] pybind11::object free_way();
   /// Returns height_m, roll_deg, pitch_deg, their uncertainty and found_in_frames; None if no mount
   /// was looked for or found.
   [[nodiscard]] pybind11::object found_mount();
 
  private:
-  bool gives_heights_, gives_objects_;
+  bool gives_heights_, gives_objects_, gives_free_way_;
   std::mutex mutex_;
   Segmenter segmenter_;
 };

@@ -7,6 +7,7 @@
 
 #include "json_object.hpp"
 #include "object_arrays.hpp"
+#include "sector_arrays.hpp"
 #include "tools/cli/figures/run_report.hpp"
 
 namespace terracut::python {
@@ -92,6 +93,12 @@ void bind_frame(py::module_& module) {
                                const auto& frame = self.cast<const FrameData&>();
                                if (!frame.objects) return py::none();
                                return array_of_objects(*frame.objects, self);
+                             })
+      .def_property_readonly("free_way",
+                             [](const py::object& self) -> py::object {
+                               const auto& frame = self.cast<const FrameData&>();
+                               if (!frame.free_way) return py::none();
+                               return array_of_sectors(*frame.free_way, self);
                              })
       .def_property_readonly("object_numbers",
                              [](const py::object& self) -> py::object {

@@ -44,6 +44,7 @@ Expected<LiveRun::Config> config_of(const cli::Options& options) {
   config.patience_s = options.patience_s;
   config.heights = options.method.heights;
   config.objects = options.method.scene.objects;
+  config.free_way = options.method.scene.free_way;
   return config;
 }
 
@@ -98,6 +99,7 @@ Status LiveFrames::open(const std::vector<std::string>& words) {
   auto config = config_of(arguments->options);
   if (!config) return tl::unexpected(config.error());
   gives_objects_ = config->objects;
+  gives_free_way_ = config->free_way;
   if (gives_sectors_) config->on_sector = [this](const Sector& sector) { keep(sector); };
   auto run = LiveRun::open(*config, is_interrupted);
   if (!run) return tl::unexpected(run.error());
@@ -121,6 +123,7 @@ std::shared_ptr<FrameData> LiveFrames::copied(const Labelled& from, std::uint32_
   data->info.returns = static_cast<std::uint32_t>(from.points.size());
   data->first_return = 0;
   data->objects.reset();
+  data->free_way.reset();
   copy_points(from, *data);
   return data;
 }
@@ -131,6 +134,7 @@ void LiveFrames::keep(const Frame& frame) {
   if (frame.deskewed) data->info.deskew.state = frame::DeskewState::kDone;
   for (std::size_t i = 0; i < frame.points.size(); ++i) data->points[i].time_s = frame.time_s[i];
   if (gives_objects_) data->set_objects(frame.objects, frame.object_of_return);
+  if (gives_free_way_) data->free_way.emplace(frame.free_way.begin(), frame.free_way.end());
   keep(std::move(data));
 }
 

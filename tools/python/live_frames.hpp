@@ -53,7 +53,7 @@ class LiveFrames {
   std::optional<double> duration_s_;
   std::chrono::steady_clock::time_point begun_;
   bool gives_sectors_;
-  bool gives_objects_ = false;
+  bool gives_objects_ = false, gives_free_way_ = false;
   FrameBuffers buffers_;
   std::atomic<bool> stop_{false};
   std::mutex mutex_;

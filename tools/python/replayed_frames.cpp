@@ -48,7 +48,10 @@ Expected<std::shared_ptr<FrameData>> ReplayedFrames::next_unlocked() {
     const std::span<const float> heights_m = capture_->heights_m();
     data->heights_m.assign(heights_m.begin(), heights_m.end());
     data->objects.reset();
-    if (scene_) scene_->find(*frame->image, capture_->labels(), heights_m);
+    if (scene_) scene_->find(*frame->image, *frame->as_measured, capture_->labels(), heights_m);
+    data->free_way.reset();
+    if (wanted_.free_way)
+      data->free_way.emplace(scene_->free_way().begin(), scene_->free_way().end());
     if (wanted_.objects) data->set_objects(scene_->objects(), scene_->object_of_return());
     return data;
   }

@@ -88,7 +88,9 @@ TEST_F(FreeWayOfAFrame, HasSectorsClockwiseFromStraightAhead) {
   EXPECT_EQ(free_way.sectors().size(), 720U);
   EXPECT_EQ(free_way.columns_of(0).begin, 0);
   EXPECT_EQ(free_way.columns_of(719).end, kShape.columns);
-  EXPECT_NEAR(free_way.azimuth_rad(180), -std::numbers::pi / 2, 0.01) << "to the right";
+  EXPECT_NEAR(free_way.sectors()[0].azimuth_rad, 0, 0.01);
+  EXPECT_NEAR(free_way.sectors()[180].azimuth_rad, -std::numbers::pi / 2, 0.01) << "to the right";
+  EXPECT_NEAR(free_way.sectors()[540].azimuth_rad, std::numbers::pi / 2, 0.01) << "to the left";
   EXPECT_NEAR(free_way.seen_from_m(), 1.73 / std::tan(24 * std::numbers::pi / 180), 1e-3);
 }
 

@@ -115,6 +115,22 @@ TEST_F(Pictures, BirdsEyeViewShowsTheBoxesOfObjects) {
   EXPECT_EQ(legend_of(frame).back().text, "object");
 }
 
+TEST_F(Pictures, BirdsEyeViewShowsTheAreaThatIsFree) {
+  output::SmallFrame small;
+  small.add(0, 0, 25, 15, 0, Label::kObstacle);
+  LabelledFrame frame = small.frame();
+  const std::array<free_way::Sector, 2> sectors{
+      {{-1.5707963F, 8, 12}, {1.5707963F, 30, 20}}};  // to the right, to the left
+  frame.free_way = sectors;
+  const BirdEyeView view{.side_m = 100, .pixels_per_m = 10};
+  const Picture picture = bird_eye_picture(frame, view);
+  EXPECT_EQ(colour_at(picture, view, 1, 13), kFreeAreaColour);
+  EXPECT_EQ(colour_at(picture, view, 1, 23), kPictureBackground);
+  EXPECT_EQ(colour_at(picture, view, 1, -7), kFreeAreaColour);
+  EXPECT_EQ(colour_at(picture, view, 1, -9), kPictureBackground) << "behind the obstacle";
+  EXPECT_EQ(legend_of(frame).back().text, "free way");
+}
+
 TEST_F(Pictures, BirdsEyeViewShowsTheHighestOfReturnsThatFallTogether) {
   const BirdEyeView view{.side_m = 40, .pixels_per_m = 10};
   output::SmallFrame high_first, high_last;

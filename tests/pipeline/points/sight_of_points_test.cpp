@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "pipeline/points/row_times.hpp"
+#include "pipeline/points/frame_timing.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/box_scene.hpp"
 
@@ -80,14 +80,11 @@ TEST_F(SightInPoints, IsBlockedWhereBeamsReturnNothing) {
   EXPECT_EQ(sight.figures().in(Direction::kLeft).troubled, 0);
 }
 
-TEST_F(SightInPoints, LeavesOutTurnsThatDoNotTellWhatEachBeamSaw) {
+TEST_F(SightInPoints, LeavesOutTurnsOfWhichPacketsAreMissing) {
   see(15);
   info.complete = false;
   see(8, 0, 250, 340);
-  info.complete = true;
-  info.last_packet_ns = info.first_packet_ns;  // times without meaning
-  see(8, 0, 250, 340);
-  EXPECT_EQ(sight.figures().left_out_turns, 16U);
+  EXPECT_EQ(sight.figures().left_out_turns, 8U);
   EXPECT_EQ(sight.figures().worst(), visibility::Condition{});
 }
 
@@ -97,20 +94,6 @@ TEST_F(SightInPoints, AllocatesNothingForATurn) {
   const std::uint64_t before = test::allocations_of_this_thread();
   sight.look(points, heights_m, info);
   EXPECT_EQ(test::allocations_of_this_thread(), before);
-}
-
-TEST(RowTimesOfABeam, TellTheColumnOfEachTime) {
-  const std::vector<float> beam_turns{0.02F, -0.03F};
-  const FrameTiming timing{{0.001F, 1.01F}, 0.1, beam_turns};
-  for (const int row : {0, 1}) {
-    const RowTimes times = RowTimes::of(row, 2083, timing);
-    ASSERT_TRUE(times.tells_columns());
-    for (int column = 60; column < 2083; ++column) {
-      ASSERT_EQ(times.column_at(times.at(column)), column) << row;
-    }
-  }
-  EXPECT_FALSE(RowTimes::of(2, 2083, timing).tells_columns()) << "there is no such row";
-  EXPECT_FALSE(RowTimes::of(0, 2083, {}).tells_columns());
 }
 
 }  // namespace

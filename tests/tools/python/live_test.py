@@ -86,6 +86,15 @@ class Live(unittest.TestCase):
             self.assertEqual(frame.object_numbers.shape, frame.labels.shape)
             self.assertTrue((frame.labels[frame.object_numbers > 0] == terracut.OBSTACLE).all())
 
+    def test_frames_have_their_free_way_where_it_is_asked_for(self):
+        self.be_the_sensor()
+        with terracut.live(self.address, CALIBRATION, deadline=1000, lock_memory=False, free_way=True) as frames:
+            taken = [frame for frame, _ in zip(frames, range(3))]
+        for frame in taken[1:]:
+            self.assertIsNone(frame.objects)
+            self.assertEqual(len(frame.free_way), 720)
+            self.assertGreater(np.median(frame.free_way["seen_m"]), 4)
+
     def test_a_run_ends_by_itself_after_its_duration(self):
         self.be_the_sensor()
         frames = list(terracut.live(self.address, CALIBRATION, duration=0.5, deadline=1000, lock_memory=False))

@@ -99,6 +99,29 @@ class Replay(unittest.TestCase):
         gc.collect()
         self.assertGreater(objects["top_m"].max(), 1)  # the array keeps its memory
 
+    def test_frames_have_their_free_way_where_it_is_asked_for(self):
+        frame = next(terracut.replay(CAPTURE, free_way=True))
+        way = frame.free_way
+        self.assertIsNone(frame.objects)
+        self.assertEqual(frame.height_above_ground_m.shape, frame.labels.shape)
+        self.assertEqual(way.shape, (720,))
+        self.assertTrue((np.abs(way["azimuth_rad"]) <= np.pi).all())
+        self.assertTrue((np.diff(np.unwrap(way["azimuth_rad"])) < 0).all())  # clockwise
+        self.assertAlmostEqual(way["azimuth_rad"][0], 0, delta=0.01)
+        ends = np.bincount(way["seen_end"], minlength=len(terracut.SEEN_ENDS))
+        self.assertEqual(len(ends), len(terracut.SEEN_ENDS))
+        self.assertGreater(np.median(way["seen_m"]), 4)
+        # The nearest obstacle of each sector is a return of an obstacle there.
+        stands = frame.points[frame.labels == terracut.OBSTACLE]
+        away, azimuth = np.hypot(stands[:, 0], stands[:, 1]), np.arctan2(stands[:, 1], stands[:, 0])
+        for sector in way[np.isfinite(way["obstacle_m"])][::20]:
+            aside = np.abs(np.angle(np.exp(1j * (azimuth - sector["azimuth_rad"]))))
+            self.assertLess(np.abs(away[aside < 0.02] - sector["obstacle_m"]).min(), 0.01)
+        self.assertIsNone(next(terracut.replay(CAPTURE)).free_way)
+        del frame
+        gc.collect()
+        self.assertGreater(way["seen_m"].max(), 1)  # the array keeps its memory
+
     def test_arrays_are_views_of_one_memory_that_they_keep(self):
         replay = terracut.replay(CAPTURE)
         frame = next(replay)

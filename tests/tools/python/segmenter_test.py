@@ -109,6 +109,15 @@ class Clouds(unittest.TestCase):
         self.assertTrue((labels[numbers > 0] == terracut.OBSTACLE).all())
         self.assertIsNone(terracut.Segmenter().objects)
 
+    def test_clouds_have_their_free_way_where_it_is_asked_for(self):
+        segmenter = terracut.Segmenter(free_way=True)
+        np.testing.assert_array_equal(segmenter(self.points, self.ring), self.labels)
+        way = segmenter.free_way
+        self.assertGreater(len(way), 300)
+        self.assertGreater(np.median(way["seen_m"]), 4)
+        self.assertTrue(np.isfinite(way["obstacle_m"]).any())
+        self.assertIsNone(terracut.Segmenter().free_way)
+
     def test_points_that_are_no_return_get_none(self):
         points = self.points.copy()
         points[10] = np.nan

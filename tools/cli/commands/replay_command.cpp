@@ -137,7 +137,7 @@ class Replay {
     const std::span<const std::uint32_t> truth = truth_.read(name, info.returns);
     if (!truth.empty()) capture_.report().score(labels, truth);
     if (frame.image != nullptr) {
-      outputs_.look(*frame.image, labels, capture_.heights_m(),
+      outputs_.look(*frame.image, *frame.as_measured, labels, capture_.heights_m(),
                     visibility::SightWatch::is_whole(info, frame.image->shape()));
       note_sight(info);
     }

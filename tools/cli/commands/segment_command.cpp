@@ -122,7 +122,7 @@ ExitCode run_segment(const Options& options) {
     points.no_ring += pipeline.placed().no_ring;
     report.add(record);
     if (!truth.empty()) report.score(pipeline.point_labels(), truth);
-    outputs.look(pipeline.image(), pipeline.labels(), pipeline.heights_m());
+    outputs.look(pipeline.image(), pipeline.image(), pipeline.labels(), pipeline.heights_m());
     Status written = outputs.write_labels(reader.name(i), pipeline.point_labels(),
                                           pipeline.numbers_of_points(outputs.object_of_return()));
     if (written) {

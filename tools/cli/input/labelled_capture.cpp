@@ -43,10 +43,12 @@ Status LabelledCapture::prepare(Makes makes) {
     if (!motion) return tl::unexpected(motion.error());
     motion_.emplace(*std::move(motion));
   }
+  const bool is_moved_and_looked_at =
+      makes == Makes::kPoints && motion_ && options_.method.scene.free_way;
   pipeline_.emplace(
       capture_->calibration, *profile,
       decoder_config_of(options_, capture_->sensor.columns, motion_ ? &motion_->motion() : nullptr),
-      turn_method_of(options_.method), memory_, makes);
+      turn_method_of(options_.method), memory_, is_moved_and_looked_at ? Makes::kBoth : makes);
   pipeline_->watch_near_ground(near_ground_.get());
   clock_of_device_.emplace(options_.capture.clock_offset_s);
   profile_ = *profile;

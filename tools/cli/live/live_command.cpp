@@ -210,7 +210,8 @@ class Writers {
       const decode::Decoder& decoder = parts.turns.decoder();
       if (options.method.scene.without_sight().any()) {
         scene = std::make_unique<points::SceneOfPoints>(options.method.scene, profile,
-                                                        decoder.shape(), decoder.return_capacity());
+                                                        decoder.shape(), decoder.return_capacity(),
+                                                        decoder.beam_turns());
       }
       if (options.method.scene.sight) {
         sight = std::make_unique<points::SightOfPoints>(

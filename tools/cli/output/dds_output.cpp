@@ -26,6 +26,7 @@ DdsTopics dds_topics_of(const DdsOptions& options) {
       topics = {.ground = "/ground_points", .obstacles = "/nonground_points"};
       break;
   }
+  topics.free_way = options.free_way == "off" ? "" : options.free_way;
   topics.objects = options.objects == "off" ? "" : options.objects;
   if (options.sectors != "off") topics.sectors = options.sectors;
   if (!options.raw.empty() && options.raw != "off") topics = {.raw = options.raw};
@@ -81,6 +82,7 @@ Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& op
                                   .raw = topic(topics.raw),
                                   .objects = facts.found.objects ? topic(topics.objects) : "",
                                   .object_markers = topic(topics.objects + "/markers"),
+                                  .free_way = facts.found.free_way ? topic(topics.free_way) : "",
                                   .diagnostics = topic(topics.diagnostics),
                                   .tf_static = topic("/tf_static"),
                                   // A recording waits for readers, because it must not lose a

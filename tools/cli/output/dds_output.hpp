@@ -14,7 +14,8 @@ namespace terracut::cli {
 
 /// Names of the topics, as stated or by the preset; a topic with an empty name is not published.
 struct DdsTopics {
-  std::string points{}, sectors{}, ground{}, obstacles{}, road{}, diagnostics{}, raw{}, objects{};
+  std::string points{}, sectors{}, ground{}, obstacles{}, road{}, diagnostics{}, raw{}, objects{},
+      free_way{};
 };
 [[nodiscard]] DdsTopics dds_topics_of(const DdsOptions& options);
 

@@ -41,9 +41,10 @@ void FrameOutputs::find_scene(scene::Wanted wanted, const mount::RingProfile& pr
   finder_.emplace(wanted, profile, shape, return_capacity, memory_);
 }
 
-void FrameOutputs::look(const frame::RangeImage& image, std::span<const Label> labels,
-                        std::span<const float> heights_m, bool is_whole) {
-  if (finder_) finder_->find(image, labels, heights_m, is_whole);
+void FrameOutputs::look(const frame::RangeImage& image, const frame::RangeImage& as_measured,
+                        std::span<const Label> labels, std::span<const float> heights_m,
+                        bool is_whole) {
+  if (finder_) finder_->find(image, as_measured, labels, heights_m, is_whole);
 }
 
 Status FrameOutputs::write_labels(const std::string& name, std::span<const Label> labels,
@@ -65,7 +66,7 @@ Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImag
     if (!written) return written;
   }
   if (options_.png.empty()) return {};
-  const pictures::LabelledFrame plain{image, labels, {}, objects()};
+  const pictures::LabelledFrame plain{image, labels, {}, objects(), free_way()};
   const auto legend = legend_of(plain);
   const Status from_above =
       draw(name + ".birdseye.png",
@@ -84,7 +85,7 @@ Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImag
 
   mistakes_.resize(labels.size());
   std::transform(labels.begin(), labels.end(), truth.begin(), mistakes_.begin(), mistake_of);
-  const pictures::LabelledFrame judged{image, labels, mistakes_, {}};
+  const pictures::LabelledFrame judged{image, labels, mistakes_, {}, {}};
   const auto count = [&](Mistake mistake) { return std::ranges::count(mistakes_, mistake); };
   return draw(
       name + ".mistakes.png",

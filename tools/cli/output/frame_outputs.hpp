@@ -46,10 +46,10 @@ class FrameOutputs {
   void find_scene(scene::Wanted wanted, const mount::RingProfile& profile, frame::ImageShape shape,
                   std::size_t return_capacity);
 
-  /// Looks at a frame before it is written; `labels` and `heights_m` are by return index.
-  /// `is_whole` is visibility::SightWatch::is_whole() of a turn.
-  void look(const frame::RangeImage& image, std::span<const frame::Label> labels,
-            std::span<const float> heights_m, bool is_whole = true);
+  /// Looks at a frame before it is written. The arguments are those of scene::SceneFinder::find().
+  void look(const frame::RangeImage& image, const frame::RangeImage& as_measured,
+            std::span<const frame::Label> labels, std::span<const float> heights_m,
+            bool is_whole = true);
   /// Returns how far the sensor sees, by the frames so far, as scene::SceneFinder.
   [[nodiscard]] visibility::SightFigures sight() const noexcept {
     return finder_ ? finder_->sight() : visibility::SightFigures();
@@ -87,6 +87,9 @@ class FrameOutputs {
 
   [[nodiscard]] std::span<const objects::Object> objects() const noexcept {
     return finder_ ? finder_->objects() : std::span<const objects::Object>();
+  }
+  [[nodiscard]] std::span<const free_way::Sector> free_way() const noexcept {
+    return finder_ ? finder_->free_way() : std::span<const free_way::Sector>();
   }
 
   OutputOptions options_;

@@ -83,7 +83,7 @@ void PlayedCapture::take(publish::LabelledFrame& frame) {
   const std::span<const float> heights_m = capture_.heights_m();
   frame.heights_m.assign(heights_m.begin(), heights_m.end());
   if (scene_) {
-    scene_->find(*frame_->image, capture_.labels(), heights_m);
+    scene_->find(*frame_->image, *frame_->as_measured, capture_.labels(), heights_m);
     publish::set_scene(*scene_, frame);
   }
   if (!ahead_) ahead_ = frame.record.info.number - number_of(span_.end_ns);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "pipeline/free_way/outline.hpp"
 #include "pipeline/status/loss_causes.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 
@@ -56,9 +57,9 @@ void ViewFrames::put(const publish::LabelledFrame& frame) {
   }
   ++frames_put_;
   losses_ += frame.record.info.losses;
-  if (gives_objects()) {
-    objects_.push_back({frame.record.info.number, frame.objects});
-    if (objects_.size() > kFramesWithObjects) objects_.pop_front();
+  if (finds_anything()) {
+    found_.push_back({frame.record.info.number, frame.objects, frame.free_way});
+    if (found_.size() > kFramesWithFinds) found_.pop_front();
   }
   shown_.push_back(of_frame);
   if (shown_.size() > kFramesShown) shown_.pop_front();
@@ -108,13 +109,13 @@ ViewFrames::Shown ViewFrames::shown(const status::FrameRecord& record) const noe
   return {milliseconds(latency_ns), record.level, latency_ns > facts_.deadline_ns};
 }
 
-nlohmann::ordered_json ViewFrames::objects(std::uint32_t frame) const {
+nlohmann::ordered_json ViewFrames::found(std::uint32_t frame) const {
   nlohmann::ordered_json json;
-  json["boxes"] = nlohmann::ordered_json::array();
+  json["boxes"] = json["free_way"] = nlohmann::ordered_json::array();
   const std::lock_guard lock(mutex_);
-  const auto of_frame = std::find_if(objects_.rbegin(), objects_.rend(),
-                                     [&](const FrameObjects& kept) { return kept.frame == frame; });
-  if (of_frame == objects_.rend()) return json;
+  const auto of_frame = std::find_if(found_.rbegin(), found_.rend(),
+                                     [&](const Found& kept) { return kept.frame == frame; });
+  if (of_frame == found_.rend()) return json;
   for (const objects::Object& object : of_frame->objects) {
     nlohmann::ordered_json corners = nlohmann::ordered_json::array();
     for (const objects::Corner& corner : object.box.corners()) {
@@ -123,6 +124,9 @@ nlohmann::ordered_json ViewFrames::objects(std::uint32_t frame) const {
     json["boxes"].push_back({{"corners", std::move(corners)},
                              {"bottom_m", centimetres(object.ground_z_m + object.bottom_m)},
                              {"top_m", centimetres(object.ground_z_m + object.top_m)}});
+  }
+  for (const Corner& corner : free_way::outline(of_frame->free_way)) {
+    json["free_way"].push_back({centimetres(corner.x_m), centimetres(corner.y_m)});
   }
   return json;
 }
@@ -133,6 +137,7 @@ nlohmann::ordered_json ViewFrames::figures() const {
   json["sensor"] = facts_.sensor;
   json["rows"] = facts_.rows;
   json["objects"] = facts_.found.objects;
+  json["free_way"] = facts_.found.free_way;
   json["deadline_ms"] = nullptr;
   if (facts_.deadline_ns > 0) json["deadline_ms"] = milliseconds(facts_.deadline_ns);
   json["frames"] = nlohmann::ordered_json::array();

@@ -34,8 +34,9 @@ class ViewFrames {
   };
   static constexpr std::size_t kFramesShown = 300;
   static constexpr std::size_t kSectorsKept = 256;  ///< More than a turn has.
-  /// A browser asks for a frame's objects when it has read its points, perhaps seconds later.
-  static constexpr std::size_t kFramesWithObjects = 64;
+  /// A browser asks for what was found in a frame when it has read its points, perhaps seconds
+  /// later.
+  static constexpr std::size_t kFramesWithFinds = 64;
 
   explicit ViewFrames(const publish::RunFacts& facts);
 
@@ -51,14 +52,16 @@ class ViewFrames {
   /// the oldest one if that is not kept any more: a browser then has a whole turn soon.
   [[nodiscard]] Message sector_after(std::uint64_t seen) const;
   /// Returns the figures for the page: sensor, rows, deadline_ms or null, frames[] as [ms, level,
-  /// missed], losses[] and onlookers[] as [cause, count] (status::is_of_onlookers()); objects if
-  /// there are any; silent_s if the sensor is silent; sight if the view is watched: state, text,
-  /// sectors[] clockwise from straight ahead as [state, visible_m].
+  /// missed], losses[] and onlookers[] as [cause, count] (status::is_of_onlookers()); objects and
+  /// free_way, whether there are any; silent_s if the sensor is silent; sight
+  /// if the view is watched: state, text, sectors[] clockwise from straight ahead as [state,
+  /// visible_m].
   [[nodiscard]] nlohmann::ordered_json figures() const;
-  /// Returns the objects of a frame for the page: boxes[] of four corners [x_m, y_m], bottom_m and
-  /// top_m in the vehicle frame; none if it is not among the last kFramesWithObjects.
-  [[nodiscard]] nlohmann::ordered_json objects(std::uint32_t frame) const;
-  [[nodiscard]] bool gives_objects() const noexcept { return facts_.found.objects; }
+  /// Returns what was found in a frame for the page, in the vehicle frame: boxes[] of objects, of
+  /// four corners [x_m, y_m], bottom_m and top_m; free_way[], the corners [x_m, y_m] of the free
+  /// area. Both are empty if the frame is not among the last kFramesWithFinds.
+  [[nodiscard]] nlohmann::ordered_json found(std::uint32_t frame) const;
+  [[nodiscard]] bool finds_anything() const noexcept { return facts_.found.any(); }
 
  private:
   struct Shown {
@@ -66,9 +69,10 @@ class ViewFrames {
     status::Level level = status::Level::kFull;
     bool missed = false;
   };
-  struct FrameObjects {
+  struct Found {
     std::uint32_t frame;
     std::vector<objects::Object> objects;
+    std::vector<free_way::Sector> free_way;
   };
   [[nodiscard]] Shown shown(const status::FrameRecord& record) const noexcept;
 
@@ -83,7 +87,7 @@ class ViewFrames {
   std::deque<std::shared_ptr<const Kept>> sectors_;
   std::uint64_t frames_put_ = 0, sectors_put_ = 0;
   std::deque<Shown> shown_;
-  std::deque<FrameObjects> objects_;  ///< Of the last frames, the newest last.
+  std::deque<Found> found_;  ///< Of the last frames, the newest last.
   frame::LossCounters losses_;
   std::optional<status::MonitorSnapshot> run_;
 };

@@ -34,15 +34,15 @@ HttpAnswer figures_of(const ViewSource& source) {
   return {.body = json_text(json), .type = "application/json"};
 }
 
-constexpr std::string_view kObjects = "/objects/";  // and the frame's number
+constexpr std::string_view kFound = "/found/";  // and the frame's number
 
-HttpAnswer objects_of(const ViewSource& source, std::string_view number) {
+HttpAnswer found_in(const ViewSource& source, std::string_view number) {
   std::uint32_t frame = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), frame);
   if (error != std::errc() || end != number.data() + number.size()) {
     return http_refusal(404, "expected the number of a frame");
   }
-  return {.body = json_text(source.frames.objects(frame)), .type = "application/json"};
+  return {.body = json_text(source.frames.found(frame)), .type = "application/json"};
 }
 
 HttpAnswer answer_control(ViewSource& source, std::string_view body) {
@@ -76,8 +76,8 @@ HttpReply answer_view(ViewSource& source, const HttpRequest& asked) {
   if (asked.path == "/frames") return answer_frames(source, asked, false);
   if (asked.path == "/sectors") return answer_frames(source, asked, source.frames.gives_sectors());
   if (asked.path == "/figures") return figures_of(source);
-  if (asked.path.starts_with(kObjects) && source.frames.gives_objects()) {
-    return objects_of(source, asked.path.substr(kObjects.size()));
+  if (asked.path.starts_with(kFound) && source.frames.finds_anything()) {
+    return found_in(source, asked.path.substr(kFound.size()));
   }
   const auto& page = view_page();
   const auto file = std::ranges::find(page, asked.path, &PageFile::path);

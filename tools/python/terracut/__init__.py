@@ -24,12 +24,14 @@ if TYPE_CHECKING:
     Path = Union[str, os.PathLike[str]]
 
 __all__ = [
-    "GROUND", "NONE", "OBSTACLE", "OTHER_GROUND", "Error", "Frame", "GroundGrid", "InvalidArgument", "Live", "NotFound", "Replay",
-    "Segmenter", "TerracutWarning", "__version__", "live", "parameters", "replay",
+    "GROUND", "NONE", "OBSTACLE", "OTHER_GROUND", "SEEN_ENDS", "Error", "Frame", "GroundGrid", "InvalidArgument", "Live",
+    "NotFound", "Replay", "Segmenter", "TerracutWarning", "__version__", "live", "parameters", "replay",
 ]  # fmt: skip
 
 # Labels: classes of SemanticKITTI, as in .label files.
 NONE, GROUND, OTHER_GROUND, OBSTACLE = 0, 40, 49, 99
+# Why ground is seen no farther in a sector of the free way, by its `seen_end` (docs/guide/free_way.md).
+SEEN_ENDS = ("rows", "lost", "obstacle", "drop")
 
 
 def _settings(of_method: Optional[Mapping[str, Any]]) -> list[str]:
@@ -84,13 +86,15 @@ def replay(
     deskew_to: Optional[str] = None,
     heights: bool = False,
     objects: bool = False,
+    free_way: bool = False,
     config: Optional[Path] = None,
 ) -> Replay:
     """Returns the labelled frames of a capture or of a bag's packets, as `terracut replay` labels them.
 
     Every setting is the program's option of that name (`terracut replay --help`): angles are degrees, a mount that is
     not stated is estimated from the first frames. `sender` is --from, `parameters` are those of --set. With `heights`
-    frames have `height_above_ground_m`, with `objects` that, `objects` and `object_numbers`.
+    frames have `height_above_ground_m`, with `objects` that, `objects` and `object_numbers`, with `free_way` that and
+    `free_way`.
     """
     return Replay(_words("replay", [capture], {
         "calibration": calibration, "sensor": sensor, "nominal_calibration": nominal_calibration, "columns": columns,
@@ -98,7 +102,7 @@ def replay(
         "start": start, "duration": duration, "reorder_packets": reorder_packets, "setup": setup,
         "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch, "profile": profile,
         "stages": stages, "method": method, "set": _settings(parameters), "can": can, "dbc": dbc,
-        "deskew_to": deskew_to, "heights": heights, "objects": objects, "config": config,
+        "deskew_to": deskew_to, "heights": heights, "objects": objects, "free_way": free_way, "config": config,
     }))  # fmt: skip
 
 
@@ -118,6 +122,7 @@ def live(
     sectors: bool = False,
     heights: bool = False,
     objects: bool = False,
+    free_way: bool = False,
 ) -> Live:
     """Returns the labelled frames of a sensor that sends to `listen` (ADDRESS:PORT, or a port of any address).
 
@@ -127,13 +132,14 @@ def live(
 
     With `sectors`, they come in pieces of some four degrees, each as soon as its labels are known, some milliseconds
     after it was measured; `first_return` is a piece's place in its frame. 256 of them wait for the loop.
-    With `heights`, they have `height_above_ground_m`; with `objects`, whole frames have `objects` and `object_numbers`.
+    With `heights`, they have `height_above_ground_m`; with `objects`, whole frames have `objects` and `object_numbers`,
+    with `free_way` the `free_way`.
     """
     return Live(_words("live", [], {
         "listen": listen, "calibration": calibration, "deadline": deadline, "duration": duration, "patience": patience,
         "gather": gather, "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch,
         "priority": priority,
-        "heights": heights, "objects": objects, "no_lock_memory": not lock_memory,
+        "heights": heights, "objects": objects, "free_way": free_way, "no_lock_memory": not lock_memory,
     }), sectors)  # fmt: skip
 
 
@@ -144,7 +150,7 @@ class Segmenter:
     organised cloud, the order of KITTI's files, or elevations (docs/guide/clouds.md). `parameters` are those of --set.
     `find_mount` estimates the mount from the near ground of the first ten clouds; until then the stated one is used.
     With `heights`, `height_above_ground_m` has the heights of the points labelled last; with `objects` there are
-    `objects` and `object_numbers`, too.
+    `objects` and `object_numbers`, too, with `free_way` the `free_way` of clouds as measured.
     """
 
     def __init__(
@@ -158,6 +164,7 @@ class Segmenter:
         find_mount: bool = False,
         heights: bool = False,
         objects: bool = False,
+        free_way: bool = False,
     ) -> None:
         self._segmenter = _Segmenter(
             mount_height=mount_height,
@@ -168,6 +175,7 @@ class Segmenter:
             find_mount=find_mount,
             heights=heights,
             objects=objects,
+            free_way=free_way,
         )
         self._height_above_ground_m: Optional[npt.NDArray[np.float32]] = None
 
@@ -194,6 +202,11 @@ class Segmenter:
         """Returns the number of the object of each point labelled last, in the points' order; object i has the number
         i + 1, 0 is none. None without `objects`."""
         return self._segmenter.object_numbers
+
+    @property
+    def free_way(self) -> Optional[npt.NDArray[np.void]]:
+        """Returns the free way of the points labelled last, records as of `Frame.free_way`. None without `free_way`."""
+        return self._segmenter.free_way
 
     @property
     def found_mount(self) -> Optional[dict[str, Any]]:

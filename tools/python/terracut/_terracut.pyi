@@ -52,6 +52,10 @@ class Frame:
     def object_numbers(self) -> Optional[npt.NDArray[np.uint16]]:
         """The number of each return's object: i + 1 of objects[i], 0 is none. None without `objects`."""
     @property
+    def free_way(self) -> Optional[npt.NDArray[np.void]]:
+        """The free way, a record a sector of about half a degree, clockwise from straight ahead: azimuth_rad of its
+        middle (counterclockwise), obstacle_m, seen_m, seen_end (a place in SEEN_ENDS). None without `free_way`."""
+    @property
     def data(self) -> npt.NDArray[np.void]:
         """All but heights as records: x y z intensity label ring time."""
     @property
@@ -96,11 +100,14 @@ class Segmenter:
         find_mount: bool,
         heights: bool,
         objects: bool,
+        free_way: bool,
     ) -> None: ...
     @property
     def objects(self) -> Optional[npt.NDArray[np.void]]: ...
     @property
     def object_numbers(self) -> Optional[npt.NDArray[np.uint16]]: ...
+    @property
+    def free_way(self) -> Optional[npt.NDArray[np.void]]: ...
     @property
     def found_mount(self) -> Optional[dict[str, Any]]: ...
     def label(

@@ -176,6 +176,35 @@ async function checkObjects() {
   console.log(`${objects} objects in ${names.length} frames`)
 }
 
+async function checkFreeWay() {
+  replay('--duration', '0.5', '--free-way', '--mcap', 'way.mcap')
+  const { topics } = await readIndexed(path.join(folder, 'way.mcap'))
+  const scans = topics['/terracut/free_way']
+  assert.equal(scans.length, topics['/terracut/points'].length)
+  assert.ok(!topics['/terracut/objects'])
+  scans.forEach(({ message: scan }, i) => {
+    assert.deepEqual(scan.header, topics['/terracut/points'][i].message.header)
+    assert.equal(scan.ranges.length, 720)
+    assert.equal(scan.intensities.length, 720)
+    assert.ok(Math.abs(scan.angle_min + Math.PI) < 0.01 && scan.angle_increment > 0 && scan.time_increment === 0)
+    assert.ok(Math.abs(scan.angle_max - scan.angle_min - 719 * scan.angle_increment) < 1e-4)
+    assert.ok(scan.ranges.every(range => Number.isNaN(range) || (range > 0 && (range < 200 || range === Infinity))))
+    const { points } = topics['/terracut/free_way/polygon'][i].message.polygon
+    assert.equal(points.length, 2 * scan.ranges.length)
+    points.forEach(({ x, y, z }, k) => {
+      const ray = ((k >> 1) + 360) % 720 // the polygon begins straight ahead, the scan behind
+      const [range, seen] = [scan.ranges[ray], scan.intensities[ray]]
+      const free = Number.isNaN(range) ? seen : Math.min(range, seen)
+      assert.ok(z === 0 && Math.abs(Math.hypot(x, y) - free) < 1e-3)
+    })
+    const { info, data } = topics['/terracut/free_way/grid'][i].message
+    assert.equal(data.length, info.width * info.height)
+    assert.ok(Math.abs(info.origin.position.x + 20) < 1e-5 && Math.abs(info.origin.position.y + 20) < 1e-5)
+    assert.ok([-1, 0, 100].every(value => data.includes(value)) && data.every(value => [-1, 0, 100].includes(value)))
+  })
+  console.log(`the free way of ${scans.length} frames`)
+}
+
 async function checkBag() {
   replay('--duration', '1', '--mcap', 'bag', '--mcap-split-s', '0.4')
   const metadata = fs.readFileSync(path.join(folder, 'bag/metadata.yaml'), 'utf8')
@@ -249,6 +278,7 @@ fs.rmSync(folder, { recursive: true, force: true })
 fs.mkdirSync(folder, { recursive: true })
 await checkWhole()
 await checkObjects()
+await checkFreeWay()
 await checkBag()
 await checkKilled()
 fs.mkdirSync(path.join(folder, 'fleet'))

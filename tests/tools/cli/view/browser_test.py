@@ -106,13 +106,13 @@ READ_PIXELS = """new Promise(resolve => {
   });
 })"""
 
-# `asked` are objects that the page asked for; their answers come once letGo() was called.
+# `asked` is what was found, as the page asked for it; their answers come once letGo() was called.
 HELD_OBJECTS = """{
   window.asked = [];
   const isLetGo = new Promise(resolve => { window.letGo = resolve; });
   const fetchNow = window.fetch;
   window.fetch = (url, options) => {
-    if (!String(url).startsWith('objects/')) return fetchNow(url, options);
+    if (!String(url).startsWith('found/')) return fetchNow(url, options);
     asked.push(url);
     return isLetGo.then(() => fetchNow(url, options));
   };
@@ -233,6 +233,25 @@ class APage(unittest.TestCase):
         self.browser.press("x")
         self.assertEqual(drawn(), 0)
 
+    def test_the_free_way_is_drawn_where_it_is_found(self):
+        served = self.served("view", DRIVE, "--free-way", "--at", "127.0.0.1:0")
+        self.browser.open(served.url)
+        served.stand_at(0.5)
+        self.browser.wait_for("!document.querySelector('[data-kind=way]').hidden")
+        self.assertTrue(self.browser.evaluate("document.querySelector('[data-kind=box]').hidden"))
+        line = self.colour_of("way")
+        self.browser.press("t")
+
+        def drawn():
+            return int((np.abs(self.pixels() - line) <= 2).all(axis=2).sum())
+
+        given_up = time.monotonic() + 60
+        while drawn() < 200:
+            self.assertLess(time.monotonic(), given_up)
+        picture(self.browser, "free_way")
+        self.browser.press("w")
+        self.assertEqual(drawn(), 0)
+
     def test_boxes_follow_a_frame_that_came_while_others_were_awaited(self):
         served = self.served("view", DRIVE, "--objects", "--at", "127.0.0.1:0")
         served.stand_at(0.5)
@@ -241,7 +260,7 @@ class APage(unittest.TestCase):
         held = self.browser.wait_for("window.asked && asked.at(-1)")
         served.tell(step=True)
         shown = self.browser.wait_for(
-            f"(number => 'objects/' + number !== '{held}' && 'objects/' + number)(document.getElementById('frame').dataset.number)"
+            f"(number => 'found/' + number !== '{held}' && 'found/' + number)(document.getElementById('frame').dataset.number)"
         )
         self.browser.evaluate("void letGo()")
         self.browser.wait_for(f"asked.at(-1) === '{shown}'")

@@ -97,6 +97,11 @@ class PageWithObjects : public Page {
   PageWithObjects() : Page(nullptr, false, {.objects = true}) {}
 };
 
+class PageWithFreeWay : public Page {
+ protected:
+  PageWithFreeWay() : Page(nullptr, false, {.free_way = true}) {}
+};
+
 class PageOfACapture : public Page {
  protected:
   PageOfACapture() : Page(&capture_) {}
@@ -306,7 +311,7 @@ TEST_F(Page, ShowsLatencyAndWhatMissedTheDeadline) {
   EXPECT_EQ(shown.at("frames"), json::parse("[[4.0, 0, false], [60.0, 1, true]]"));
   EXPECT_EQ(shown.at("capture"), nullptr);
   EXPECT_EQ(shown.at("objects"), false);
-  EXPECT_EQ(get("/objects/1").status, 404);
+  EXPECT_EQ(get("/found/1").status, 404);
   for (std::uint32_t number = 3; number < 400; ++number) {
     ASSERT_TRUE(sink_->put(frame_of(number)));
   }
@@ -325,14 +330,29 @@ TEST_F(PageWithObjects, GivesTheBoxesOfTheFrameThatIsAskedFor) {
     frame.objects = {object};
     ASSERT_TRUE(sink_->put(frame));
   }
-  const json of_70 = json::parse(get("/objects/70").body);
+  const json of_70 = json::parse(get("/found/70").body);
   EXPECT_EQ(of_70, json::parse(R"({"boxes": [{"corners": [[69, 4], [69, 0], [71, 0], [71, 4]],
-                                              "bottom_m": -0.75, "top_m": 0.5}]})"));
-  EXPECT_EQ(json::parse(get("/objects/10").body), json::parse(R"({"boxes": []})"))
+                                              "bottom_m": -0.75, "top_m": 0.5}],
+                                    "free_way": []})"));
+  EXPECT_EQ(json::parse(get("/found/10").body), json::parse(R"({"boxes": [], "free_way": []})"))
       << "it is forgotten";
-  for (const char* none : {"/objects/", "/objects/x", "/objects/7x", "/objects/-1"}) {
+  for (const char* none : {"/found/", "/found/x", "/found/7x", "/found/-1"}) {
     EXPECT_EQ(get(none).status, 404) << none;
   }
+}
+
+TEST_F(PageWithFreeWay, GivesTheCornersOfTheFreeAreaOfTheFrameThatIsAskedFor) {
+  EXPECT_EQ(figures().at("free_way"), true);
+  EXPECT_EQ(figures().at("objects"), false);
+  publish::LabelledFrame frame = frame_of(7);
+  frame.free_way = {{-1.5707963F, 8, 5}, {1.5707963F, 3, 9}};  // to the right, to the left
+  ASSERT_TRUE(sink_->put(frame));
+  const json found = json::parse(get("/found/7").body);
+  EXPECT_TRUE(found.at("boxes").empty());
+  ASSERT_EQ(found.at("free_way").size(), 4U);
+  EXPECT_NEAR(found.at("free_way")[0][0], 3, 0.01);
+  EXPECT_NEAR(found.at("free_way")[1][0], -3, 0.01);
+  EXPECT_NEAR(found.at("free_way")[2][0], -5, 0.01);
 }
 
 TEST_F(Page, KeepsTheLastFrameOfASensorThatIsSilentAndSaysSinceWhen) {

@@ -4,7 +4,7 @@
 // Colours of the picture and of its legend, 0..255.
 
 // By kind: what may be driven on, other ground, obstacles, no label. Told apart by brightness, too.
-export const KINDS = { road: [84, 132, 170], ground: [112, 134, 104], obstacle: [255, 176, 92], box: [120, 214, 240], none: [92, 92, 100] };
+export const KINDS = { road: [84, 132, 170], ground: [112, 134, 104], obstacle: [255, 176, 92], box: [120, 214, 240], way: [72, 200, 150], none: [92, 92, 100] };
 
 // By the state of a direction in which the sensor looks.
 export const STATES = { clear: [58, 104, 118], reduced: [230, 179, 90], blocked: [239, 111, 108] };

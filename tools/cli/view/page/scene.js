@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 
-// Draws points as they lie in the stream, boxes of objects, circles ten metres apart, the vehicle, and how far the
-// sensor sees around it.
+// Draws points as they lie in the stream, boxes of objects, the free way, circles ten metres apart, the vehicle, and how
+// far the sensor sees around it.
 
 import { KINDS, RAMP_STEPS, RANGES, STATES, ramp } from "./colours.js";
 
@@ -108,6 +108,15 @@ function sightSegments(sectors, state) {
   return new Float32Array(places);
 }
 
+// The line around the free area, of these corners.
+function outlineSegments(corners) {
+  return new Float32Array(corners.flatMap((corner, i) => [...corner, 0, 1, ...corners[(i + 1) % corners.length], 0, 1]));
+}
+// The area itself, as triangles around the vehicle.
+function areaTriangles(corners) {
+  return new Float32Array(corners.flatMap((corner, i) => [0, 0, 0, 0.3, ...corner, 0, 0.3, ...corners[(i + 1) % corners.length], 0, 0.3]));
+}
+
 function program(gl, vertex) {
   const made = gl.createProgram();
   for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, PAINT]]) {
@@ -140,6 +149,8 @@ export class Scene {
     this.floor = this.lineLayout(places);
     this.boxes = this.lineLayout(new Float32Array(0));
     this.sight = Object.keys(STATES).map((state) => ({ state, lines: this.lineLayout(new Float32Array(0)) }));
+    this.wayOutline = this.lineLayout(new Float32Array(0));
+    this.wayArea = this.lineLayout(new Float32Array(0));
     gl.enable(gl.DEPTH_TEST);
     gl.clearColor(0.055, 0.075, 0.094, 1);
   }
@@ -155,24 +166,37 @@ export class Scene {
     return lines;
   }
 
-  setLines(lines, places) {
+  // `found`: {boxes, free_way: corners of the free area}
+  setFound(found) {
+    this.setPlaces(this.boxes, boxSegments(found.boxes));
+    this.setPlaces(this.wayOutline, outlineSegments(found.free_way));
+    this.setPlaces(this.wayArea, areaTriangles(found.free_way));
+  }
+
+  setPlaces(lines, places) {
     const gl = this.gl;
     lines.vertices = places.length / 4;
     gl.bindBuffer(gl.ARRAY_BUFFER, lines.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, places, gl.STREAM_DRAW);
   }
-  setBoxes(boxes) {
-    this.setLines(this.boxes, boxSegments(boxes));
-  }
   setSight(sectors) {
-    for (const { state, lines } of this.sight) this.setLines(lines, sightSegments(sectors, state));
+    for (const { state, lines } of this.sight) this.setPlaces(lines, sightSegments(sectors, state));
   }
 
-  drawLines(lines, tint) {
+  // Draws the free area below everything, however the ground slopes.
+  drawWay(tint) {
+    const gl = this.gl;
+    gl.depthMask(false);
+    this.drawLines(this.wayArea, tint, gl.TRIANGLES);
+    this.drawLines(this.wayOutline, tint);
+    gl.depthMask(true);
+  }
+
+  drawLines(lines, tint, as = this.gl.LINES) {
     const gl = this.gl;
     gl.uniform3fv(this.lines.uniform("tint"), tint);
     gl.bindVertexArray(lines.layout);
-    gl.drawArrays(gl.LINES, 0, lines.vertices);
+    gl.drawArrays(as, 0, lines.vertices);
   }
 
   setPoints(bytes, count, pointBytes) {
@@ -224,6 +248,7 @@ export class Scene {
 
     gl.useProgram(this.lines.made);
     gl.uniformMatrix4fv(this.lines.uniform("view"), false, view);
+    if (look.shown.has("way")) this.drawWay(unit(KINDS.way));
     this.drawLines(this.floor, [0.415, 0.515, 0.594]);
     for (const { state, lines } of this.sight) this.drawLines(lines, unit(STATES[state]));
     if (look.shown.has("box")) this.drawLines(this.boxes, unit(KINDS.box));

@@ -10,7 +10,8 @@ import { degradedText, drawStrip, figuresText } from "./strip.js";
 const at = (id) => document.getElementById(id);
 const canvas = at("scene");
 const camera = new Camera();
-const look = { colourBy: "label", hasOtherGround: false, shown: new Set(["road", "ground", "obstacle", "box"]), pointSize: 1 };
+const look = { colourBy: "label", hasOtherGround: false, shown: new Set(["road", "ground", "obstacle", "box", "way"]), pointSize: 1 };
+const FOUND = new Map([["box", "objects"], ["way", "free_way"]]); // kinds of what is found, and the figures that tell of them
 const MARKED_M = [20, 40, 60, 80, 100];
 
 let scene;
@@ -67,24 +68,26 @@ function noteLabels({ header, points }) {
   }
 }
 
-// --- the objects of the frame that is shown ---
+// --- what was found in the frame that is shown ---
 
-const objects = { areGiven: false, isAsked: false, of: undefined };
+const found = { kinds: new Set(), isAsked: false, of: undefined }; // of the kinds that this run finds
 
-// Frames come while an answer is awaited: asks until the boxes are those of the frame that is shown.
-async function askForObjects() {
-  if (objects.isAsked) return;
-  objects.isAsked = true;
+const showsFound = () => [...found.kinds].some((kind) => look.shown.has(kind));
+
+// Frames come while an answer is awaited: asks until it is that for the frame that is shown.
+async function askForFound() {
+  if (found.isAsked) return;
+  found.isAsked = true;
   try {
-    for (let frame; objects.areGiven && look.shown.has("box") && (frame = at("frame").dataset.number) !== objects.of; objects.of = frame) {
-      scene.setBoxes((await (await fetch(`objects/${frame}`, { cache: "no-store" })).json()).boxes);
+    for (let frame; showsFound() && (frame = at("frame").dataset.number) !== found.of; found.of = frame) {
+      scene.setFound(await (await fetch(`found/${frame}`, { cache: "no-store" })).json());
       isDirty = true;
     }
   } catch (error) {
     console.warn(error);
-    objects.of = undefined;
+    found.of = undefined;
   }
-  objects.isAsked = false;
+  found.isAsked = false;
 }
 
 const milliseconds = (ns) => Number(ns / 1000n) / 1000;
@@ -102,7 +105,7 @@ function take(message) {
   const returns = header.points + header.firstReturn;
   at("frame").textContent = `frame ${header.number} · ${returns.toLocaleString("en")} returns`;
   at("frame").dataset.number = header.number;
-  askForObjects();
+  askForFound();
   if (header.firstReturn === 0) {
     newest = message;
     return;
@@ -136,9 +139,9 @@ function showLook() {
   for (const button of at("views").querySelectorAll("[data-view]")) button.ariaPressed = button.dataset.view === camera.view;
   for (const button of at("kinds").children) {
     const kind = button.dataset.kind;
-    button.hidden = (kind === "road" && !look.hasOtherGround) || (kind === "box" && !objects.areGiven);
+    button.hidden = (kind === "road" && !look.hasOtherGround) || (FOUND.has(kind) && !found.kinds.has(kind));
     button.ariaPressed = look.shown.has(kind);
-    button.firstElementChild.style.color = look.colourBy === "label" || kind === "box" ? css(KINDS[kind]) : "var(--quiet)";
+    button.firstElementChild.style.color = look.colourBy === "label" || FOUND.has(kind) ? css(KINDS[kind]) : "var(--quiet)";
   }
   const bar = at("ramp");
   bar.hidden = look.colourBy === "label";
@@ -160,7 +163,7 @@ function colourBy(name) {
 function toggle(kind) {
   if (!look.shown.delete(kind)) look.shown.add(kind);
   showLook();
-  askForObjects();
+  askForFound();
 }
 function see(view) {
   camera.look(view);
@@ -226,10 +229,11 @@ function showSight(sight) {
 function show(figures) {
   at("sensor").textContent = figures.sensor;
   showSight(figures.sight);
-  if (figures.objects !== objects.areGiven) {
-    objects.areGiven = figures.objects;
+  const kinds = [...FOUND].filter(([, figure]) => figures[figure]).map(([kind]) => kind);
+  if (kinds.length !== found.kinds.size) {
+    found.kinds = new Set(kinds);
     showLook();
-    askForObjects();
+    askForFound();
   }
   if (figures.rows > 1) RANGES.ring[1] = figures.rows - 1;
   at("times-title").textContent = figures.deadline_ms ? "after the last packet" : "work a frame";
@@ -259,7 +263,8 @@ const KEYS = {
   r: () => toggle("road"),
   g: () => toggle("ground"),
   o: () => toggle("obstacle"),
-  x: () => objects.areGiven && toggle("box"),
+  x: () => found.kinds.has("box") && toggle("box"),
+  w: () => found.kinds.has("way") && toggle("way"),
   b: () => see("orbit"),
   f: () => see("follow"),
   t: () => see("top"),

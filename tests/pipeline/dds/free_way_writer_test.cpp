@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/dds/free_way_writer.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <thread>
+
+#include "pipeline/free_way/way_grid.hpp"
+#include "ros_types.h"
+
+namespace terracut::dds {
+namespace {
+
+/// Reads one message of a topic; the memory is the reader's until the end.
+template <class Message>
+class OneReader {
+ public:
+  OneReader(const Participant& participant, const std::string& topic,
+            const dds_topic_descriptor_t& type)
+      : topic_(dds_create_topic(participant.id(), &type, topic.c_str(), nullptr, nullptr)),
+        reader_(dds_create_reader(participant.id(), topic_.id(), nullptr, nullptr)) {}
+  OneReader(const OneReader&) = delete;
+  OneReader& operator=(const OneReader&) = delete;
+  ~OneReader() { (void)dds_return_loan(reader_.id(), &sample_, 1); }
+
+  /// Returns null if nothing came for ten seconds.
+  const Message* take() {
+    for (int wait = 0; wait < 1000; ++wait) {
+      dds_sample_info_t info{};
+      if (dds_take(reader_.id(), &sample_, &info, 1, 1) == 1 && info.valid_data) {
+        return static_cast<const Message*>(sample_);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return nullptr;
+  }
+
+ private:
+  Entity topic_, reader_;
+  void* sample_ = nullptr;
+};
+
+TEST(FreeWayWriter, PublishesScanPolygonAndGrid) {
+  const auto participant =
+      Participant::open({.domain = 1 + static_cast<int>(::getpid() % 200), .interface = "lo"});
+  if (!participant) GTEST_SKIP() << participant.error().message;
+  const std::string topic = "rt/terracut_test/free_way";
+  auto writer = FreeWayWriter::open(*participant, topic, {});
+  ASSERT_TRUE(writer) << writer.error().message;
+  OneReader<sensor_msgs_msg_dds__LaserScan_> scans(*participant, topic,
+                                                   sensor_msgs_msg_dds__LaserScan__desc);
+  OneReader<geometry_msgs_msg_dds__PolygonStamped_> polygons(
+      *participant, topic + "/polygon", geometry_msgs_msg_dds__PolygonStamped__desc);
+  OneReader<nav_msgs_msg_dds__OccupancyGrid_> grids(*participant, topic + "/grid",
+                                                    nav_msgs_msg_dds__OccupancyGrid__desc);
+
+  publish::LabelledFrame frame;
+  frame.record.info.first_packet_ns = 5'250'000'000;
+  frame.free_way = {{-1.5F, 8, 5}, {1.5F, std::numeric_limits<float>::infinity(), 6}};
+  std::string frame_id = "terracut_ground";
+  ASSERT_TRUE(writer->write(frame, frame_id));
+
+  const auto* scan = scans.take();
+  ASSERT_NE(scan, nullptr);
+  EXPECT_STREQ(scan->header.frame_id, "terracut_ground");
+  EXPECT_EQ(scan->header.stamp.sec, 5);
+  ASSERT_EQ(scan->ranges._length, 2U);
+  EXPECT_EQ(scan->ranges._buffer[0], 8);
+  EXPECT_TRUE(std::isinf(scan->ranges._buffer[1]));
+  EXPECT_EQ(scan->intensities._buffer[1], 6);
+  const auto* polygon = polygons.take();
+  ASSERT_NE(polygon, nullptr);
+  EXPECT_EQ(polygon->polygon.points._length, 4U);
+  const auto* grid = grids.take();
+  ASSERT_NE(grid, nullptr);
+  EXPECT_EQ(grid->data._length, free_way::WayGrid::kSide * free_way::WayGrid::kSide);
+  EXPECT_EQ(grid->info.width, free_way::WayGrid::kSide);
+}
+
+}  // namespace
+}  // namespace terracut::dds

@@ -14,6 +14,8 @@ constexpr std::int64_t kMostLatency = 0xFFFE;
 constexpr std::uint64_t kNoLatency = 0xFFFF;
 constexpr std::uint64_t kNoCause = 7;
 constexpr std::uint64_t kMostReturns = (1U << 18) - 1;
+constexpr float kMostVisible_m = 254;
+constexpr std::uint64_t kNothingVisible = 255;
 
 /// A run of bits in a frame, counted from the lowest, like "start|count@1+" in a DBC file.
 struct Bits {
@@ -39,6 +41,11 @@ can::CanFrame empty_frame(can::CanId id) noexcept {
 std::uint64_t latency_of(const HealthReport& report) noexcept {
   if (report.latency_ns < 0 || report.level == status::Level::kSkipped) return kNoLatency;
   return static_cast<std::uint64_t>(std::min(report.latency_ns / kLatencyStep_ns, kMostLatency));
+}
+
+/// Returns 0 while the view is being learnt, else 1 and more: clear, reduced, blocked.
+std::uint64_t view_state_of(const visibility::SightFigures& sight) noexcept {
+  return sight.has_learnt == 0 ? 0 : static_cast<std::uint64_t>(sight.worst().state) + 1;
 }
 
 }  // namespace
@@ -81,6 +88,24 @@ std::array<can::CanFrame, 2> health_frames(const HealthReport& report, can::CanI
   put(totals, {32, 24}, report.losses);
   put(totals, {56, 8}, report.alive);
   return frames;
+}
+
+can::CanFrame sight_frame(const visibility::SightFigures& sight, std::uint32_t alive,
+                          can::CanId first) noexcept {
+  can::CanFrame frame = empty_frame({first.number + 2, first.extended});
+  put(frame, {0, 2}, view_state_of(sight));
+  put(frame, {2, 3}, static_cast<std::uint64_t>(sight.worst().cause));
+  put(frame, {5, 6}, static_cast<std::uint64_t>(sight.troubled_sectors()));
+  for (std::size_t i = 0; i < sight.sectors.size(); ++i) {
+    const bool is_troubled = sight.sectors[i].condition.state != visibility::State::kClear;
+    put(frame, {12 + static_cast<unsigned>(i), 1}, is_troubled ? 1 : 0);
+  }
+  const visibility::SightFigures::Of ahead = sight.in(visibility::Direction::kAhead);
+  put(frame, {48, 8},
+      ahead.with_view == 0 ? kNothingVisible
+                           : static_cast<std::uint64_t>(std::min(ahead.visible_m, kMostVisible_m)));
+  put(frame, {56, 8}, alive);
+  return frame;
 }
 
 }  // namespace terracut::health

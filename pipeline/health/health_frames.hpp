@@ -8,10 +8,11 @@
 #include "firmware_io/can/can_frame.hpp"
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
+#include "pipeline/visibility/sight_figures.hpp"
 
 namespace terracut::health {
 
-/// The state of terracut that two CAN frames report; terracut_health.dbc describes the frames.
+/// The state of terracut that two CAN frames report; terracut_health.dbc describes all frames.
 struct HealthReport {
   std::uint32_t frame_number = 0;
   std::uint32_t returns = 0;
@@ -27,7 +28,7 @@ struct HealthReport {
   std::uint32_t alive = 0;  ///< Counter that the caller increments with every report.
 };
 
-/// The id of the first frame in terracut_health.dbc; the second frame's id is one higher.
+/// The id of the first frame in terracut_health.dbc; the ids of the others follow it.
 inline constexpr can::CanId kHealthId{1744, false};
 
 /// Makes a report from the figures of a running process. Leaves `alive` unset.
@@ -40,5 +41,10 @@ inline constexpr can::CanId kHealthId{1744, false};
 /// a changed DBC file.
 [[nodiscard]] std::array<can::CanFrame, 2> health_frames(const HealthReport& report,
                                                          can::CanId first = kHealthId) noexcept;
+
+/// Returns the frame TERRACUT_SIGHT of a run in which the sensor's view is watched. Its id is two
+/// higher than `first`, that of the first frame; `alive` is the report's.
+[[nodiscard]] can::CanFrame sight_frame(const visibility::SightFigures& sight, std::uint32_t alive,
+                                        can::CanId first = kHealthId) noexcept;
 
 }  // namespace terracut::health

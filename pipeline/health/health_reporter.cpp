@@ -19,6 +19,9 @@ void HealthReporter::work_round(const status::MonitorSnapshot& figures,
   HealthReport report = health_report_of(figures, newest);
   report.alive = alive_++;
   sender_.send(health_frames(report));
+  if (figures.sight.is_watched == 0) return;
+  const can::CanFrame sight = sight_frame(figures.sight, report.alive);
+  sender_.send({&sight, 1});
 }
 
 void HealthReporter::show(status::HealthFigures& figures) const noexcept {

@@ -12,8 +12,9 @@
 namespace terracut::health {
 
 /// Reports the health of a live run on a CAN bus (pipeline/health/terracut_health.dbc): the newest
-/// frame whenever frames were judged, and four times a second if no frames come. So a counter that
-/// stands still means a dead process. Never waits. For one thread without a deadline.
+/// frame whenever frames were judged, and four times a second if no frames come; with it the
+/// sensor's view, if that is watched. So a counter that stands still means a dead process. Never
+/// waits. For one thread without a deadline.
 class HealthReporter {
  public:
   /// `bus` is the name of the CAN bus, for show().

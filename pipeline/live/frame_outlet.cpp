@@ -11,13 +11,15 @@ namespace terracut::live {
 
 FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
                          SectorPool* sectors, const threads::WakeEvent& ready,
-                         std::unique_ptr<points::SceneOfPoints> scene)
+                         std::unique_ptr<points::SceneOfPoints> scene,
+                         std::unique_ptr<points::SightOfPoints> sight)
     : stream_(std::move(stream)),
       publisher_(publisher),
       slots_(slots),
       sectors_(sectors),
       ready_(ready),
       scene_(std::move(scene)),
+      sight_(std::move(sight)),
       // A failure of this thread needs no handler: the slots count the frames that nobody takes.
       thread_([this] { work(); }, [](std::string_view) {}) {}
 
@@ -33,12 +35,15 @@ void FrameOutlet::begin_to_finish() {
 
 void FrameOutlet::work() {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  if (sight_ != nullptr) sight_figures_.publish(sight_->figures());
   while (true) {
     const bool last_round = finish_;
     hand_out_sectors();
     for (Slots::Frame frame; slots_.take(frame);) {
       hand_out_sectors();  // those of a frame come before it
-      slots_.give_back(hand_out(frame));
+      const bool is_handed_out = hand_out(frame);
+      look(frame);
+      slots_.give_back(is_handed_out);
     }
     stream::FrameStreamServer* const open = server();
     if (open != nullptr) {
@@ -95,6 +100,12 @@ bool FrameOutlet::stream(const stream::LabelledFrame& frame,
     return true;
   }
   return open->serve(frame);
+}
+
+void FrameOutlet::look(const Slots::Frame& frame) {
+  if (sight_ == nullptr) return;
+  sight_->look(frame.items, frame.heights_m, frame.record.info);
+  sight_figures_.publish(sight_->figures());
 }
 
 bool FrameOutlet::hand_out(const Slots::Frame& frame) {

@@ -11,6 +11,7 @@
 #include "frame_pool.hpp"
 #include "pipeline/live/sector_pool.hpp"
 #include "pipeline/points/scene_of_points.hpp"
+#include "pipeline/points/sight_of_points.hpp"
 #include "pipeline/publish/publisher.hpp"
 #include "pipeline/publish/reopened.hpp"
 #include "pipeline/stream/frame_stream_server.hpp"
@@ -36,10 +37,12 @@ class FrameOutlet {
 
   /// `ready` is woken when `slots` has a frame or `sectors` a sector, and by finish(). `sectors`
   /// may be null. All must outlive this object. With `scene`, which may be null, frames for outputs
-  /// (not for the stream) get what it finds on this thread.
+  /// (not for the stream) get what it finds on this thread. With `sight`, which may be null, too,
+  /// all frames are looked at by it, once they are handed out.
   FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
               SectorPool* sectors, const threads::WakeEvent& ready,
-              std::unique_ptr<points::SceneOfPoints> scene = nullptr);
+              std::unique_ptr<points::SceneOfPoints> scene = nullptr,
+              std::unique_ptr<points::SightOfPoints> sight = nullptr);
   ~FrameOutlet() { begin_to_finish(); }
 
   /// Ends the thread; call it after LiveThreads::stop(). Returns false if the thread does not end
@@ -53,6 +56,12 @@ class FrameOutlet {
   [[nodiscard]] std::uint64_t sectors_while_closed() const noexcept {
     return sectors_while_closed_;
   }
+  /// Returns how far the sensor sees, by the frames so far; is_watched is 0 without `sight`. For one
+  /// other thread.
+  [[nodiscard]] const visibility::SightFigures& sight() const noexcept {
+    (void)sight_figures_.take_if_new();
+    return sight_figures_.newest_taken();
+  }
   /// Returns the stream's figures as of the last frame or second. For one other thread.
   [[nodiscard]] const stream::FrameStreamFigures& figures() const noexcept {
     (void)figures_.take_if_new();
@@ -64,6 +73,7 @@ class FrameOutlet {
   void work();
   /// True if the frame reached all outputs, or every output that missed it has counted it.
   [[nodiscard]] bool hand_out(const Slots::Frame& frame);
+  void look(const Slots::Frame& frame);
   /// Hands out the sectors that came.
   void hand_out_sectors();
   [[nodiscard]] bool publish(const SectorPool::Frame& sector);
@@ -83,9 +93,11 @@ class FrameOutlet {
   SectorPool* sectors_;
   const threads::WakeEvent& ready_;
   std::unique_ptr<points::SceneOfPoints> scene_;
+  std::unique_ptr<points::SightOfPoints> sight_;
   std::atomic<bool> finish_{false};
   std::atomic<std::uint64_t> while_closed_{0}, sectors_while_closed_{0};
   mutable queues::LatestValue<stream::FrameStreamFigures> figures_;
+  mutable queues::LatestValue<visibility::SightFigures> sight_figures_;
   threads::BackgroundThread thread_;  ///< Declared last, because it uses the members above.
 };
 

@@ -9,7 +9,7 @@ namespace terracut::points {
 SceneOfPoints::SceneOfPoints(scene::Wanted wanted, const mount::RingProfile& profile,
                              frame::ImageShape shape, std::size_t most_points,
                              std::span<const float> beam_turns)
-    : most_points_(most_points), scene_(wanted, profile, shape, most_points, memory_) {
+    : most_points_(most_points), scene_(wanted.without_sight(), profile, shape, most_points, memory_) {
   if (wanted.objects) image_.emplace(shape, most_points, memory_);
   if (wanted.free_way) as_measured_.emplace(shape, most_points, beam_turns, memory_);
   labels_.reserve(most_points);

@@ -28,6 +28,7 @@ class SceneOfPoints {
  public:
   /// `profile` must have shape.rows rings; a turn has at most `most_points` points, further ones
   /// are not looked at. `beam_turns` is that of the decoder; empty: points have no times.
+  /// `wanted.sight` makes no difference: SightOfPoints watches turn after turn.
   SceneOfPoints(scene::Wanted wanted, const mount::RingProfile& profile, frame::ImageShape shape,
                 std::size_t most_points, std::span<const float> beam_turns);
 

@@ -65,6 +65,27 @@ Diagnosis of_input(const status::MonitorSnapshot& f) {
   return input;
 }
 
+Diagnosis of_sight(const visibility::SightFigures& f) {
+  const visibility::Condition worst = f.worst();
+  Diagnosis sight{.name = "terracut: sight", .message = sight_text(f)};
+  if (f.has_learnt == 0) {
+    sight.level = Severity::kStale;
+  } else if (worst.state != visibility::State::kClear) {
+    sight.level = worst.state == visibility::State::kReduced ? Severity::kWarn : Severity::kError;
+  }
+  sight.values = {{"state", std::string(to_string(worst.state))},
+                  {"cause", std::string(to_string(worst.cause))},
+                  {"troubled_sectors", std::to_string(f.troubled_sectors())}};
+  for (std::size_t i = 0; i < visibility::kDirections; ++i) {
+    const auto direction = static_cast<visibility::Direction>(i);
+    const visibility::SightFigures::Of of = f.in(direction);
+    if (of.with_view == 0) continue;
+    sight.values.emplace_back(fmt::format("visible_{}_m", to_string(direction)),
+                              fmt::format("{:.1f}", of.visible_m));
+  }
+  return sight;
+}
+
 }  // namespace
 
 std::vector<Diagnosis> Diagnoses::of(const status::MonitorSnapshot& f) {
@@ -119,6 +140,8 @@ std::vector<Diagnosis> Diagnoses::of(const status::MonitorSnapshot& f) {
                   {"roll_deg", fmt::format("{:.2f}", f.mount.roll_deg)},
                   {"pitch_deg", fmt::format("{:.2f}", f.mount.pitch_deg)}};
   all.push_back(std::move(mount));
+
+  if (f.sight.is_watched != 0) all.push_back(of_sight(f.sight));
 
   for (Diagnosis& each : all) each.hardware_id = status::printable(f.sensor.view());
   return all;

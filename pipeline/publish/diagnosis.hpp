@@ -26,7 +26,8 @@ struct Diagnosis {
 /// which it happened. For one thread.
 class Diagnoses {
  public:
-  /// Returns one diagnosis each for deadline, input, losses, clock, threads and mount.
+  /// Returns one diagnosis each for deadline, input, losses, clock, threads and mount, and for the
+  /// sensor's view if it is watched.
   [[nodiscard]] std::vector<Diagnosis> of(const status::MonitorSnapshot& figures);
 
  private:

@@ -19,17 +19,20 @@ SceneFinder::SceneFinder(Wanted wanted, const mount::RingProfile& profile, frame
     objects_.emplace(objects::ObjectFinder::Config{}, profile, shape, return_capacity, memory);
   }
   if (wanted.free_way) free_way_.emplace(profile, shape, memory);
+  if (wanted.sight) sight_.emplace(profile, shape, memory);
 }
 
 void SceneFinder::find(const frame::RangeImage& image, const frame::RangeImage& as_measured,
-                       std::span<const frame::Label> labels,
-                       std::span<const float> heights_m) noexcept {
+                       std::span<const frame::Label> labels, std::span<const float> heights_m,
+                       bool is_whole) noexcept {
   if (objects_) {
     take(image, labels, heights_m);
     objects_->find(image, planes_, labels);
   }
-  if (!free_way_) return;
+  if (!free_way_ && !sight_) return;
   if (!objects_ || &image != &as_measured) take(as_measured, labels, heights_m);
+  if (sight_) sight_->look(as_measured, planes_, is_whole);
+  if (!free_way_) return;
   find_steep(as_measured);
   free_way_->way.find(as_measured, planes_, labels);
 }

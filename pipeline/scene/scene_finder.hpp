@@ -15,6 +15,7 @@
 #include "pipeline/objects/object_finder.hpp"
 #include "pipeline/scene/wanted.hpp"
 #include "pipeline/stage/cell_planes.hpp"
+#include "pipeline/visibility/sight_watch.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -32,16 +33,17 @@ class SceneFinder {
               std::size_t return_capacity, memory::FixedMemory& memory);
 
   /// Looks at an image of the shape given at construction. Objects are found where its returns lie,
-  /// the free way where they were measured: `as_measured` has the same returns, and is the same
-  /// image unless they were moved (deskewed). `labels` and `heights_m`, above the ground, have one
-  /// element per return, by return index. Overwrites the last result. Real-time safe.
+  /// the free way and the view where they were measured: `as_measured` has the same returns, and is
+  /// the same image unless they were moved (deskewed). `labels` and `heights_m`, above the ground,
+  /// have one element per return, by return index. `is_whole` is visibility::SightWatch::is_whole()
+  /// of a turn. Overwrites the last result. Real-time safe.
   void find(const frame::RangeImage& image, const frame::RangeImage& as_measured,
-            std::span<const frame::Label> labels,
-            std::span<const float> heights_m) noexcept TERRACUT_NONBLOCKING;
+            std::span<const frame::Label> labels, std::span<const float> heights_m,
+            bool is_whole = true) noexcept TERRACUT_NONBLOCKING;
   /// Looks at an image whose returns were not moved.
   void find(const frame::RangeImage& image, std::span<const frame::Label> labels,
-            std::span<const float> heights_m) noexcept TERRACUT_NONBLOCKING {
-    find(image, image, labels, heights_m);
+            std::span<const float> heights_m, bool is_whole = true) noexcept TERRACUT_NONBLOCKING {
+    find(image, image, labels, heights_m, is_whole);
   }
 
   /// As of objects::ObjectFinder.
@@ -54,6 +56,11 @@ class SceneFinder {
   /// As of free_way::FreeWay.
   [[nodiscard]] std::span<const free_way::Sector> free_way() const noexcept {
     return free_way_ ? free_way_->way.sectors() : std::span<const free_way::Sector>();
+  }
+
+  /// Returns how far the sensor sees, by the turns so far; is_watched is 0 if it is not wanted.
+  [[nodiscard]] visibility::SightFigures sight() const noexcept {
+    return sight_ ? sight_->figures() : visibility::SightFigures();
   }
 
  private:
@@ -72,6 +79,7 @@ class SceneFinder {
   stage::CellPlanes planes_;
   std::optional<objects::ObjectFinder> objects_;
   std::optional<Way> free_way_;
+  std::optional<visibility::SightWatch> sight_;
 };
 
 }  // namespace terracut::scene

@@ -8,8 +8,11 @@ namespace terracut::scene {
 struct Wanted {
   bool objects = false;
   bool free_way = false;
+  bool sight = false;  ///< How far the sensor sees; of turns that follow each other.
 
-  [[nodiscard]] constexpr bool any() const noexcept { return objects || free_way; }
+  /// Returns what is wanted of the single turn.
+  [[nodiscard]] constexpr Wanted without_sight() const noexcept { return {objects, free_way}; }
+  [[nodiscard]] constexpr bool any() const noexcept { return objects || free_way || sight; }
 };
 
 }  // namespace terracut::scene

@@ -15,6 +15,7 @@
 
 #include "calib/beams/angle.hpp"
 #include "pipeline/status/loss_causes.hpp"
+#include "pipeline/visibility/sight_figures.hpp"
 
 namespace terracut::status {
 namespace {
@@ -385,6 +386,59 @@ std::vector<Figure> figures_of(const MountFigures& f) {
   return std::move(table).take();
 }
 
+std::vector<Figure> figures_of(const visibility::SightFigures& f) {
+  Table table;
+  if (f.is_watched == 0) return std::move(table).take();
+  constexpr std::size_t kStates = static_cast<std::size_t>(visibility::State::kCount);
+  const visibility::Condition worst = f.worst();
+  std::vector<std::string_view> states{"learning"};
+  std::ranges::copy(visibility::kStateNames, std::back_inserter(states));
+  const std::size_t state = std::min(static_cast<std::size_t>(worst.state), kStates) + 1;
+  Counts of_sectors{"cause", {}}, of_turns{"cause", {}};
+  for (std::size_t i = 0; i < f.turns.size(); ++i) {
+    const auto cause = static_cast<visibility::Cause>(i);
+    const auto sectors = std::ranges::count_if(f.sectors, [&](const auto& sector) {
+      return sector.has_view != 0 && sector.condition.cause == cause;
+    });
+    of_sectors.each.emplace_back(to_string(cause), static_cast<std::uint64_t>(sectors));
+    of_turns.each.emplace_back(to_string(cause), f.turns[i]);
+  }
+  const bool is_well = worst.state == visibility::State::kClear;
+  // The first turn is always left out, for it is not whole.
+  const bool is_mostly_left_out = f.left_out_turns > 1 + f.learning_turns + f.turns[0];
+  table.add("sight", {
+    {"state", State{f.has_learnt == 0 ? 0 : state, states},
+     {"terracut_sight_state", "1 for the state of the sensor's view, the worst of any direction."}},
+    {{}, sight_text(f), {}, {"sight", "{}", alarm_unless(is_well)}},
+    {"cause", std::string(to_string(worst.cause))},
+    {"sectors", std::move(of_sectors),
+     {"terracut_sight_sectors", "Sectors of ten degrees in which the sensor sees anything, by what "
+      "is in its way."}},
+    {"turns", std::move(of_turns),
+     {"terracut_sight_turns_total", "Turns looked at, by the cause of their worst sector."}},
+    {"learning_turns", f.learning_turns, {}, {}},
+    {"left_out_turns", f.left_out_turns,
+     {"terracut_sight_turns_left_out_total",
+      "Turns not looked at because packets are missing; the state stays what it was."}},
+    {{}, is_mostly_left_out ? f.left_out_turns : 0, {},
+     {"sight", "turns left out for want of packets: {}", Shown::kAlarm}}});
+  for (std::size_t i = 0; i < visibility::kDirections; ++i) {
+    const auto direction = static_cast<visibility::Direction>(i);
+    const visibility::SightFigures::Of of = f.in(direction);
+    const std::string name(to_string(direction));
+    table.add("sight.directions." + name, {
+      {"sectors", static_cast<std::uint64_t>(of.with_view)},
+      {"troubled_sectors", static_cast<std::uint64_t>(of.troubled),
+       {"terracut_sight_troubled_sectors", "Sectors of ten degrees that are not clear.",
+        {{"direction", name}}}},
+      {"visible_m", of.with_view == 0 ? Value(NotKnown{}) : Value(metres(of.visible_m)),
+       {"terracut_sight_visible_metres",
+        "How far beams to the ground return, the median of a direction's sectors; 40 at most.",
+        {{"direction", name}}}}});
+  }
+  return std::move(table).take();
+}
+
 // clang-format on
 
 std::vector<Figure> figures_of(const MonitorSnapshot& snapshot) {
@@ -395,6 +449,7 @@ std::vector<Figure> figures_of(const MonitorSnapshot& snapshot) {
   table.add(figures_of(snapshot.mount));
   add_motion(snapshot.motion, table);
   add_health(snapshot.health, table);
+  table.add(figures_of(snapshot.sight));
   add_threads(snapshot, table);
   add_times(snapshot, table);
   return std::move(table).take();

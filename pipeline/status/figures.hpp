@@ -9,6 +9,7 @@
 #include "pipeline/status/figure.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
 #include "pipeline/status/mount_figures.hpp"
+#include "pipeline/visibility/sight_figures.hpp"
 
 namespace terracut::status {
 
@@ -20,6 +21,7 @@ namespace terracut::status {
 /// Each of these returns a group of figures that runs over files have, too.
 [[nodiscard]] std::vector<Figure> figures_of(const MountFigures& mount);
 [[nodiscard]] std::vector<Figure> figures_of(const frame::BlindAzimuths& blind);
+[[nodiscard]] std::vector<Figure> figures_of(const visibility::SightFigures& sight);
 
 /// True if a process can have published these figures: times and counts are consistent, so that
 /// calculating with them is safe. A status page is a file that others can write to, so it may have

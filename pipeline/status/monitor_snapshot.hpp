@@ -14,6 +14,7 @@
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/mount_figures.hpp"
 #include "pipeline/status/named_count.hpp"
+#include "pipeline/visibility/sight_figures.hpp"
 #include "rt/measure/log_linear_histogram.hpp"
 #include "rt/memory/fixed_text.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -52,7 +53,7 @@ struct ThreadStatus {
 /// to_string are safe even then.
 struct MonitorSnapshot {
   /// The version of the layout; increase it with every change.
-  static constexpr std::uint32_t kLayout = 11;
+  static constexpr std::uint32_t kLayout = 12;
   static constexpr std::size_t kMaxLosses = 64;
   static constexpr std::size_t kMaxOutcomes = 24;
   static constexpr std::size_t kMaxThreads = 4;
@@ -89,6 +90,7 @@ struct MonitorSnapshot {
   MountFigures mount;
   MotionFigures motion;
   HealthFigures health;
+  visibility::SightFigures sight;
 
   /// Datagrams that came or were dropped before labelling began; they are not among `packets` or
   /// `received`.

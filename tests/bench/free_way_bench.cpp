@@ -5,6 +5,7 @@
 // messages of the free way cost.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/points/labelled_points.hpp"
 #include "pipeline/points/scene_of_points.hpp"
+#include "pipeline/points/sight_of_points.hpp"
 #include "pipeline/publish/labelled_frame.hpp"
 #include "pipeline/ros_messages/free_way_messages.hpp"
 #include "pipeline/scene/scene_finder.hpp"
@@ -121,6 +123,28 @@ void judge_the_view(benchmark::State& state) {
   }
 }
 BENCHMARK(judge_the_view)->Unit(benchmark::kMicrosecond);
+
+/// The same of a turn's points, as behind a live run's deadline.
+void judge_the_view_of_points(benchmark::State& state) {
+  const Scene scene;
+  const std::vector<float> beam_turns(static_cast<std::size_t>(scene.shape.rows));
+  frame::FrameInfo info;
+  info.complete = true;
+  info.head = {.first_turns = 0, .last_turns = 1};
+  info.last_packet_ns = 100'000'000;
+  std::vector<points::LabelledPoint> points(scene.image.returns());
+  std::vector<float> heights_m(points.size());
+  (void)points::pack_labelled_points(scene.image, scene.method.labels(), points,
+                                     points::FrameTiming::of(info, beam_turns));
+  std::ranges::transform(points, heights_m.begin(), &points::LabelledPoint::z_m);
+  points::SightOfPoints sight(scene.profile, scene.shape, points.size(), beam_turns);
+  for (auto _ : state) {
+    sight.look(points, heights_m, info);
+    benchmark::ClobberMemory();
+  }
+  state.counters["points"] = static_cast<double>(points.size());
+}
+BENCHMARK(judge_the_view_of_points)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace terracut

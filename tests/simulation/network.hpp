@@ -29,6 +29,9 @@ class Network {
   Network(const SensorLoop& loop, const BlindPlaces& blind, const Faults& faults, Machine& machine,
           std::size_t room_packets, std::uint64_t seed);
 
+  /// Lets the sensor begin with the first packet of the loop instead of any.
+  void begin_with_first_packet() noexcept { sensor_place_ = 0; }
+
   [[nodiscard]] std::span<const packet::Datagram> receive(std::int64_t timeout_ns) noexcept;
   void wake() const noexcept {}
   void refresh_drops() noexcept { counters_.kernel_drops = truth_.dropped; }

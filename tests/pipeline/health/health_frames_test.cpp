@@ -43,6 +43,13 @@ class HealthFrames : public testing::Test {
     }
     return NAN;
   }
+  double value(const visibility::SightFigures& sight, std::string_view signal) {
+    const auto plan = SignalPlan::make(file_, signal);
+    EXPECT_TRUE(plan) << plan.error().message;
+    const CanFrame frame = health::sight_frame(sight, 513);
+    EXPECT_EQ(frame.id, plan->id());
+    return plan->value(frame).value_or(NAN);
+  }
 
   vehicle::DbcFile file_;
   std::string text_;
@@ -109,10 +116,41 @@ TEST_F(HealthFrames, HaveTheirNamesOfValuesInTheDbc) {
     const auto name = to_string(static_cast<status::FrameMissCause>(i));
     EXPECT_THAT(text_, HasSubstr(fmt::format("{} \"{}\"", i, name)));
   }
+  for (std::size_t i = 0; i < visibility::kCauseNames.size(); ++i) {
+    EXPECT_THAT(text_, HasSubstr(fmt::format("{} \"{}\"", i, visibility::kCauseNames[i])));
+  }
+  for (std::size_t i = 0; i < visibility::kStateNames.size(); ++i) {
+    EXPECT_THAT(text_, HasSubstr(fmt::format("{} \"{}\"", i + 1, visibility::kStateNames[i])));
+  }
   for (std::size_t i = 0; i < static_cast<std::size_t>(status::LinkState::kCount); ++i) {
     const auto name = to_string(static_cast<status::LinkState>(i));
     EXPECT_THAT(text_, HasSubstr(fmt::format("{} \"{}\"", i, name)));
   }
+}
+
+TEST_F(HealthFrames, TellWhatIsInTheSensorsWayAndWhere) {
+  using visibility::Cause;
+  using visibility::State;
+  visibility::SightFigures sight;
+  EXPECT_EQ(value(sight, "View"), 0) << "the view is being learnt";
+  EXPECT_EQ(value(sight, "VisibleAhead"), 255) << "nothing was seen yet";
+  sight.has_learnt = 1;
+  for (auto& sector : sight.sectors) sector = {{}, 1, 38.9F};
+  EXPECT_EQ(value(sight, "View"), 1);
+  EXPECT_EQ(value(sight, "ViewCause"), 0);
+  EXPECT_EQ(value(sight, "TroubledSectors"), 0);
+  EXPECT_EQ(value(sight, "VisibleAhead"), 38);
+  for (const std::size_t i : {0U, 7U, 35U}) {
+    sight.sectors[i] = {{State::kBlocked, Cause::kCovered}, 1, 0};
+  }
+  sight.sectors[20].condition = {State::kReduced, Cause::kAirborne};
+  EXPECT_EQ(value(sight, "View"), 3);
+  EXPECT_EQ(value(sight, "ViewCause"), 4);
+  EXPECT_EQ(value(sight, "TroubledCount"), 4);
+  EXPECT_EQ(value(sight, "TroubledSectors"),
+            static_cast<double>(1ULL | 1ULL << 7 | 1ULL << 20 | 1ULL << 35));
+  EXPECT_EQ(value(sight, "VisibleAhead"), 0);
+  EXPECT_EQ(value(sight, "ViewAlive"), 1);
 }
 
 TEST_F(HealthFrames, GoByOtherIdsWhereTheseAreTaken) {

@@ -37,7 +37,7 @@ class HealthReporterTest : public testing::Test {
   }
   static std::uint32_t alive(const CanFrame& totals) { return totals.data[7]; }
 
-  test::SocketPair bus_;
+  test::SocketPair bus_, bus_of_view_;
   memory::FixedMemory memory_;
   std::optional<can::SocketCanSource> vehicle_;
   status::WatchedRun run_;
@@ -62,6 +62,21 @@ TEST_F(HealthReporterTest, ReportsEveryNewFrameOnce) {
   ASSERT_EQ(next.size(), 2U);
   EXPECT_EQ(next[0].data[0], newest.info.number);
   EXPECT_EQ(alive(next[1]), 1U);
+}
+
+TEST_F(HealthReporterTest, TellsTheSensorsViewWhereItIsWatched) {
+  auto source = can::SocketCanSource::adopt(
+      std::move(bus_of_view_.there), {.ids = {kHealthId, {kHealthId.number + 2, false}}}, memory_);
+  ASSERT_TRUE(source);
+  HealthReporter reporter("can1", can::CanSender::adopt(std::move(bus_of_view_.here)));
+  reporter.work_round(run_.figures(), run_.newest(), 0);
+  run_.figures().sight.is_watched = 1;
+  ++run_.figures().frames;
+  reporter.work_round(run_.figures(), run_.newest(), 0);
+  const auto frames = source->receive(0);
+  ASSERT_EQ(frames.size(), 5U) << "two of the first report, three of the second";
+  EXPECT_EQ(frames[4].id.number, kHealthId.number + 2);
+  EXPECT_EQ(alive(frames[4]), 1U);
 }
 
 TEST_F(HealthReporterTest, GoesOnReportingWhereNoFramesCome) {

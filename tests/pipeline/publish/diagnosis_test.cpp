@@ -62,6 +62,35 @@ TEST(Diagnoses, WarnOfNothingThatOnlookersAloneDidNotGet) {
   EXPECT_EQ(severity_of(diagnoses.of(*figures), "losses"), Severity::kOk);
 }
 
+TEST(Diagnoses, JudgeTheViewWhereItIsWatched) {
+  using visibility::Cause;
+  using visibility::State;
+  Diagnoses diagnoses;
+  auto figures = good_figures();
+  const auto sight = [&] {
+    const auto all = diagnoses.of(*figures);
+    const auto found = std::ranges::find(all, std::string("terracut: sight"), &Diagnosis::name);
+    return found == all.end() ? Diagnosis{} : *found;
+  };
+  EXPECT_EQ(sight().name, "") << "nobody watches it";
+  figures->sight.is_watched = 1;
+  EXPECT_EQ(sight().level, Severity::kStale);
+  figures->sight.has_learnt = 1;
+  for (auto& sector : figures->sight.sectors) sector = {{}, 1, 30};
+  EXPECT_EQ(sight().level, Severity::kOk);
+  EXPECT_EQ(sight().message, "clear");
+  figures->sight.sectors[0].condition = {State::kReduced, Cause::kAirborne};
+  EXPECT_EQ(sight().level, Severity::kWarn);
+  EXPECT_EQ(sight().message, "reduced, airborne: 1 sector, ahead");
+  figures->sight.sectors[33] = {{State::kBlocked, Cause::kCovered}, 1, 0};
+  const Diagnosis blocked = sight();
+  EXPECT_EQ(blocked.level, Severity::kError);
+  const std::pair<std::string, std::string> cause{"cause", "covered"},
+      left{"visible_ahead_left_m", "30.0"};
+  EXPECT_NE(std::ranges::find(blocked.values, cause), blocked.values.end());
+  EXPECT_NE(std::ranges::find(blocked.values, left), blocked.values.end());
+}
+
 TEST(Diagnoses, WarnOfLossesInTheSecondInWhichTheyHappened) {
   Diagnoses diagnoses;
   auto figures = good_figures();

@@ -51,6 +51,8 @@ struct WholeRun : WatchedRun {
                        .seen_height_m = 2.1,
                        .seen_roll_deg = 1,
                        .seen_pitch_deg = -2};
+    figures().sight.is_watched = figures().sight.has_learnt = 1;
+    for (auto& sector : figures().sight.sectors) sector = {{}, 1, 30};
   }
 };
 
@@ -98,6 +100,21 @@ TEST(Figures, ExplainEveryMetricAndNameEachSampleOnce) {
     }
     EXPECT_TRUE(samples.insert(sample).second) << sample;
   }
+}
+
+TEST(Figures, TellTheSensorsViewWhereItIsWatched) {
+  WholeRun run;
+  visibility::SightFigures& sight = run.figures().sight;
+  sight.sectors[0].condition = {visibility::State::kReduced, visibility::Cause::kFog};
+  const auto lines = [&] { return figure_lines(figures_of(sight), {}); };
+  EXPECT_EQ(lines(), "sight     reduced, fog: 1 sector, ahead\n");
+  sight.left_out_turns = 100;
+  EXPECT_NE(lines().find("turns left out for want of packets: 100"), std::string::npos);
+  EXPECT_TRUE(are_possible(run.figures()));
+  sight.sectors[7].condition.state = visibility::State::kCount;
+  EXPECT_FALSE(are_possible(run.figures())) << "no process has such a state";
+  sight.is_watched = 0;
+  EXPECT_TRUE(figures_of(sight).empty());
 }
 
 /// Whatever passes the check is shown.

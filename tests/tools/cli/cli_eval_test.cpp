@@ -376,6 +376,8 @@ TEST_F(CliEval, NamesWhatIsInTheWayOfTheView) {
   const auto sight = json("sight.json").at("methods").at("terracut").at("sight");
   EXPECT_EQ(sight.at("turns").get<int>(), 25);
   EXPECT_EQ(sight.at("alarms").get<int>(), 0);
+  EXPECT_EQ(sight.at("standing_turns").get<int>(), 150);
+  EXPECT_EQ(sight.at("standing_alarms").get<int>(), 0);
   for (const auto& effect : sight.at("effects")) {
     EXPECT_EQ(effect.at("named").get<int>(), 1) << effect;
     EXPECT_LE(effect.at("most_turns").get<int>(), 10) << effect;

@@ -3,6 +3,7 @@
 // `terracut live` hears sensors that play captures. How fast is not tested: a machine may be busy.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <vector>
@@ -101,6 +102,38 @@ TEST_F(CliLive, LabelsWhatIsSentToIt) {
     EXPECT_GT(entry.file_size(), 0U);
   }
   EXPECT_TRUE(json("trace.json").contains("traceEvents"));
+}
+
+TEST_F(CliLive, SaysWhatTakesTheSensorsViewAway) {
+  std::vector<std::uint8_t> packet;
+  test::rewrite_capture(kDrive, folder_ / "covered.pcap", [&](auto datagram, auto, auto& write) {
+    packet.assign(datagram.payload.begin(), datagram.payload.end());
+    constexpr std::size_t kPacketBytes = 1206, kBlockBytes = 100, kBlocks = 12;
+    for (std::size_t at = 0; packet.size() == kPacketBytes && at < kBlocks * kBlockBytes;
+         at += kBlockBytes) {
+      const int head_cdeg = packet[at + 2] | packet[at + 3] << 8;
+      if (head_cdeg < 12'000 || head_cdeg > 18'000) continue;
+      std::fill_n(packet.begin() + static_cast<std::ptrdiff_t>(at) + 4, kBlockBytes - 4, 0);
+    }
+    datagram.payload = packet;
+    write(datagram);
+  });
+  LiveRun run = live_with_table("--sight --json live.json");
+  {
+    const Sensors clear = sensor(run);
+    EXPECT_TRUE(run.shows([](const auto& figures) { return figures.sight.has_learnt != 0; }));
+  }
+  const Sensors covered({Sensors::kLocalhost}, {{Sensors::kAnyPort, run.port()}},
+                        folder_ / "covered.pcap");
+  EXPECT_TRUE(run.says("warning: the sensor's view is blocked, covered: "));
+  EXPECT_TRUE(run.shows([](const auto& figures) {
+    return figures.sight.in(visibility::Direction::kBehindRight).troubled > 0;
+  }));
+  const Outcome outcome = run.interrupted();
+  EXPECT_THAT(outcome.out, HasSubstr("sight     blocked, covered: "));
+  const auto sight = json("live.json").at("sight");
+  EXPECT_EQ(sight.at("state"), "blocked");
+  EXPECT_EQ(sight.at("directions").at("left").at("troubled_sectors"), 0);
 }
 
 TEST_F(CliLive, EndsByItselfAfterTheTimeItIsGiven) {

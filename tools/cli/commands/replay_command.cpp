@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "firmware_io/scan/label_file.hpp"
+#include "pipeline/visibility/sight_news.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/figures/run_report.hpp"
 #include "tools/cli/input/labelled_capture.hpp"
@@ -136,11 +137,21 @@ class Replay {
     const std::span<const std::uint32_t> truth = truth_.read(name, info.returns);
     if (!truth.empty()) capture_.report().score(labels, truth);
     if (frame.image != nullptr) {
-      outputs_.look(*frame.image, *frame.as_measured, labels, capture_.heights_m());
+      outputs_.look(*frame.image, *frame.as_measured, labels, capture_.heights_m(),
+                    visibility::SightWatch::is_whole(info, frame.image->shape()));
+      note_sight(info);
     }
     sinks_ = outputs_.write_labels(name, labels, outputs_.object_of_return());
     if (sinks_ && frame.image != nullptr) sinks_ = write_points(name, frame, truth);
     progress_.update(static_cast<double>(capture_.report().totals.frames));
+  }
+
+  /// Keeps how far the sensor sees for the report, and prints what changes.
+  void note_sight(const FrameInfo& info) {
+    visibility::SightFigures& sight = capture_.report().sight;
+    sight = outputs_.sight();
+    const auto news = sight_news_.look(sight, info.last_packet_ns);
+    if (!news.text.empty()) say(fmt::format("frame {}: {}", info.number, news.text));
   }
 
   [[nodiscard]] Status write_points(const std::string& name, const run::Frame& frame,
@@ -168,6 +179,7 @@ class Replay {
   LabelledCapture& capture_;
   FrameOutputs outputs_;
   FrameTruth truth_;
+  visibility::SightNews sight_news_;
   Pace pace_;
   Progress progress_;
   Status sinks_;

@@ -219,6 +219,7 @@ std::vector<Figure> Report::summary_figures() const {
   }
   std::ranges::copy(status::figures_of(mount), std::back_inserter(figures));
   std::ranges::copy(status::figures_of(blind), std::back_inserter(figures));
+  std::ranges::copy(status::figures_of(sight), std::back_inserter(figures));
   if (motion_samples) {
     std::ranges::copy(motion_figures(*motion_samples, totals), std::back_inserter(figures));
   }

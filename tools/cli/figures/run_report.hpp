@@ -17,6 +17,7 @@
 #include "pipeline/status/figure.hpp"
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/mount_figures.hpp"
+#include "pipeline/visibility/sight_figures.hpp"
 #include "rt/error.hpp"
 #include "rt/measure/log_linear_histogram.hpp"
 #include "tools/cli/exit_codes.hpp"
@@ -77,6 +78,7 @@ struct Report {
   std::optional<capture::CaptureAccount> datagrams{};  ///< For a capture.
   frame::BlindAzimuths blind{};  ///< Where the sensor sends nothing, as known at the end.
   status::MountFigures mount{};
+  visibility::SightFigures sight{};
   /// Samples of the vehicle's motion; set before the first frame in runs that deskew.
   std::optional<std::uint64_t> motion_samples{};
   /// Points of scan files: those without a return (null or not finite), labelled 0, and those
@@ -111,7 +113,7 @@ struct Report {
   ///                   ms{stage: {count, mean, p50, p90, p99, p99.9, max}};
   ///                   of a capture datagrams{what became of them: count; read: their sum};
   ///                   with truth iou_g, recall_o, unscored_frames; of scans points_no_place,
-  ///                   points_no_ring; mount and blind as of a live run; with a CAN recording
+  ///                   points_no_ring; mount, blind and sight as of a live run; with a CAN recording
   ///                   motion{samples, deskewed_frames, newest_sample_after_frame_ms{min, median,
   ///                   max}}
   [[nodiscard]] Status write_json(const std::filesystem::path& path);

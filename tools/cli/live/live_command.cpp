@@ -157,7 +157,8 @@ class Waiting {
 live::LiveConfig live_config_of(const Options& options, const streams::SensorOnAir& sensor,
                                 VehicleBus* bus) {
   const RealtimeOptions& realtime = options.realtime;
-  const bool wants_points = !options.stream.empty() || wants_sinks(options.output);
+  const bool wants_points =
+      !options.stream.empty() || wants_sinks(options.output) || options.method.scene.sight;
   live::LiveConfig config;
   config.decoder = decoder_config_of(options, sensor.columns);
   config.reorder_packets = options.capture.reorder_packets.value_or(config.reorder_packets);
@@ -205,14 +206,20 @@ class Writers {
                   sensor.model, deadline_ns, options.stream_sectors};
       }
       std::unique_ptr<points::SceneOfPoints> scene;
-      if (options.method.scene.any()) {
-        const decode::Decoder& decoder = parts.turns.decoder();
+      std::unique_ptr<points::SightOfPoints> sight;
+      const decode::Decoder& decoder = parts.turns.decoder();
+      if (options.method.scene.without_sight().any()) {
         scene = std::make_unique<points::SceneOfPoints>(options.method.scene, profile,
                                                         decoder.shape(), decoder.return_capacity(),
                                                         decoder.beam_turns());
       }
+      if (options.method.scene.sight) {
+        sight = std::make_unique<points::SightOfPoints>(
+            profile, decoder.shape(), decoder.return_capacity(), decoder.beam_turns());
+      }
       outlet_.emplace(std::move(stream), *publisher_, *parts.thread.points(),
-                      parts.thread.sectors(), parts.thread.points_ready(), std::move(scene));
+                      parts.thread.sectors(), parts.thread.points_ready(), std::move(scene),
+                      std::move(sight));
     }
     if (parts.thread.labels()) labels_.emplace(options.output, *parts.thread.labels());
     if (parts.recorder) {

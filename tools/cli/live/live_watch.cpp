@@ -101,6 +101,7 @@ void LiveWatch::refresh() {
   refresh_threads(figures);
   if (const ground::NearGround* ground = parts_.thread.near_ground()) mount_->add_frame(*ground);
   figures.mount = mount_->figures();
+  refresh_sight(figures);
   if (parts_.motion) parts_.motion->show(figures.motion);
   if (health_) {
     health_->work_round(figures, parts_.monitor.newest(), measure::monotonic_ns());
@@ -116,6 +117,19 @@ void LiveWatch::publish_figures() {
   if (publisher_ == nullptr || now_ns < publish_figures_at_ns_) return;
   publish_figures_at_ns_ = now_ns + kEvery_ns;
   publisher_->put_figures(parts_.monitor.snapshot());
+}
+
+void LiveWatch::refresh_sight(status::MonitorSnapshot& figures) {
+  if (outlet_ == nullptr) return;
+  figures.sight = outlet_->sight();
+  const auto news = sight_news_.look(figures.sight, figures.taken_ns);
+  if (news.text.empty()) return;
+  if (news.is_trouble) {
+    warn(news.text);
+  } else {
+    say(news.text);
+  }
+  publish_figures_at_ns_ = 0;
 }
 
 void LiveWatch::refresh_threads(status::MonitorSnapshot& figures) {

@@ -14,6 +14,7 @@
 #include "pipeline/live/live_parts.hpp"
 #include "pipeline/status/input_status.hpp"
 #include "pipeline/status/stolen_time_share.hpp"
+#include "pipeline/visibility/sight_news.hpp"
 #include "rt/measure/stolen_time.hpp"
 #include "tools/cli/input/mount_watch.hpp"
 #include "tools/cli/options.hpp"
@@ -30,8 +31,9 @@ class LiveWatch {
             live::LiveParts& parts, FiguresDisplay& display);
 
   /// Opens health reports on a CAN bus; if that fails, warns, and the run goes on without them.
-  /// From now on shows the losses of `outlet`, which may be null, and of `publisher`, and hands the
-  /// figures to both every second. Both must outlive this object.
+  /// From now on shows the losses of `outlet`, which may be null, and of `publisher`, and how far
+  /// the sensor sees by `outlet`; hands the figures to `publisher` every second, and whenever the
+  /// sensor's view becomes another. Both must outlive this object.
   void open(const std::string& sensor, const std::string& input, const live::FrameOutlet* outlet,
             publish::Publisher& publisher);
 
@@ -59,6 +61,7 @@ class LiveWatch {
   void refresh_input(status::MonitorSnapshot& figures);
   void refresh_losses(status::MonitorSnapshot& figures);
   void refresh_threads(status::MonitorSnapshot& figures);
+  void refresh_sight(status::MonitorSnapshot& figures);
 
   const Options& options_;
   live::LiveParts& parts_;
@@ -67,6 +70,7 @@ class LiveWatch {
   std::int64_t publish_figures_at_ns_ = 0;  ///< CLOCK_MONOTONIC
   FiguresDisplay& display_;
   std::unique_ptr<MountWatch> mount_;
+  visibility::SightNews sight_news_;
   status::InputStatus input_;
   std::optional<status::StolenTimeShare<measure::StolenTime>> stolen_;
   bool over_ = false;

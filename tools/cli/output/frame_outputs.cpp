@@ -42,8 +42,9 @@ void FrameOutputs::find_scene(scene::Wanted wanted, const mount::RingProfile& pr
 }
 
 void FrameOutputs::look(const frame::RangeImage& image, const frame::RangeImage& as_measured,
-                        std::span<const Label> labels, std::span<const float> heights_m) {
-  if (finder_) finder_->find(image, as_measured, labels, heights_m);
+                        std::span<const Label> labels, std::span<const float> heights_m,
+                        bool is_whole) {
+  if (finder_) finder_->find(image, as_measured, labels, heights_m, is_whole);
 }
 
 Status FrameOutputs::write_labels(const std::string& name, std::span<const Label> labels,

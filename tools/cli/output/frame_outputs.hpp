@@ -48,7 +48,12 @@ class FrameOutputs {
 
   /// Looks at a frame before it is written. The arguments are those of scene::SceneFinder::find().
   void look(const frame::RangeImage& image, const frame::RangeImage& as_measured,
-            std::span<const frame::Label> labels, std::span<const float> heights_m);
+            std::span<const frame::Label> labels, std::span<const float> heights_m,
+            bool is_whole = true);
+  /// Returns how far the sensor sees, by the frames so far, as scene::SceneFinder.
+  [[nodiscard]] visibility::SightFigures sight() const noexcept {
+    return finder_ ? finder_->sight() : visibility::SightFigures();
+  }
   /// Returns the number of each return's object; empty unless objects are found.
   [[nodiscard]] std::span<const std::uint16_t> object_of_return() const noexcept {
     return finder_ ? finder_->object_of_return() : std::span<const std::uint16_t>();

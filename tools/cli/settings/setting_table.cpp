@@ -236,6 +236,8 @@ constexpr std::array kSettings{
             .bare = "yes", .excludes = "--method", .field = [](O& o) -> F { return &o.method.scene.objects; }},
     Setting{.key = "output.free_way", .option = "--free-way", .commands = kPublished | C::kView, .help = "The free way of each frame, too: by direction the nearest obstacle, and up to where ground was seen, in messages and pictures; with --heights (docs/guide/free_way.md)",
             .bare = "yes", .excludes = "--method", .field = [](O& o) -> F { return &o.method.scene.free_way; }},
+    Setting{.key = "output.sight", .option = "--sight", .commands = C::kReplay | C::kLive, .help = "How far the sensor sees in each direction, too, and what is in its way, in figures and messages; with --heights (docs/guide/how_far_it_sees.md)",
+            .bare = "yes", .excludes = "--method", .field = [](O& o) -> F { return &o.method.scene.sight; }},
     Setting{.key = "output.png", .option = "--png", .commands = kFrames, .help = "Folder for pictures: from above and as the sensor sees it",
             .writes = Kind::kFrames, .ending = ".png", .field = [](O& o) -> F { return &o.output.png; }},
     Setting{.option = "--overwrite", .commands = kFrames | C::kLive | C::kCompare, .help = "In these folders, take away what was made of another input, too; of the same input it is always replaced",

@@ -23,6 +23,19 @@ double centimetres(float metres) {
   return std::round(static_cast<double>(metres) * 100) / 100;
 }
 
+nlohmann::ordered_json sight_json(const visibility::SightFigures& sight) {
+  nlohmann::ordered_json json{{"state", sight.has_learnt == 0 ? "learning"
+                                                              : to_string(sight.worst().state)},
+                              {"text", sight_text(sight)},
+                              {"sectors", nlohmann::ordered_json::array()}};
+  for (const visibility::SightFigures::Sector& sector : sight.sectors) {
+    const bool is_judged = sight.has_learnt != 0 && sector.has_view != 0;
+    json["sectors"].push_back({is_judged ? to_string(sector.condition.state) : "unknown",
+                               centimetres(sector.visible_m)});
+  }
+  return json;
+}
+
 }  // namespace
 
 ViewFrames::ViewFrames(const publish::RunFacts& facts) : facts_(facts) {}
@@ -148,6 +161,7 @@ nlohmann::ordered_json ViewFrames::figures() const {
   add("deadlines_missed", run_->all_misses());
   add("frames_skipped", run_->levels[static_cast<std::size_t>(status::Level::kSkipped)]);
   for (const status::NamedCount& loss : run_->losses_in_use()) add(loss.name.view(), loss.count);
+  if (run_->sight.is_watched != 0) json["sight"] = sight_json(run_->sight);
   return json;
 }
 

@@ -53,7 +53,9 @@ class ViewFrames {
   [[nodiscard]] Message sector_after(std::uint64_t seen) const;
   /// Returns the figures for the page: sensor, rows, deadline_ms or null, frames[] as [ms, level,
   /// missed], losses[] and onlookers[] as [cause, count] (status::is_of_onlookers()); objects and
-  /// free_way, whether there are any; silent_s if the sensor is silent.
+  /// free_way, whether there are any; silent_s if the sensor is silent; sight
+  /// if the view is watched: state, text, sectors[] clockwise from straight ahead as [state,
+  /// visible_m].
   [[nodiscard]] nlohmann::ordered_json figures() const;
   /// Returns what was found in a frame for the page, in the vehicle frame: boxes[] of objects, of
   /// four corners [x_m, y_m], bottom_m and top_m; free_way[], the corners [x_m, y_m] of the free

@@ -13,7 +13,11 @@ namespace terracut::sight_measures {
 using Json = nlohmann::ordered_json;
 
 Json sight_json(const SightCounts& counts) {
-  Json json{{"turns", counts.turns}, {"alarms", counts.alarms}, {"effects", Json::array()}};
+  Json json{{"turns", counts.turns},
+            {"alarms", counts.alarms},
+            {"standing_turns", counts.standing_turns},
+            {"standing_alarms", counts.standing_alarms},
+            {"effects", Json::array()}};
   for (std::size_t i = 0; i < counts.effects.size(); ++i) {
     const EffectCounts& effect = counts.effects[i];
     if (effect.sequences == 0) continue;
@@ -29,9 +33,13 @@ Json sight_json(const SightCounts& counts) {
 
 std::string sight_text(const std::string& method, const Json& json) {
   std::string text = fmt::format(
-      "{}: visibility: {} turns as they are, {} with a false alarm\n| effect | is named | "
+      "{}: visibility: {} turns as they are, {} with a false alarm; as if the sensor stood at "
+      "each, {} "
+      "turns, {} with one\n| effect | is named | "
       "sequences | named | after at most | turns with another name |\n|---|---|---|---|---|---|\n",
-      method, json.at("turns").get<std::uint64_t>(), json.at("alarms").get<std::uint64_t>());
+      method, json.at("turns").get<std::uint64_t>(), json.at("alarms").get<std::uint64_t>(),
+      json.at("standing_turns").get<std::uint64_t>(),
+      json.at("standing_alarms").get<std::uint64_t>());
   for (const Json& effect : json.at("effects")) {
     text += fmt::format(
         "| {} | {} | {} | {} | {} turns | {} |\n", effect.at("effect").get<std::string>(),

@@ -9,7 +9,8 @@
 
 namespace terracut::sight_measures {
 
-/// Returns {turns, alarms, effects[] {effect, cause, sequences, named, most_turns, wrong_turns}}.
+/// Returns {turns, alarms, standing_turns, standing_alarms, effects[] {effect, cause, sequences,
+/// named, most_turns, wrong_turns}}.
 [[nodiscard]] nlohmann::ordered_json sight_json(const SightCounts& counts);
 
 /// Returns the result of sight_json() as a table for people and documents.

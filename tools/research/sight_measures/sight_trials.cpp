@@ -16,7 +16,7 @@ using visibility::Visibility;
 
 SightTrials::Runs& SightTrials::runs_of(const eval::LabelledByAll& frame, std::size_t method) {
   Runs& runs = runs_[{method, frame.sequence}];
-  while (runs.size() < 1 + sight_effects().size()) {
+  while (runs.size() < 2 + sight_effects().size()) {
     auto run = std::make_unique<Run>();
     run->visibility = std::make_unique<Visibility>(Visibility::Config{}, frame.profile,
                                                    frame.image.shape(), run->memory);
@@ -32,8 +32,14 @@ void SightTrials::look(const eval::LabelledByAll& frame) {
     Runs& runs = runs_of(frame, method);
     turn = ++runs[0]->turns;
     for (const auto& run : runs) {
-      if (run != runs[0] && turn > kCleanTurns) break;
+      if (run == runs.back() || (run != runs[0] && turn > kCleanTurns)) break;
       run->visibility->look(frame.image, frame.planes_of(method));
+    }
+    Run& standing = *runs.back();
+    for (int i = 0; i < kStandingTurns; ++i) {
+      ++standing.turns;
+      standing.visibility->look(frame.image, frame.planes_of(method));
+      standing.alarms += standing.visibility->worst().cause != Cause::kNone ? 1 : 0;
     }
     runs[0]->alarms += runs[0]->visibility->worst().cause != Cause::kNone ? 1 : 0;
   }
@@ -63,6 +69,8 @@ SightCounts SightTrials::counts(std::size_t method) const {
     if (key.first != method) continue;
     counts.turns += static_cast<std::uint64_t>(runs[0]->turns);
     counts.alarms += runs[0]->alarms;
+    counts.standing_turns += static_cast<std::uint64_t>(runs.back()->turns);
+    counts.standing_alarms += runs.back()->alarms;
     for (std::size_t i = 0; i < counts.effects.size(); ++i) {
       const Run& run = *runs[i + 1];
       if (run.turns == 0) continue;

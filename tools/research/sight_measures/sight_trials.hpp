@@ -30,15 +30,19 @@ struct EffectCounts {
 struct SightCounts {
   std::uint64_t turns = 0;            ///< Of the sequences as they are, ...
   std::uint64_t alarms = 0;           ///< ... in so many of which something was named.
+  std::uint64_t standing_turns = 0;   ///< Of the sequences as if the sensor stood, ...
+  std::uint64_t standing_alarms = 0;  ///< ... in so many of which something was named.
   std::vector<EffectCounts> effects;  ///< By sight_effects().
 };
 
-/// Looks at the frames of sequences, which follow each other, as they are: whatever is named is a
-/// false alarm. Then lets each effect begin at turn kCleanTurns, and looks when it is named. For
-/// any thread; but frames of a sequence must come in order.
+/// Looks at the frames of sequences, which follow each other, as they are, and each kStandingTurns
+/// times, as if the sensor stood there, so that short sequences are more than learnt: whatever is
+/// named is a false alarm. Then lets each effect begin at turn kCleanTurns, and looks when it is
+/// named. For any thread; but frames of a sequence must come in order.
 class SightTrials {
  public:
   static constexpr int kCleanTurns = 15;
+  static constexpr int kStandingTurns = 6;
 
   /// `methods` and `classes` must outlive this object.
   SightTrials(std::span<const eval::MethodChoice> methods, const datasets::ClassTable& classes,
@@ -59,7 +63,7 @@ class SightTrials {
     std::uint64_t alarms = 0;  ///< Turns with a cause that is not the effect's.
     int named_after = 0;       ///< Turns of the effect; 0: not named.
   };
-  /// The runs of a sequence and method: as it is, then by effect.
+  /// The runs of a sequence and method: as it is, then by effect, then as if the sensor stood.
   using Runs = std::vector<std::unique_ptr<Run>>;
 
   Runs& runs_of(const eval::LabelledByAll& frame, std::size_t method);

@@ -142,6 +142,27 @@ TEST_F(Page, IsCompleteInItself) {
   EXPECT_EQ(get("/../../etc/passwd").status, 404);
 }
 
+TEST_F(Page, SaysHowFarTheSensorSeesWhereThatIsWatched) {
+  status::MonitorSnapshot run;
+  EXPECT_TRUE(sink_->put_figures(run));
+  EXPECT_FALSE(figures().contains("sight"));
+  run.sight.is_watched = 1;
+  EXPECT_TRUE(sink_->put_figures(run));
+  EXPECT_EQ(figures().at("sight").at("state"), "learning");
+  run.sight.has_learnt = 1;
+  for (auto& sector : run.sight.sectors) sector = {{}, 1, 38.254F};
+  run.sight.sectors[33].condition = {visibility::State::kBlocked, visibility::Cause::kCovered};
+  run.sight.sectors[20].has_view = 0;
+  EXPECT_TRUE(sink_->put_figures(run));
+  const json sight = figures().at("sight");
+  EXPECT_EQ(sight.at("state"), "blocked");
+  EXPECT_EQ(sight.at("text"), "blocked, covered: 1 sector, ahead left");
+  ASSERT_EQ(sight.at("sectors").size(), 36U);
+  EXPECT_EQ(sight.at("sectors").at(0), json::array({"clear", 38.25}));
+  EXPECT_EQ(sight.at("sectors").at(33).at(0), "blocked");
+  EXPECT_EQ(sight.at("sectors").at(20).at(0), "unknown");
+}
+
 TEST_F(Page, AnswersBrowsersThatAskThisMachineForItsOwnPageAlone) {
   const std::string here = "127.0.0.1:" + std::to_string(port_);
   const std::string host = "Host: " + here + "\r\n";

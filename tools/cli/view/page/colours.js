@@ -6,6 +6,9 @@
 // By kind: what may be driven on, other ground, obstacles, no label. Told apart by brightness, too.
 export const KINDS = { road: [84, 132, 170], ground: [112, 134, 104], obstacle: [255, 176, 92], box: [120, 214, 240], way: [72, 200, 150], none: [92, 92, 100] };
 
+// By the state of a direction in which the sensor looks.
+export const STATES = { clear: [58, 104, 118], reduced: [230, 179, 90], blocked: [239, 111, 108] };
+
 const RAMPS = {
   // Dark blue over green to yellow, even in brightness.
   height: [[62, 74, 137], [49, 104, 142], [38, 130, 142], [31, 158, 137], [73, 193, 109], [160, 218, 57], [253, 231, 37]],

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 
-// Draws points as they lie in the stream, boxes of objects, the free way, circles ten metres apart, and the vehicle.
+// Draws points as they lie in the stream, boxes of objects, the free way, circles ten metres apart, the vehicle, and how
+// far the sensor sees around it.
 
-import { KINDS, RAMP_STEPS, RANGES, ramp } from "./colours.js";
+import { KINDS, RAMP_STEPS, RANGES, STATES, ramp } from "./colours.js";
 
 const POINTS = `#version 300 es
 layout(location = 0) in vec3 place;
@@ -88,6 +89,25 @@ function boxSegments(boxes) {
   return new Float32Array(places);
 }
 
+// An arc of each sector in one of the states, at the range up to which it sees; of a blocked one the sector's edge, too.
+// Sectors are [state, visible_m], clockwise from straight ahead.
+const LEAST_RING_M = 3;
+function sightSegments(sectors, state) {
+  const places = [];
+  sectors.forEach(([of, visible], i) => {
+    if (of !== state) return;
+    const place = (turns, radius) => [radius * Math.cos(2 * Math.PI * turns), -radius * Math.sin(2 * Math.PI * turns), 0.05, 1];
+    const radius = Math.max(visible, LEAST_RING_M);
+    const parts = 5;
+    for (let part = 0; part < parts; ++part) {
+      const [from, to] = [part, part + 1].map((at) => (i + at / parts) / sectors.length);
+      places.push(...place(from, radius), ...place(to, radius));
+      if (state === "blocked") places.push(...place(from, radius), ...place(from, 10));
+    }
+  });
+  return new Float32Array(places);
+}
+
 // The line around the free area, of these corners.
 function outlineSegments(corners) {
   return new Float32Array(corners.flatMap((corner, i) => [...corner, 0, 1, ...corners[(i + 1) % corners.length], 0, 1]));
@@ -128,6 +148,7 @@ export class Scene {
     const places = lineSegments();
     this.floor = this.lineLayout(places);
     this.boxes = this.lineLayout(new Float32Array(0));
+    this.sight = Object.keys(STATES).map((state) => ({ state, lines: this.lineLayout(new Float32Array(0)) }));
     this.wayOutline = this.lineLayout(new Float32Array(0));
     this.wayArea = this.lineLayout(new Float32Array(0));
     gl.enable(gl.DEPTH_TEST);
@@ -157,6 +178,9 @@ export class Scene {
     lines.vertices = places.length / 4;
     gl.bindBuffer(gl.ARRAY_BUFFER, lines.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, places, gl.STREAM_DRAW);
+  }
+  setSight(sectors) {
+    for (const { state, lines } of this.sight) this.setPlaces(lines, sightSegments(sectors, state));
   }
 
   // Draws the free area below everything, however the ground slopes.
@@ -226,6 +250,7 @@ export class Scene {
     gl.uniformMatrix4fv(this.lines.uniform("view"), false, view);
     if (look.shown.has("way")) this.drawWay(unit(KINDS.way));
     this.drawLines(this.floor, [0.415, 0.515, 0.594]);
+    for (const { state, lines } of this.sight) this.drawLines(lines, unit(STATES[state]));
     if (look.shown.has("box")) this.drawLines(this.boxes, unit(KINDS.box));
     if (this.pieces.length === 0) return;
 

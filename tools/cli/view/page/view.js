@@ -216,8 +216,19 @@ async function watch() {
 const durationText = (seconds) => (seconds < 120 ? `${Math.round(seconds)} s` : `${Math.round(seconds / 60)} min`);
 const countText = (cause, count) => `${count} ${cause.replaceAll("_", " ")}`;
 
+// How far the sensor sees, where that is watched.
+function showSight(sight) {
+  at("sight").hidden = !sight;
+  scene.setSight(sight ? sight.sectors : []);
+  isDirty = true;
+  if (!sight) return;
+  at("sight").dataset.state = sight.state;
+  at("sight").textContent = `view ${sight.text}`;
+}
+
 function show(figures) {
   at("sensor").textContent = figures.sensor;
+  showSight(figures.sight);
   const kinds = [...FOUND].filter(([, figure]) => figures[figure]).map(([kind]) => kind);
   if (kinds.length !== found.kinds.size) {
     found.kinds = new Set(kinds);

@@ -72,7 +72,9 @@ Condition SightFigures::worst() const noexcept {
 }
 
 int SightFigures::troubled_sectors() const noexcept {
-  return static_cast<int>(std::ranges::count_if(sectors, is_troubled));
+  int troubled = 0;
+  for (const Sector& sector : sectors) troubled += is_troubled(sector) ? 1 : 0;
+  return troubled;
 }
 
 SightFigures::Of SightFigures::in(Direction direction) const noexcept {

@@ -2,11 +2,12 @@
 # Copyright 2026 The terracut authors
 """What tools/beside_peer makes of a peer's answers; the peers are made up here, and so is where they come from.
 
-    beside_peer_test.py MADE_UP_PEER
+    beside_peer_test.py MADE_UP_PEER MADE_UP_OBJECT_PEER OBJECT_ENTROPIES
 """
 
 import io
 import json
+import math
 import os
 import struct
 import subprocess
@@ -22,6 +23,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tools/research"))
 from peers import main as tool  # noqa: E402
 from peers.drives import Drive, kitti_scan, roles  # noqa: E402
 from peers.hazards import Found, Scans, disturbance_rows, hazard_rows  # noqa: E402
+from peers.objects import NAMES, beside, rows  # noqa: E402
 from peers.programs import FROM_PACKETS, PASSES, Peer  # noqa: E402
 from peers.sources import PeerSource, Source, Unavailable, build, fetch  # noqa: E402
 
@@ -127,6 +129,78 @@ class Hazards(InAFolder):
         self.assertEqual(rows, {"ghosts_1": [[(0.5, 1.0)]], "nothing": [[(1.0, 1.0)]]})
 
 
+class Objects(InAFolder):
+    """A car of 10 returns and a person of 10, whom the made-up peer cuts in two: it finds an object a metre of x. A return of the
+    road is taken for an obstacle, in the car's object; an unlabelled one does not matter."""
+
+    CAR, PERSON = 10 | 1 << 16, 30 | 2 << 16
+    POINTS = (  # x, entry of the truth, label by terracut
+        *zip([0.05 * i for i in range(10)], [CAR] * 10, [99] * 10),
+        *zip([5 + 0.2 * i for i in range(10)], [PERSON] * 10, [99] * 10),
+        (0.5, 40, 99),
+        (0.6, 0, 99),
+        (5.1, 40, 40),
+    )
+    # As the made-up peer finds them.
+    COUNTED = {
+        "frames": 1,
+        "milliseconds": 0.5,
+        "ose": {"mean": math.log(2), "deviation": 0.0},
+        "use": {"mean": -sum(share * math.log(share) for share in (10 / 12, 2 / 12)), "deviation": 0.0},
+        "instances": [
+            {"kind": "cars", "instances": 1, "found": 1, "false_objects": 0, "pq": 10 / 11},
+            {"kind": "persons", "instances": 1, "found": 0, "false_objects": 2, "pq": 0.0},
+            {"kind": "two-wheelers", "instances": 0, "found": 0, "false_objects": 0, "pq": None},
+        ],
+    }
+
+    class Terracut:
+        """Labels as POINTS say and finds what the made-up peer finds; counts as told."""
+
+        def __init__(self, counted):
+            self.counted = counted
+
+        def run(self, command, *arguments):
+            after = dict(zip(arguments, arguments[1:]))
+            if command == "segment":
+                labels = [label | (int(x) + 1) << 16 if label == 99 else label for x, _, label in Objects.POINTS]
+                after["--labels"].mkdir(parents=True)
+                (after["--labels"] / "000007.label").write_bytes(array("I", labels).tobytes())
+            else:
+                none = {"frames": 0}
+                after["--json"].write_text(json.dumps({"methods": {"m": {"objects": {"tuned": self.counted, "unseen": none}}}}))
+
+    def beside(self, counted):
+        folder = self.root / "root/sequences/00"
+        for kind in ("velodyne", "labels"):
+            (folder / kind).mkdir(parents=True)
+        points = array("f", [value for x, _, _ in self.POINTS for value in (x, 0, 0, 0)])
+        (folder / "velodyne/000007.bin").write_bytes(points.tobytes())
+        (folder / "labels/000007.label").write_bytes(array("I", [true for _, true, _ in self.POINTS]).tobytes())
+        scratch = self.root / "scratch"
+        scratch.mkdir()
+        peers = [Peer("p", MADE_UP_OBJECT_PEER, None)]
+        return beside(self.Terracut(counted), peers, [Path(OBJECT_ENTROPIES)] * 2, [self.root / "root"], scratch)
+
+    def test_numbers_go_to_the_peer_and_back_and_are_scored(self):
+        (ours, peer), difference = self.beside(self.COUNTED)
+        self.assertEqual(difference, 0)
+        self.assertEqual(ours.entropies, peer.entropies)
+        self.assertEqual(ours.ms["tuned"], [0.5])
+        cells = dict(zip(NAMES, dict(rows([ours, peer]))["p"]))
+        self.assertEqual(cells["OSE"], "0.7 (0.0) / -")
+        self.assertEqual(cells["USE"], "0.5 (0.0) / -")
+        self.assertEqual(cells["in objects, %"], "100 / -")
+        self.assertEqual(cells["cars: PQ, recall"], "90.9, 100.0 / -")
+        self.assertEqual(cells["persons: PQ, recall"], "0.0, 0.0 / -")
+        self.assertEqual(cells["two-wheelers: PQ, recall"], "- / -")
+
+    def test_another_count_by_terracut_is_refused(self):
+        with self.assertRaises(SystemExit) as refused:
+            self.beside(self.COUNTED | {"use": {"mean": 0.4, "deviation": 0.0}})
+        self.assertIn("tuned: mean of USE 0.400, not 0.451", str(refused.exception))
+
+
 class Clouds(unittest.TestCase):
     def test_a_decoded_frame_becomes_a_scan_in_the_sensors_frame(self):
         header = b"# .PCD v0.7\nFIELDS x y z intensity ring label\nSIZE 4 4 4 4 2 2\nDATA binary\n"
@@ -207,5 +281,6 @@ class Sources(InAFolder):
 
 
 if __name__ == "__main__":
-    MADE_UP_PEER = sys.argv.pop()
+    MADE_UP_PEER, MADE_UP_OBJECT_PEER, OBJECT_ENTROPIES = sys.argv[-3:]
+    del sys.argv[-3:]
     unittest.main()

@@ -18,6 +18,15 @@ their means over recorded and over simulated drives. The program is build/releas
 With `--hazards` no time is measured. `terracut eval hazards` puts hazards into the scans of the given roots, every program
 labels the same clouds, and the tables show what each of them finds, counted as `eval hazards` counts. terracut is
 build/release/tests/bench/cloud_peer then.
+
+With `--objects` every program finds objects among the same obstacles, those of terracut, in the labelled scans of the given
+roots. A peer (`--peer`; Euclidean clusters are at hand) is called as above; beside every SCAN.bin lies SCAN.label, where 99 is
+an obstacle, and it writes the object of each point, or 0, into its labels' upper 16 bits. Shown are, of the sequences that
+terracut's parameters were chosen on / of the others: over- and under-segmentation entropy, mean (deviation) over frames;
+how many returns of what can be an object are in one (what is in none costs no entropy if it is whole); panoptic quality and
+recall of numbered instances, %; processor time for the objects alone, the shortest of three, its mean over
+frames and how many times terracut's that is. `--judge PROGRAM SCAN.bin TRUE.label FOUND.label...` may count the entropies in
+our place: it prints those of each FOUND, a line each.
 """
 
 import argparse
@@ -32,8 +41,9 @@ from pathlib import Path
 from chosen_names import names_of
 from peers.drives import recorded, roles, simulated
 from peers.hazards import Found, disturbance_rows, hazard_rows, written
+from peers.objects import NAMES, beside, rows
 from peers.programs import FROM_PACKETS, Peer, Terracut
-from peers.sources import PEERS, Unavailable, build
+from peers.sources import JUDGE, OBJECT_PEERS, PEERS, Unavailable, build
 from tables import mean, table
 from whole_file import write_whole_file
 
@@ -76,9 +86,9 @@ def quality_rows(groups, names, quality):
             ]
 
 
-def available_peers(options):
+def available_peers(options, sources=PEERS):
     peers = []
-    for source in PEERS:
+    for source in sources:
         if options.only is not None and source.name not in options.only:
             continue
         try:
@@ -99,7 +109,7 @@ def arguments(given):
     parser.add_argument("roots", nargs="*", type=Path, metavar="DATASET_ROOT", help="of recorded sequences")
     parser.add_argument("--peers", type=Path, default=Path("../peers"), metavar="FOLDER",
                         help="where they are fetched to and built (default: ../peers)")  # fmt: skip
-    parser.add_argument("--only", type=names_of("peer", [peer.name for peer in PEERS]), metavar="NAME,...",
+    parser.add_argument("--only", type=names_of("peer", [peer.name for peer in (*PEERS, *OBJECT_PEERS)]), metavar="NAME,...",
                         help="of " + ", ".join(peer.name for peer in PEERS) + "; '' is none")  # fmt: skip
     parser.add_argument("--peer", action="append", default=[], metavar="NAME=PROGRAM", help="one more")
     parser.add_argument("--scenes", type=lambda text: text.split(",") if text else [], default=SCENES, metavar="SCENE,...",
@@ -110,6 +120,8 @@ def arguments(given):
     parser.add_argument("--json", type=Path, help="file for every single time")
     parser.add_argument("--hazards", nargs="?", const="", metavar="KIND,...", help="what `terracut eval hazards` puts into "
                         "the scans of the roots (default: all kinds), found by each program")  # fmt: skip
+    parser.add_argument("--objects", action="store_true", help="objects in the scans of the roots, found by each program")
+    parser.add_argument("--judge", type=Path, metavar="PROGRAM", help="counts the entropies, beside our own count")
     parser.add_argument("--trials", type=int, default=1, help="of a kind for each ground, range and frame (default: 1)")
     return parser.parse_args(given)
 
@@ -134,8 +146,21 @@ def beside_on_hazards(options):
     return 0
 
 
+def beside_on_objects(options):
+    peers = available_peers(options, OBJECT_PEERS)
+    judges = [build(JUDGE, options.peers.resolve())] + ([options.judge.resolve()] if options.judge else [])
+    with tempfile.TemporaryDirectory() as folder:
+        judged, difference = beside(Terracut(options.core), peers, judges, options.roots, Path(folder))
+    print("\n".join(table("tuned / unseen", NAMES, rows(judged))))
+    if options.judge:
+        print(f"\nlargest difference between {options.judge.name}, shown here, and our own count of a frame: {difference:.2g}")
+    return 0
+
+
 def main(given):
     options = arguments(given)
+    if options.objects:
+        return beside_on_objects(options)
     if options.hazards is not None:
         return beside_on_hazards(options)
     terracut = Terracut(options.core)

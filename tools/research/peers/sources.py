@@ -111,6 +111,13 @@ PEERS = (
     PeerSource("TRAVEL", "GPL-3", (TRAVEL,), "travel_adapter.cpp", include="TRAVEL/include",
                note="its ground segmentation"),
 )  # fmt: skip
+# Programs of ours for --objects.
+OBJECT_PEERS = (
+    PeerSource("Euclidean (squares)", "ours", (), "euclidean_adapter.cpp", flags="-DSQUARES"),
+    PeerSource("Euclidean (squares, all kept)", "ours", (), "euclidean_adapter.cpp", flags="-DSQUARES -DALL"),
+    PeerSource("Euclidean (points)", "ours", (), "euclidean_adapter.cpp"),
+)
+JUDGE = PeerSource("object_entropies", "ours", (), "object_entropies.cpp")
 
 
 def run(command, folder, what):
@@ -166,7 +173,7 @@ def build(peer, folder):
     ours = [path for path in ADAPTERS.iterdir() if path.suffix in (".cpp", ".hpp", ".py")]
     if program.is_file() and program.stat().st_mtime > max(path.stat().st_mtime for path in ours):
         return program
-    program.parent.mkdir(exist_ok=True)
+    program.parent.mkdir(parents=True, exist_ok=True)
     stand_ins = folder / "stand_ins"
     write_stand_ins(stand_ins)
     code = [path for pattern in peer.code.split() for path in sorted(folder.glob(pattern))]

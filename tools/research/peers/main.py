@@ -23,9 +23,9 @@ With `--objects` every program finds objects among the same obstacles, those of 
 roots. A peer (`--peer`; Euclidean clusters are at hand) is called as above; beside every SCAN.bin lies SCAN.label, where 99 is
 an obstacle, and it writes the object of each point, or 0, into its labels' upper 16 bits. Shown are, of the sequences that
 terracut's parameters were chosen on / of the others: over- and under-segmentation entropy, mean (deviation) over frames;
-how many returns of what can be an object are in one (what is in none costs no entropy if it is whole); panoptic quality and
-recall of numbered instances, %; processor time for the objects alone, the shortest of three, its mean over
-frames and how many times terracut's that is. `--judge PROGRAM SCAN.bin TRUE.label FOUND.label...` may count the entropies in
+how many returns of what can be an object are in one (what is whole in none costs no entropy); panoptic quality and recall of
+numbered instances, %; processor time for the objects alone, the shortest of three, its mean over frames and how many times
+terracut's that is. `--judge PROGRAM SCAN.bin TRUE.label FOUND.label...` may count the entropies in
 our place: it prints those of each FOUND, a line each.
 """
 
@@ -110,7 +110,7 @@ def arguments(given):
     parser.add_argument("--peers", type=Path, default=Path("../peers"), metavar="FOLDER",
                         help="where they are fetched to and built (default: ../peers)")  # fmt: skip
     parser.add_argument("--only", type=names_of("peer", [peer.name for peer in (*PEERS, *OBJECT_PEERS)]), metavar="NAME,...",
-                        help="of " + ", ".join(peer.name for peer in PEERS) + "; '' is none")  # fmt: skip
+                        help="of " + ", ".join(peer.name for peer in (*PEERS, *OBJECT_PEERS)) + "; '' is none")  # fmt: skip
     parser.add_argument("--peer", action="append", default=[], metavar="NAME=PROGRAM", help="one more")
     parser.add_argument("--scenes", type=lambda text: text.split(",") if text else [], default=SCENES, metavar="SCENE,...",
                         help="simulated drives (default: " + ",".join(SCENES) + ")")  # fmt: skip
@@ -148,7 +148,10 @@ def beside_on_hazards(options):
 
 def beside_on_objects(options):
     peers = available_peers(options, OBJECT_PEERS)
-    judges = [build(JUDGE, options.peers.resolve())] + ([options.judge.resolve()] if options.judge else [])
+    try:
+        judges = [build(JUDGE, options.peers.resolve()), *([options.judge.resolve()] if options.judge else [])]
+    except Unavailable as why:
+        sys.exit(str(why))
     with tempfile.TemporaryDirectory() as folder:
         judged, difference = beside(Terracut(options.core), peers, judges, options.roots, Path(folder))
     print("\n".join(table("tuned / unseen", NAMES, rows(judged))))

@@ -131,7 +131,7 @@ class Judged:
 
 def judge(judges, marked, judged, founds):
     """Fills `judged` by the label files `founds`, a list a program. Returns the largest difference between the judges, each a
-    program as object_entropies.cpp; the last of them is believed."""
+    program as object_peers/object_entropies.cpp; the last of them is believed."""
     difference = 0.0
     for number, (scan, truth, split) in enumerate(zip(marked.scans, marked.truth, marked.split)):
         of_scan = [found[number] for found in founds]

@@ -113,11 +113,11 @@ PEERS = (
 )  # fmt: skip
 # Programs of ours for --objects.
 OBJECT_PEERS = (
-    PeerSource("Euclidean (squares)", "ours", (), "euclidean_adapter.cpp", flags="-DSQUARES"),
-    PeerSource("Euclidean (squares, all kept)", "ours", (), "euclidean_adapter.cpp", flags="-DSQUARES -DALL"),
-    PeerSource("Euclidean (points)", "ours", (), "euclidean_adapter.cpp"),
+    PeerSource("Euclidean (squares)", "ours", (), "object_peers/euclidean_adapter.cpp", flags="-DSQUARES"),
+    PeerSource("Euclidean (unlimited)", "ours", (), "object_peers/euclidean_adapter.cpp", flags="-DSQUARES -DALL"),
+    PeerSource("Euclidean (points)", "ours", (), "object_peers/euclidean_adapter.cpp"),
 )
-JUDGE = PeerSource("object_entropies", "ours", (), "object_entropies.cpp")
+JUDGE = PeerSource("object_entropies", "ours", (), "object_peers/object_entropies.cpp")
 
 
 def run(command, folder, what):
@@ -170,7 +170,7 @@ def build(peer, folder):
     for source in peer.sources:
         fetch(source, folder)
     program = folder / "bin" / peer.name
-    ours = [path for path in ADAPTERS.iterdir() if path.suffix in (".cpp", ".hpp", ".py")]
+    ours = [path for path in ADAPTERS.rglob("*") if path.suffix in (".cpp", ".hpp", ".py")]
     if program.is_file() and program.stat().st_mtime > max(path.stat().st_mtime for path in ours):
         return program
     program.parent.mkdir(parents=True, exist_ok=True)

@@ -29,7 +29,7 @@ Numbers true_objects(const std::vector<terracut::peers::Point>& points, const Nu
     kinds.push_back(labels[i]);
     indices.push_back(i);
   }
-  const Numbers clusters = terracut::peers::radius_clusters(places, kinds, kApart_m);
+  const Numbers clusters = terracut::object_peers::radius_clusters(places, kinds, kApart_m);
   std::map<std::uint32_t, std::size_t> sizes;
   for (const std::uint32_t cluster : clusters) ++sizes[cluster];
   Numbers objects(points.size());
@@ -64,14 +64,14 @@ int main(int argc, char** argv) {
     return 1;
   }
   const std::vector<terracut::peers::Point> points = terracut::peers::read_scan(argv[1]);
-  const Numbers labels = terracut::peers::read_labels(argv[2]);
+  const Numbers labels = terracut::object_peers::read_labels(argv[2]);
   if (points.empty() || points.size() != labels.size()) {
     std::cerr << argv[2] << ": not the labels of " << argv[1] << '\n';
     return 1;
   }
   const Numbers truth = true_objects(points, labels);
   for (int i = 3; i < argc; ++i) {
-    Numbers found = terracut::peers::read_labels(argv[i]);
+    Numbers found = terracut::object_peers::read_labels(argv[i]);
     if (found.size() != points.size()) {
       std::cerr << argv[i] << ": not the labels of " << argv[1] << '\n';
       return 1;

@@ -14,7 +14,7 @@
 
 namespace {
 
-constexpr float kTolerance_m = 0.7F, kSquare_m = 0.3F;
+constexpr float kTolerance_m = 0.7F;
 constexpr std::size_t kFewestPoints = 10;
 /// A cluster of more squares (points) is not an object; one of more than `kLarge` squares keeps at
 /// most `kPointsOfASquare` of each, chosen by chance.
@@ -30,15 +30,16 @@ using Place = std::array<float, 3>;
 
 class Euclidean {
  public:
-  using Scan = terracut::peers::MarkedScan;
+  using Scan = terracut::object_peers::MarkedScan;
 
   static Scan scan_of(const Scan& scan) { return scan; }
   void prepare(const Scan& scan) { objects_.assign(scan.points.size(), 0); }
   void segment(const Scan& scan) {
-    const std::vector<std::size_t> points = terracut::peers::obstacles_of(scan);
+    const std::vector<std::size_t> points = terracut::object_peers::obstacles_of(scan);
     std::vector<std::size_t> unit_of_point(points.size());
     std::vector<Place> units;
 #ifdef SQUARES
+    constexpr float kSquare_m = 0.3F;
     std::map<std::pair<int, int>, std::size_t> squares;
     std::vector<float> points_in;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -59,7 +60,7 @@ class Euclidean {
     for (const std::size_t i : points) units.push_back({scan.points[i][0], scan.points[i][1], 0});
     std::iota(unit_of_point.begin(), unit_of_point.end(), std::size_t{0});
 #endif
-    const std::vector<std::uint32_t> cluster_of_unit = terracut::peers::radius_clusters(
+    const std::vector<std::uint32_t> cluster_of_unit = terracut::object_peers::radius_clusters(
         units, std::vector<std::uint32_t>(units.size()), kTolerance_m);
     std::vector<std::size_t> units_of(units.size() + 1), points_of(units.size() + 1);
     for (const std::uint32_t cluster : cluster_of_unit) ++units_of[cluster];
@@ -88,5 +89,5 @@ class Euclidean {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return terracut::peers::run_object_peer<Euclidean>(argc, argv);
+  return terracut::object_peers::run_object_peer<Euclidean>(argc, argv);
 }

@@ -9,7 +9,7 @@
 #include <map>
 #include <vector>
 
-namespace terracut::peers {
+namespace terracut::object_peers {
 
 /// Clusters points by distance: points of one kind that are less than `reach_m` apart belong
 /// together, and so does whatever they belong together with. `places` are metres. Returns the
@@ -74,4 +74,4 @@ inline std::vector<std::uint32_t> radius_clusters(const std::vector<std::array<f
   return cluster_of;
 }
 
-}  // namespace terracut::peers
+}  // namespace terracut::object_peers

@@ -9,7 +9,9 @@
 
 /// Code shared by the adapters of peers that find objects; like peer_program.hpp it includes
 /// nothing of this project.
-namespace terracut::peers {
+namespace terracut::object_peers {
+
+using peers::Point;
 
 /// A scan in which terracut has told obstacles from ground, the same for every peer.
 struct MarkedScan {
@@ -32,7 +34,7 @@ inline std::vector<std::uint32_t> read_labels(const std::string& path) {
 /// they are no scan and its labels.
 inline std::optional<MarkedScan> read_marked_scan(const std::string& path) {
   constexpr std::uint32_t kObstacle = 99, kClass = 0xFFFF;
-  MarkedScan scan{read_scan(path.c_str()), {}};
+  MarkedScan scan{peers::read_scan(path.c_str()), {}};
   for (const std::uint32_t label : read_labels(path.substr(0, path.rfind('.')) + ".label")) {
     scan.is_obstacle.push_back((label & kClass) == kObstacle);
   }
@@ -78,7 +80,7 @@ int run_object_peer(int argc, char** argv) {
     }
     return labels;
   };
-  return run_program<Peer>(argc, argv, scan_of, labels_of);
+  return peers::run_program<Peer>(argc, argv, scan_of, labels_of);
 }
 
-}  // namespace terracut::peers
+}  // namespace terracut::object_peers

@@ -109,6 +109,8 @@ TEST(MetricsText, IsWhatTheGuideSays) {
   run.narrow_view();
   run.figures().mount.contradicted = 1;
   run.figures().mount.found_in_frames = 10;
+  run.figures().sight.is_watched = 1;
+  run.figures().sight.sectors[0].has_view = 1;
   std::set<std::string> emitted;
   std::istringstream lines(metrics_text(run.figures()));
   for (std::string line; std::getline(lines, line);) {

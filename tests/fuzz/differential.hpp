@@ -59,17 +59,20 @@ class Differential {
           break;
         }
         default:
-          rotating_head(1 + input_.below(64));
+          rotating_head(1 + input_.below(kMostPackets));
           break;
       }
     }
   }
 
  private:
+  static constexpr int kMostPackets = 64;  // of a stretch
+
   static typename Sensor::Decoder::Config config(Input& input) {
     typename Sensor::Decoder::Config config;
     config.columns = 64 + input.below(64);
-    config.returns_per_cell = 8;  // room for the longest stretch of a head that hardly moves
+    // Room for the longest stretch of a head that hardly moves.
+    config.returns_per_cell = 1 + kMostPackets * Sensor::kColumns / config.columns;
     return config;
   }
 

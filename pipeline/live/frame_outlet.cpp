@@ -12,7 +12,7 @@ namespace terracut::live {
 FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
                          SectorPool* sectors, const threads::WakeEvent& ready,
                          std::unique_ptr<points::SceneOfPoints> scene,
-                         std::unique_ptr<points::SightOfPoints> sight)
+                         std::unique_ptr<points::SceneOfPoints> sight)
     : stream_(std::move(stream)),
       publisher_(publisher),
       slots_(slots),
@@ -35,7 +35,7 @@ void FrameOutlet::begin_to_finish() {
 
 void FrameOutlet::work() {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  if (sight_ != nullptr) sight_figures_.publish(sight_->figures());
+  if (sight_ != nullptr) sight_figures_.publish(sight_->found().sight());
   while (true) {
     const bool last_round = finish_;
     hand_out_sectors();
@@ -104,8 +104,8 @@ bool FrameOutlet::stream(const stream::LabelledFrame& frame,
 
 void FrameOutlet::look(const Slots::Frame& frame) {
   if (sight_ == nullptr) return;
-  sight_->look(frame.items, frame.heights_m, frame.record.info);
-  sight_figures_.publish(sight_->figures());
+  sight_->find(frame.record.info, frame.items, frame.heights_m);
+  sight_figures_.publish(sight_->found().sight());
 }
 
 bool FrameOutlet::hand_out(const Slots::Frame& frame) {

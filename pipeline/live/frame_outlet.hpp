@@ -11,7 +11,6 @@
 #include "frame_pool.hpp"
 #include "pipeline/live/sector_pool.hpp"
 #include "pipeline/points/scene_of_points.hpp"
-#include "pipeline/points/sight_of_points.hpp"
 #include "pipeline/publish/publisher.hpp"
 #include "pipeline/publish/reopened.hpp"
 #include "pipeline/stream/frame_stream_server.hpp"
@@ -42,7 +41,7 @@ class FrameOutlet {
   FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
               SectorPool* sectors, const threads::WakeEvent& ready,
               std::unique_ptr<points::SceneOfPoints> scene = nullptr,
-              std::unique_ptr<points::SightOfPoints> sight = nullptr);
+              std::unique_ptr<points::SceneOfPoints> sight = nullptr);
   ~FrameOutlet() { begin_to_finish(); }
 
   /// Ends the thread; call it after LiveThreads::stop(). Returns false if the thread does not end
@@ -56,8 +55,8 @@ class FrameOutlet {
   [[nodiscard]] std::uint64_t sectors_while_closed() const noexcept {
     return sectors_while_closed_;
   }
-  /// Returns how far the sensor sees, by the frames so far; is_watched is 0 without `sight`. For one
-  /// other thread.
+  /// Returns how far the sensor sees, by the frames so far; is_watched is 0 without `sight`. For
+  /// one other thread.
   [[nodiscard]] const visibility::SightFigures& sight() const noexcept {
     (void)sight_figures_.take_if_new();
     return sight_figures_.newest_taken();
@@ -92,8 +91,7 @@ class FrameOutlet {
   Slots& slots_;
   SectorPool* sectors_;
   const threads::WakeEvent& ready_;
-  std::unique_ptr<points::SceneOfPoints> scene_;
-  std::unique_ptr<points::SightOfPoints> sight_;
+  std::unique_ptr<points::SceneOfPoints> scene_, sight_;
   std::atomic<bool> finish_{false};
   std::atomic<std::uint64_t> while_closed_{0}, sectors_while_closed_{0};
   mutable queues::LatestValue<stream::FrameStreamFigures> figures_;

@@ -9,9 +9,10 @@ namespace terracut::points {
 SceneOfPoints::SceneOfPoints(scene::Wanted wanted, const mount::RingProfile& profile,
                              frame::ImageShape shape, std::size_t most_points,
                              std::span<const float> beam_turns)
-    : most_points_(most_points), scene_(wanted.without_sight(), profile, shape, most_points, memory_) {
+    : most_points_(most_points), scene_(wanted, profile, shape, most_points, memory_) {
   if (wanted.objects) image_.emplace(shape, most_points, memory_);
-  if (wanted.free_way) as_measured_.emplace(shape, most_points, beam_turns, memory_);
+  if (wanted.free_way || wanted.sight)
+    as_measured_.emplace(shape, most_points, beam_turns, memory_);
   labels_.reserve(most_points);
 }
 
@@ -24,8 +25,9 @@ void SceneOfPoints::find(const frame::FrameInfo& info, std::span<const LabelledP
   const frame::RangeImage* const as_measured =
       as_measured_ ? &as_measured_->make(info, points) : nullptr;
   if (!image_ && as_measured == nullptr) return;
-  scene_.find(image_ ? *image_ : *as_measured, as_measured != nullptr ? *as_measured : *image_,
-              labels_, heights_m);
+  const frame::RangeImage& image = image_ ? *image_ : *as_measured;
+  scene_.find(image, as_measured != nullptr ? *as_measured : image, labels_, heights_m,
+              visibility::SightWatch::is_whole(info, image.shape()));
 }
 
 }  // namespace terracut::points

@@ -13,7 +13,6 @@
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/points/labelled_points.hpp"
 #include "pipeline/points/scene_of_points.hpp"
-#include "pipeline/points/sight_of_points.hpp"
 #include "pipeline/publish/labelled_frame.hpp"
 #include "pipeline/ros_messages/free_way_messages.hpp"
 #include "pipeline/scene/scene_finder.hpp"
@@ -137,9 +136,10 @@ void judge_the_view_of_points(benchmark::State& state) {
   (void)points::pack_labelled_points(scene.image, scene.method.labels(), points,
                                      points::FrameTiming::of(info, beam_turns));
   std::ranges::transform(points, heights_m.begin(), &points::LabelledPoint::z_m);
-  points::SightOfPoints sight(scene.profile, scene.shape, points.size(), beam_turns);
+  points::SceneOfPoints sight({.sight = true}, scene.profile, scene.shape, points.size(),
+                              beam_turns);
   for (auto _ : state) {
-    sight.look(points, heights_m, info);
+    sight.find(info, points, heights_m);
     benchmark::ClobberMemory();
   }
   state.counters["points"] = static_cast<double>(points.size());

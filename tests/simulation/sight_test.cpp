@@ -13,7 +13,7 @@
 #include "pipeline/ground/profile.hpp"
 #include "pipeline/ground/stream_segmenter.hpp"
 #include "pipeline/health/health_frames.hpp"
-#include "pipeline/points/sight_of_points.hpp"
+#include "pipeline/points/scene_of_points.hpp"
 #include "pipeline/publish/diagnosis.hpp"
 #include "pipeline/status/figure_lines.hpp"
 #include "pipeline/status/figures.hpp"
@@ -75,7 +75,7 @@ class WatchedRun {
       : loop_(loop),
         network_(loop, {}, faults_, machine_, 7'000, 2),
         chain_(loop, method(), machine_, network_),
-        sight_(loop.profile, chain_.turns.decoder().shape(),
+        sight_({.sight = true}, loop.profile, chain_.turns.decoder().shape(),
                chain_.turns.decoder().return_capacity(), chain_.turns.decoder().beam_turns()) {
     network_.begin_with_first_packet();
   }
@@ -89,7 +89,7 @@ class WatchedRun {
       hand_out();
       if (machine_.now_ns() < next_look_ns_) continue;
       next_look_ns_ = machine_.now_ns() + kLookEvery_ns;
-      figures().sight = sight_.figures();
+      figures().sight = sight_.found().sight();
       if (machine_.now_ns() >= since_ns && wanted()) return machine_.now_ns() - since_ns;
     }
     return std::nullopt;
@@ -121,7 +121,7 @@ class WatchedRun {
   }
   void hand_out() {
     for (live::FramePool<points::LabelledPoint>::Frame frame; chain_.points.take(frame);) {
-      sight_.look(frame.items, frame.heights_m, frame.record.info);
+      sight_.find(frame.record.info, frame.items, frame.heights_m);
       chain_.points.give_back(true);
     }
     for (live::FramePool<frame::Label>::Frame frame; chain_.labels.take(frame);) {
@@ -138,7 +138,7 @@ class WatchedRun {
   Machine machine_{faults_, 1};
   Network network_;
   LiveChain chain_;
-  points::SightOfPoints sight_;
+  points::SceneOfPoints sight_;
   std::int64_t next_look_ns_ = 0;
 };
 

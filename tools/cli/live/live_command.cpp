@@ -205,21 +205,16 @@ class Writers {
         stream = {publish::Reopened<stream::FrameStreamServer>(stream_at(options, parts)),
                   sensor.model, deadline_ns, options.stream_sectors};
       }
-      std::unique_ptr<points::SceneOfPoints> scene;
-      std::unique_ptr<points::SightOfPoints> sight;
       const decode::Decoder& decoder = parts.turns.decoder();
-      if (options.method.scene.without_sight().any()) {
-        scene = std::make_unique<points::SceneOfPoints>(options.method.scene, profile,
-                                                        decoder.shape(), decoder.return_capacity(),
-                                                        decoder.beam_turns());
-      }
-      if (options.method.scene.sight) {
-        sight = std::make_unique<points::SightOfPoints>(
-            profile, decoder.shape(), decoder.return_capacity(), decoder.beam_turns());
-      }
+      const auto finder_of = [&](scene::Wanted wanted) -> std::unique_ptr<points::SceneOfPoints> {
+        if (!wanted.any()) return nullptr;
+        return std::make_unique<points::SceneOfPoints>(
+            wanted, profile, decoder.shape(), decoder.return_capacity(), decoder.beam_turns());
+      };
+      const scene::Wanted wanted = options.method.scene;
       outlet_.emplace(std::move(stream), *publisher_, *parts.thread.points(),
-                      parts.thread.sectors(), parts.thread.points_ready(), std::move(scene),
-                      std::move(sight));
+                      parts.thread.sectors(), parts.thread.points_ready(),
+                      finder_of(wanted.without_sight()), finder_of({.sight = wanted.sight}));
     }
     if (parts.thread.labels()) labels_.emplace(options.output, *parts.thread.labels());
     if (parts.recorder) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/points/sight_of_points.hpp"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <vector>
 
 #include "pipeline/points/frame_timing.hpp"
+#include "pipeline/points/scene_of_points.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/box_scene.hpp"
 
@@ -44,55 +43,56 @@ struct SightInPoints : testing::Test, test::BoxScene {
         heights_m.push_back(image.z_m()[cell]);
       }
     }
-    for (int i = 0; i < turns; ++i) sight.look(points, heights_m, info);
+    for (int i = 0; i < turns; ++i) scene.find(info, points, heights_m);
   }
 
   std::vector<float> beam_turns = std::vector<float>(kShape.rows, 0.01F);
   frame::FrameInfo info;
   std::vector<LabelledPoint> points;
   std::vector<float> heights_m;
-  SightOfPoints sight{profile, kShape, kShape.cells(), beam_turns};
+  SceneOfPoints scene{{.sight = true}, profile, kShape, kShape.cells(), beam_turns};
 };
 
 TEST_F(SightInPoints, IsLearntAndThenClear) {
-  EXPECT_EQ(sight.figures().is_watched, 1);
-  EXPECT_EQ(sight.figures().has_learnt, 0);
+  EXPECT_EQ(scene.found().sight().is_watched, 1);
+  EXPECT_EQ(scene.found().sight().has_learnt, 0);
   see(12);
-  EXPECT_EQ(sight.figures().has_learnt, 1);
-  EXPECT_EQ(sight.figures().worst(), visibility::Condition{});
-  EXPECT_GT(sight.figures().in(Direction::kAhead).visible_m, 30);
+  EXPECT_EQ(scene.found().sight().has_learnt, 1);
+  EXPECT_EQ(scene.found().sight().worst(), visibility::Condition{});
+  EXPECT_GT(scene.found().sight().in(Direction::kAhead).visible_m, 30);
 }
 
 TEST_F(SightInPoints, StaysClearHoweverFarDeskewedPointsAreMoved) {
   see(15);
   for (const double ahead_m : {0.5, 1.0, 2.0, 3.0, 4.0, 3.0, 1.0}) {
     see(5, ahead_m);
-    EXPECT_EQ(sight.figures().worst(), visibility::Condition{}) << ahead_m;
-    for (const auto& sector : sight.figures().sectors) EXPECT_GT(sector.visible_m, 30) << ahead_m;
+    EXPECT_EQ(scene.found().sight().worst(), visibility::Condition{}) << ahead_m;
+    for (const auto& sector : scene.found().sight().sectors)
+      EXPECT_GT(sector.visible_m, 30) << ahead_m;
   }
 }
 
 TEST_F(SightInPoints, IsBlockedWhereBeamsReturnNothing) {
   see(15, 2);
   see(5, 2, 250, 340);
-  EXPECT_EQ(sight.figures().worst().cause, Cause::kCovered);
-  EXPECT_EQ(sight.figures().in(Direction::kRight).troubled, 2) << "90 to 110 degrees";
-  EXPECT_EQ(sight.figures().in(Direction::kLeft).troubled, 0);
+  EXPECT_EQ(scene.found().sight().worst().cause, Cause::kCovered);
+  EXPECT_EQ(scene.found().sight().in(Direction::kRight).troubled, 2) << "90 to 110 degrees";
+  EXPECT_EQ(scene.found().sight().in(Direction::kLeft).troubled, 0);
 }
 
 TEST_F(SightInPoints, LeavesOutTurnsOfWhichPacketsAreMissing) {
   see(15);
   info.complete = false;
   see(8, 0, 250, 340);
-  EXPECT_EQ(sight.figures().left_out_turns, 8U);
-  EXPECT_EQ(sight.figures().worst(), visibility::Condition{});
+  EXPECT_EQ(scene.found().sight().left_out_turns, 8U);
+  EXPECT_EQ(scene.found().sight().worst(), visibility::Condition{});
 }
 
 TEST_F(SightInPoints, AllocatesNothingForATurn) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer counts its own";
   see(12);
   const std::uint64_t before = test::allocations_of_this_thread();
-  sight.look(points, heights_m, info);
+  scene.find(info, points, heights_m);
   EXPECT_EQ(test::allocations_of_this_thread(), before);
 }
 

@@ -11,6 +11,7 @@
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/net/live_source.hpp"
 #include "firmware_io/streams/hear_sensor.hpp"
+#include "pipeline/api/wanted.hpp"
 #include "pipeline/live/live_parts.hpp"
 #include "pipeline/points/scene_of_points.hpp"
 #include "pipeline/run/mount_on_air.hpp"
@@ -31,14 +32,10 @@ Expected<streams::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Co
   return streams::hear_sensor(first, source, nullptr, {config.patience_s, stop_wanted, {}});
 }
 
-scene::Wanted wanted_of(const LiveRun::Config& config) noexcept {
-  return {.objects = config.objects, .free_way = config.free_way};
-}
-
 live::LiveConfig live_config_of(const LiveRun::Config& config, int columns) {
   live::LiveConfig of_run;
   of_run.decoder.columns = columns;
-  of_run.method.gives_heights = config.heights || wanted_of(config).any();
+  of_run.method.gives_heights = wants_heights(config);
   of_run.thread.deadline_ns = static_cast<std::int64_t>(config.deadline_ms * 1e6);
   of_run.thread.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
   of_run.thread.keeps_points = true;

@@ -9,6 +9,7 @@
 #include "calib/api/calibration_table.hpp"
 #include "firmware_io/api/points.hpp"
 #include "pipeline/api/profile.hpp"
+#include "pipeline/api/wanted.hpp"
 #include "pipeline/ground/stream_segmenter.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
 #include "pipeline/scene/scene_finder.hpp"
@@ -17,13 +18,9 @@ namespace terracut {
 
 namespace {
 
-scene::Wanted wanted_of(const PacketPipeline::Config& config) noexcept {
-  return {.objects = config.objects, .free_way = config.free_way};
-}
-
 ground::SegmenterConfig method_of(const PacketPipeline::Config& config) noexcept {
   ground::SegmenterConfig method = config_of(config.profile);
-  method.gives_heights = config.heights || wanted_of(config).any();
+  method.gives_heights = wants_heights(config);
   return method;
 }
 

@@ -17,6 +17,7 @@
 #include "firmware_io/cloud/sensor_rows.hpp"
 #include "pipeline/api/point_buffer.hpp"
 #include "pipeline/api/profile.hpp"
+#include "pipeline/api/wanted.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/ground/segmenter.hpp"
@@ -38,13 +39,9 @@ Status check(const Mount& mount) {
                   mount.height_m, mount.roll_rad, mount.pitch_rad));
 }
 
-scene::Wanted wanted_of(const Segmenter::Config& config) noexcept {
-  return {.objects = config.objects, .free_way = config.free_way};
-}
-
 Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {
   ground::SegmenterConfig method = config_of(config.profile);
-  method.gives_heights = config.heights || wanted_of(config).any();
+  method.gives_heights = wants_heights(config);
   for (const std::string& setting : config.parameters) {
     if (const Status set = ground::apply_setting(method, setting); !set) {
       return tl::unexpected(set.error());

@@ -14,11 +14,6 @@ bool is_troubled(const SightFigures::Sector& sector) noexcept {
   return sector.condition.state != State::kClear;
 }
 
-/// True if `one` is worse than `other`.
-bool is_worse(const Condition& one, const Condition& other) noexcept {
-  return one.state > other.state || (one.state == other.state && one.cause > other.cause);
-}
-
 /// Returns "ahead left" for kAheadLeft.
 std::string words_of(Direction direction) {
   std::string words(to_string(direction));
@@ -62,20 +57,6 @@ std::string text_of(const SightFigures& figures, const Condition& condition) {
 }
 
 }  // namespace
-
-Condition SightFigures::worst() const noexcept {
-  Condition worst;
-  for (const Sector& sector : sectors) {
-    if (is_worse(sector.condition, worst)) worst = sector.condition;
-  }
-  return worst;
-}
-
-int SightFigures::troubled_sectors() const noexcept {
-  int troubled = 0;
-  for (const Sector& sector : sectors) troubled += is_troubled(sector) ? 1 : 0;
-  return troubled;
-}
 
 SightFigures::Of SightFigures::in(Direction direction) const noexcept {
   Of of;

@@ -57,8 +57,8 @@ struct SightFigures {
   };
   /// What is told of the sectors of one direction.
   struct Of {
-    int troubled = 0;     ///< Sectors that are not clear.
-    int with_view = 0;    ///< Sectors that are judged.
+    int troubled = 0;   ///< Sectors that are not clear.
+    int with_view = 0;  ///< Sectors that are judged.
     /// The median of the visible ranges of the sectors that are judged: glass beside the vehicle
     /// takes a single sector's away for a moment.
     float visible_m = 0;
@@ -72,10 +72,8 @@ struct SightFigures {
   std::array<std::uint64_t, kCauses> turns{};
   std::array<Sector, kSectors> sectors{};  ///< Of the last turn, as Visibility::sectors().
 
-  /// Returns the worst condition of any sector; of equal states the graver cause.
-  [[nodiscard]] Condition worst() const noexcept TERRACUT_NONBLOCKING;
-  /// Returns how many sectors are not clear.
-  [[nodiscard]] int troubled_sectors() const noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] Condition worst() const noexcept { return worst_of(sectors); }
+  [[nodiscard]] int troubled_sectors() const noexcept { return troubled_of(sectors); }
   [[nodiscard]] Of in(Direction direction) const noexcept TERRACUT_NONBLOCKING;
 };
 static_assert(std::is_trivially_copyable_v<SightFigures>);

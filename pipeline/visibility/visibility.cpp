@@ -130,20 +130,4 @@ bool Visibility::is_dirt() const noexcept {
          static_cast<float>(dirty) >= config_.dirt_sectors * static_cast<float>(views);
 }
 
-Condition Visibility::worst() const noexcept {
-  Condition worst;
-  for (const Sector& sector : sectors_) {
-    const Condition& here = sector.condition;
-    if (here.state > worst.state || (here.state == worst.state && here.cause > worst.cause)) {
-      worst = here;
-    }
-  }
-  return worst;
-}
-
-int Visibility::troubled_sectors() const noexcept {
-  return static_cast<int>(std::ranges::count_if(
-      sectors_, [](const Sector& sector) { return sector.condition.state != State::kClear; }));
-}
-
 }  // namespace terracut::visibility

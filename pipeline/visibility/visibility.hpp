@@ -49,6 +49,26 @@ struct Condition {
 
   friend bool operator==(const Condition&, const Condition&) = default;
 };
+[[nodiscard]] constexpr bool is_worse(const Condition& one, const Condition& other) noexcept {
+  return one.state > other.state || (one.state == other.state && one.cause > other.cause);
+}
+
+/// Returns the worst condition of any sector; of equal states the graver cause.
+template <class Sectors>
+[[nodiscard]] constexpr Condition worst_of(const Sectors& sectors) noexcept {
+  Condition worst;
+  for (const auto& sector : sectors) {
+    if (is_worse(sector.condition, worst)) worst = sector.condition;
+  }
+  return worst;
+}
+/// Returns how many sectors are not clear.
+template <class Sectors>
+[[nodiscard]] constexpr int troubled_of(const Sectors& sectors) noexcept {
+  int troubled = 0;
+  for (const auto& sector : sectors) troubled += sector.condition.state != State::kClear ? 1 : 0;
+  return troubled;
+}
 
 /// Judges turn by turn how far a sensor sees in each direction, against the view that it has learnt
 /// of this sensor on this vehicle.
@@ -109,10 +129,8 @@ class Visibility {
 
   /// Returns the sectors, clockwise as columns are; the first begins straight ahead.
   [[nodiscard]] std::span<const Sector> sectors() const noexcept { return sectors_; }
-  /// Returns the worst condition of any sector; of equal states the graver cause.
-  [[nodiscard]] Condition worst() const noexcept TERRACUT_NONBLOCKING;
-  /// Returns how many sectors are not clear.
-  [[nodiscard]] int troubled_sectors() const noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] Condition worst() const noexcept { return worst_of(sectors_); }
+  [[nodiscard]] int troubled_sectors() const noexcept { return troubled_of(sectors_); }
   /// False as long as the view is being learnt: no condition is named.
   [[nodiscard]] bool has_learnt() const noexcept { return turns_ >= config_.learning_turns; }
 

@@ -139,7 +139,7 @@ class Replay {
     if (frame.image != nullptr) {
       outputs_.look(*frame.image, *frame.as_measured, labels, capture_.heights_m(),
                     visibility::SightWatch::is_whole(info, frame.image->shape()));
-      note_sight(info);
+      if (options_.method.scene.sight) note_sight(info);
     }
     sinks_ = outputs_.write_labels(name, labels, outputs_.object_of_return());
     if (sinks_ && frame.image != nullptr) sinks_ = write_points(name, frame, truth);

@@ -218,6 +218,7 @@ const countText = (cause, count) => `${count} ${cause.replaceAll("_", " ")}`;
 
 // How far the sensor sees, where that is watched.
 function showSight(sight) {
+  if (!sight && at("sight").hidden) return;
   at("sight").hidden = !sight;
   scene.setSight(sight ? sight.sectors : []);
   isDirty = true;

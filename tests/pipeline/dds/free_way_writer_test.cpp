@@ -5,11 +5,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <thread>
 
 #include "pipeline/free_way/way_grid.hpp"
 #include "ros_types.h"
@@ -31,14 +29,13 @@ class OneReader {
 
   /// Returns null if nothing came for ten seconds.
   const Message* take() {
-    for (int wait = 0; wait < 1000; ++wait) {
-      dds_sample_info_t info{};
-      if (dds_take(reader_.id(), &sample_, &info, 1, 1) == 1 && info.valid_data) {
-        return static_cast<const Message*>(sample_);
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return nullptr;
+    const Entity set(dds_create_waitset(dds_get_participant(reader_.id())));
+    const Entity condition(dds_create_readcondition(reader_.id(), DDS_ANY_STATE));
+    (void)dds_waitset_attach(set.id(), condition.id(), 0);
+    if (dds_waitset_wait(set.id(), nullptr, 0, DDS_SECS(10)) < 1) return nullptr;
+    dds_sample_info_t info{};
+    const bool is_taken = dds_take(reader_.id(), &sample_, &info, 1, 1) == 1 && info.valid_data;
+    return is_taken ? static_cast<const Message*>(sample_) : nullptr;
   }
 
  private:

@@ -95,9 +95,13 @@ def keep(target):
 
 def rows_of(record):
     total = sum((Figures(**figures) for figures in record.values()), Figures())
-    for name, figures in [*sorted(record.items()), ("**all**", asdict(total))]:
-        of_all = "" if name == "**all**" else f"{figures['edges']:,}"
-        yield name, [f"{figures['seconds'] / 3600:.2f}", f"{figures['executions']:,}", of_all]
+
+    def cells(figures, edges):
+        return [f"{figures.seconds / 3600:.2f}", f"{figures.executions:,}", edges]
+
+    for name, figures in sorted(record.items()):
+        yield name, cells(Figures(**figures), f"{figures['edges']:,}")
+    yield "**all**", cells(total, "")
 
 
 def add_to_record(found):

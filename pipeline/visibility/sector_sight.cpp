@@ -12,8 +12,10 @@ namespace {
 
 using frame::Label;
 
-/// What hangs in the air is nearer and higher than this, and this far from any other return.
+/// What hangs in the air is nearer and higher than this, and this far from any other return; and so
+/// many rows, where these lie farther apart there: a pole of which one beam is missed is no drop.
 constexpr float kAirNearest_m = 20, kAirLowest_m = 0.3F, kAlone_m = 0.6F;
+constexpr double kAlone_rows = 2;
 constexpr float kBelow_m = -0.3F;
 /// The view ends where so many rows, one above the other, are lost; a single laser may have failed.
 constexpr int kLostRows = 2;
@@ -28,17 +30,26 @@ std::uint8_t one_more(std::uint8_t count) noexcept {
   return static_cast<std::uint8_t>(count + (count < 255 ? 1 : 0));
 }
 
+/// Returns the angle between a row and the one above it.
+double gap_rad(const mount::RingProfile& profile, std::size_t row) noexcept {
+  return profile.rings[row + 1].elevation_rad - profile.rings[row].elevation_rad;
+}
+
 }  // namespace
 
 SectorSights::SectorSights(const mount::RingProfile& profile, frame::ImageShape shape,
                            memory::FixedMemory& memory)
     : shape_(shape),
       ground_m_(memory.take<float>("visibility", profile.rings.size())),
+      alone_by_range_(memory.take<float>("visibility", profile.rings.size())),
       beams_(memory.take<Beam>("visibility", shape.cells())),
       sectors_(memory.take<SectorSight>("visibility", kSectors)) {
   for (std::size_t row = 0; row < profile.rings.size(); ++row) {
     const double ground_m = profile.rings[row].ground_distance_m;
     ground_m_[row] = static_cast<float>(ground_m);
+    const double above_rad = row + 1 < profile.rings.size() ? gap_rad(profile, row) : 0;
+    const double below_rad = row > 0 ? gap_rad(profile, row - 1) : 0;
+    alone_by_range_[row] = static_cast<float>(kAlone_rows * std::max(above_rad, below_rad));
     if (ground_m < kNear_m) near_rows_ = static_cast<int>(row) + 1;
     if (ground_m < kFarthest_m) ground_rows_ = static_cast<int>(row) + 1;
   }
@@ -120,6 +131,8 @@ SectorSights::RowCount SectorSights::look_at_beams(int row, frame::ColumnRange c
 bool SectorSights::is_alone(int row, int column, const frame::RangeImage& image) const noexcept {
   const frame::PointPlanes points = image.points();
   const std::size_t cell = shape_.cell(row, column);
+  const float reach_m = std::max(
+      kAlone_m, alone_by_range_[static_cast<std::size_t>(row)] * image.ground_range_m()[cell]);
   for (int other_row = std::max(row - 1, 0); other_row <= std::min(row + 1, shape_.rows - 1);
        ++other_row) {
     for (const int aside : {-1, 0, 1}) {
@@ -127,7 +140,7 @@ bool SectorSights::is_alone(int row, int column, const frame::RangeImage& image)
       const int other_column = (column + aside + shape_.columns) % shape_.columns;
       const std::size_t other = shape_.cell(other_row, other_column);
       // False for a cell without a return.
-      if (distance_squared_m2(points, cell, other) < kAlone_m * kAlone_m) return false;
+      if (distance_squared_m2(points, cell, other) < reach_m * reach_m) return false;
     }
   }
   return true;

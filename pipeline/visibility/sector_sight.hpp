@@ -77,6 +77,7 @@ class SectorSights {
   frame::ImageShape shape_;
   int near_rows_ = 0, ground_rows_ = 0;  // rows that meet ground nearer than kNear_m, kFarthest_m
   std::span<float> ground_m_;            // by row: where it meets level ground
+  std::span<float> alone_by_range_;      // by row: how far apart, by their range, alone returns are
   std::span<Beam> beams_;                // by cell of the ground rows
   std::span<SectorSight> sectors_;
 };

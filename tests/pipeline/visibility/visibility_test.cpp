@@ -129,6 +129,32 @@ TEST_F(ViewOfASensor, HasSprayWhereReturnsHangAloneInTheAir) {
   EXPECT_LE(view.troubled_sectors(), 3);
 }
 
+TEST_F(ViewOfASensor, HasNoSprayWherePolesStandWhoseReturnsAreOneRowApart) {
+  constexpr frame::ImageShape kSparse{14, 1000};  // rows 2 degrees apart, as a VLP-16's
+  profile = test::even_profile(kSparse.rows);
+  frame::RangeImage sparse_image{kSparse, 1000, memory};
+  stage::CellPlanes labels{kSparse, memory};
+  Visibility sparse_view{{}, profile, kSparse, memory};
+  const auto look = [&](const test::BeamCast& beams, int turns) {
+    test::cast_frame(profile, beams, sparse_image);
+    for (std::size_t cell = 0; cell < kSparse.cells(); ++cell) {
+      const bool is_there = sparse_image.has_return(cell);
+      labels.height_m[cell] = is_there ? sparse_image.z_m()[cell] : NAN;
+      labels.label[cell] = !is_there                          ? Label::kNone
+                           : sparse_image.z_m()[cell] > 0.05F ? Label::kObstacle
+                                                              : Label::kGround;
+    }
+    for (int i = 0; i < turns; ++i) sparse_view.look(sparse_image, labels);
+  };
+  look(open_field, 12);
+  std::vector<test::Box> poles;
+  for (double left_m = -3; left_m <= 3; left_m += 0.75) {
+    poles.push_back({18.5, 18.6, left_m, left_m + 0.1, 0, 4});
+  }
+  look(test::ground_with_boxes(poles), 10);
+  EXPECT_EQ(sparse_view.worst(), Condition{});
+}
+
 TEST_F(ViewOfASensor, IsLearntAnewOnceForgotten) {
   see(street, 12);
   see(without(street, nothing_between(0, 40)), 5);

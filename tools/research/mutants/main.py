@@ -10,7 +10,7 @@ Mistakes are made by rule, from clang's syntax tree: a comparison off by its bou
 a constant off by one, a sign or negation lost, a statement dropped, two arguments of one type swapped, a function that returns at
 once. All drawn ones are compiled into one program, in a copy of the tree (build/mutants/tree); a number in the environment makes
 one of them. The suites of `./tools/test` run once without any, which shows whom each is reached by; then, for each mistake, those
-that reach it, the quickest first, until one fails. Verdicts go into build/mutants/verdicts.json as they fall, and a run that broke
+that reach it, until one fails: first the quick ones for all mistakes, then the slower ones for those not noticed yet. Verdicts go into build/mutants/verdicts.json as they fall, and a run that broke
 off goes on there. Exit code 1 where a mistake was not noticed.
 
 A mistake that survives may change nothing anyone can see (a bound that is never met): look before you write a test.
@@ -19,10 +19,11 @@ A mistake that survives may change nothing anyone can see (a bound that is never
 import argparse
 import hashlib
 import json
+import math
 import re
 import subprocess
 import sys
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 from whole_file import write_whole_file
@@ -32,6 +33,8 @@ from .suites import Failed, Suites
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 FOLDER = REPOSITORY / "build/mutants"
+# Suites in parts by how long they take: most mistakes are noticed by the first.
+PARTS_S = (0, 2, 10, math.inf)
 
 
 def arguments(given):
@@ -118,38 +121,54 @@ class Trial:
     def reach(self):
         """Which suites reach each mistake, and how long each takes, without a mistake."""
         self.suites.make_fixtures()
-        marks = FOLDER / "reached"
-        seconds, reached_by = {}, {number: [] for number in self.numbered}
-        for name in self.suites.names():
+
+        def look(name):
+            marks = FOLDER / f"reached-{name.replace('/', '-')}"
             marks.unlink(missing_ok=True)
-            seconds[name] = self.suites.timed(name, marks)
+            seconds = self.suites.timed(name, marks)
             seen = marks.read_bytes() if marks.exists() else b""
-            for number in self.numbered:
-                if number < len(seen) and seen[number]:
-                    reached_by[number].append(name)
-        for names in reached_by.values():
-            names.sort(key=seconds.get)
+            marks.unlink(missing_ok=True)
+            return seconds, {number for number in self.numbered if number < len(seen) and seen[number]}
+
+        names = self.suites.names()
+        with ThreadPoolExecutor(self.suites.jobs) as pool:
+            looked = dict(zip(names, pool.map(look, names)))
+        seconds = {name: each[0] for name, each in looked.items()}
+        reached_by = {number: sorted((name for name in names if number in looked[name][1]), key=seconds.get) for number in self.numbered}
         return seconds, reached_by
 
     def judge(self, seconds, reached_by, verdicts):
-        """Yields (site, verdict) as they fall; those in `verdicts` are not tried again."""
-        for number, site in self.numbered.items():
-            if site.key() in verdicts:
-                continue
-            names = reached_by[number]
-            noticed = None
-            for part in ([name for name in names if seconds[name] < 2], [name for name in names if seconds[name] >= 2]):
-                if part and not noticed:
-                    noticed = self.suites.run(part, number, limit_s=20 + 5 * max(seconds[name] for name in part))
-            yield site, noticed or ("reached by no suite" if not names else "")
+        """Yields (site, verdict) as they fall; those in `verdicts` are not tried again. All mistakes are tried with the quick suites
+        before any is tried with the slower ones."""
+        open_ones = [number for number, site in self.numbered.items() if site.key() not in verdicts]
+        for shortest, longest in zip(PARTS_S, PARTS_S[1:]):
+            survivors = []
+            for number in open_ones:
+                part = [name for name in reached_by[number] if shortest <= seconds[name] < longest]
+                noticed = self.suites.run(part, number, limit_s=20 + 5 * max(map(seconds.get, part))) if part else None
+                if noticed:
+                    yield self.numbered[number], noticed
+                else:
+                    survivors.append(number)
+            open_ones = survivors
+            if open_ones and longest < PARTS_S[-1]:
+                print(f"{len(open_ones)} not noticed by suites below {longest} s:", flush=True)
+                for number in open_ones:
+                    print(f"  {described(self.numbered[number])}", flush=True)
+        for number in open_ones:
+            yield self.numbered[number], "" if reached_by[number] else "reached by no suite"
+
+
+def described(site):
+    what = f"{site.before!r} -> {site.after!r}" if site.after else f"without {site.before!r}"
+    return f"{site.file}:{site.line}: {site.rule}: {what}"
 
 
 def report(drawn, verdicts):
     judged = [(site, verdicts[site.key()]) for site in drawn if site.key() in verdicts]
     missed = [(site, verdict) for site, verdict in judged if verdict in ("", "reached by no suite")]
     for site, verdict in missed:
-        what = f"{site.before!r} -> {site.after!r}" if site.after else f"without {site.before!r}"
-        print(f"{site.file}:{site.line}: {site.rule}: {what}{': ' + verdict if verdict else ''}")
+        print(f"{described(site)}{': ' + verdict if verdict else ''}")
     print(f"{len(judged)} mistakes planted, {len(judged) - len(missed)} noticed, {len(missed)} not")
     return 1 if missed else 0
 
@@ -159,7 +178,7 @@ def main(given):
     drawn = wanted(given)
     if given.list:
         for site in drawn:
-            print(f"{site.file}:{site.line}: {site.rule}: {site.before!r} -> {site.after!r}")
+            print(described(site))
         return 0
     kept = FOLDER / "verdicts.json"
     state = hashlib.sha256("".join(site.key() + site.shape for site in drawn).encode()).hexdigest()

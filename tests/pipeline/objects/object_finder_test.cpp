@@ -64,6 +64,17 @@ TEST_F(ObjectsOfAFrame, TwoPersonsHalfAMetreApartAt15MetresAreTwo) {
   EXPECT_NE(objects_in(14, 16, 2.0, 2.5), objects_in(14, 16, 3.0, 3.5));
 }
 
+TEST_F(ObjectsOfAFrame, APersonIsNotJoinedByWhatHangsBesideButACarIs) {
+  find({{15, 15.3, 2.0, 2.5, 0, 1.75}, {15, 15.2, 2.95, 3.15, 0.6, 1.0}});
+  const std::set<int> person = objects_in(14, 16, 1.9, 2.6), beside = objects_in(14, 16, 2.9, 3.2);
+  ASSERT_FALSE(person.empty() || beside.empty());
+  ASSERT_NE(*person.rbegin(), 0) << "only the lowest returns are no object's";
+  EXPECT_FALSE(beside.contains(*person.rbegin()));
+  find({{15, 17, 0, 2.5, 0, 1.75}, {15, 15.2, 2.95, 3.15, 0.6, 1.0}});
+  EXPECT_TRUE(objects_in(14, 16, 0, 2.6).contains(*objects_in(14, 16, 2.9, 3.2).rbegin()));
+  EXPECT_FALSE(objects_in(14, 16, 2.9, 3.2).contains(0));
+}
+
 TEST_F(ObjectsOfAFrame, ACarBehindAPoleIsOne) {
   const auto found = find({{10, 10.1, 1.4, 1.5, 0, 4}, {14, 18, -1, 3.5, 0.2, 1.5}});
   ASSERT_EQ(found.size(), 2U);

@@ -9,14 +9,18 @@ namespace {
 
 using stage::FourFloats;
 
-/// Counts squares along both axes up to a place, from beyond any return.
-struct Steps {
-  std::uint32_t x, y;
-  Steps(stage::FourFloats at_m, float squares_per_m) noexcept {
+/// The squares over which some returns lie, counted along both axes from beyond any return.
+struct Squares {
+  std::uint32_t least_x, least_y, most_x, most_y;
+  Squares(const Extent& extent, float squares_per_m) noexcept {
     constexpr float kPositive = 1 << 16;
-    const auto steps = __builtin_convertvector(at_m * squares_per_m + kPositive, stage::FourInts);
-    x = static_cast<std::uint32_t>(steps[0]);
-    y = static_cast<std::uint32_t>(steps[1]);
+    const FourFloats corners_m = __builtin_shufflevector(extent.least_m, extent.most_m, 0, 1, 4, 5);
+    const auto steps =
+        __builtin_convertvector(corners_m * squares_per_m + kPositive, stage::FourInts);
+    least_x = static_cast<std::uint32_t>(steps[0]);
+    least_y = static_cast<std::uint32_t>(steps[1]);
+    most_x = static_cast<std::uint32_t>(steps[2]);
+    most_y = static_cast<std::uint32_t>(steps[3]);
   }
 };
 
@@ -32,7 +36,7 @@ NearbyClusters::NearbyClusters(const Config& config, std::size_t most_clusters,
       first_(memory.take<std::uint32_t>("objects", most_clusters)),
       whole_(memory.take<Cluster>("objects", most_clusters)) {}
 
-void NearbyClusters::join(const frame::PointPlanes& points, const Clusters& clusters) noexcept {
+void NearbyClusters::join(const Clusters& clusters) noexcept {
   const std::span<const Cluster> all = clusters.clusters();
   clusters_ = all.size();
   for (std::uint32_t i = 0; i < clusters_; ++i) {
@@ -40,7 +44,7 @@ void NearbyClusters::join(const frame::PointPlanes& points, const Clusters& clus
     parts_[i] = part_of(all[i]);
   }
   mark(clusters);
-  divide(points, clusters);
+  divide(clusters);
   const std::span<const Piece> pieces = pieces_.first(pieces_used_);
   for (const Piece& piece : pieces) {
     if (parts_[piece.cluster] == Part::kLooks) join_around(piece);
@@ -62,11 +66,10 @@ void NearbyClusters::mark(const Clusters& clusters) noexcept {
   const std::span<const Run> runs = clusters.runs();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (parts_[runs[i].cluster] != Part::kLooks) continue;
-    const Steps least(clusters.extents()[i].least_m, 1 / config_.join_m);
-    const Steps most(clusters.extents()[i].most_m, 1 / config_.join_m);
-    for (std::uint32_t y = least.y - 1; y != most.y + 2; ++y) {
-      for (std::uint32_t x = least.x - 1; x != most.x + 2; ++x) {
-        const std::uint32_t square = y % kSide * kSide + x % kSide;
+    const Squares squares(clusters.extents()[i], 1 / config_.join_m);
+    for (std::uint32_t y = squares.least_y - 1; y != squares.most_y + 2; ++y) {
+      for (std::uint32_t x = squares.least_x - 1; x != squares.most_x + 2; ++x) {
+        const std::uint32_t square = square_at(x, y);
         marked_[square / kBits] |= std::uint64_t{1} << square % kBits;
       }
     }
@@ -86,34 +89,17 @@ void NearbyClusters::settle(std::span<const Cluster> clusters) noexcept {
   }
 }
 
-void NearbyClusters::divide(const frame::PointPlanes& points, const Clusters& clusters) noexcept {
+void NearbyClusters::divide(const Clusters& clusters) noexcept {
   pieces_used_ = 0;
-  const auto square_of = [per_m = 1 / config_.join_m](FourFloats at_m) noexcept {
-    const Steps steps(at_m, per_m);
-    return steps.y % kSide * kSide + steps.x % kSide;
-  };
   const std::span<const Run> runs = clusters.runs();
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Run& run = runs[i];
     const Extent& extent = clusters.extents()[i];
-    const Steps least(extent.least_m, 1 / config_.join_m);
-    const Steps most(extent.most_m, 1 / config_.join_m);
-    const std::uint32_t square = least.y % kSide * kSide + least.x % kSide;
-    if (least.x == most.x && least.y == most.y) {
-      if (is_marked(square)) add(square, run.cluster, extent);
-      continue;
-    }
-    bool is_any_marked = false;
-    for (std::uint32_t y = least.y; y != most.y + 1; ++y) {
-      for (std::uint32_t x = least.x; x != most.x + 1; ++x) {
-        is_any_marked |= is_marked(y % kSide * kSide + x % kSide);
+    const Squares squares(extent, 1 / config_.join_m);
+    for (std::uint32_t y = squares.least_y; y != squares.most_y + 1; ++y) {
+      for (std::uint32_t x = squares.least_x; x != squares.most_x + 1; ++x) {
+        const std::uint32_t square = square_at(x, y);
+        if (is_marked(square)) add(square, runs[i].cluster, extent);
       }
-    }
-    if (!is_any_marked) continue;
-    for (std::uint32_t cell = run.begin; cell < run.end; ++cell) {
-      const FourFloats at_m{points.x_m[cell], points.y_m[cell], points.z_m[cell], 0};
-      const std::uint32_t of_cell = square_of(at_m);
-      if (is_marked(of_cell)) add(of_cell, run.cluster, {at_m, at_m});
     }
   }
 }
@@ -129,10 +115,10 @@ void NearbyClusters::add(std::uint32_t square, std::uint32_t cluster,
 }
 
 void NearbyClusters::join_around(const Piece& piece) noexcept {
-  const auto [x, y] = Steps(piece.extent.least_m, 1 / config_.join_m);
+  const std::uint32_t x = piece.square % kSide, y = piece.square / kSide;
   for (std::uint32_t other_y = y - 1; other_y != y + 2; ++other_y) {
     for (std::uint32_t other_x = x - 1; other_x != x + 2; ++other_x) {
-      std::uint32_t i = first_piece_[other_y % kSide * kSide + other_x % kSide];
+      std::uint32_t i = first_piece_[square_at(other_x, other_y)];
       for (; i != 0; i = pieces_[i - 1].next) {
         const Piece& other = pieces_[i - 1];
         if (first_[other.cluster] == first_[piece.cluster]) continue;

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/frame/point_planes.hpp"
 #include "pipeline/objects/clusters.hpp"
 #include "pipeline/objects/run.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -20,7 +19,7 @@ namespace terracut::objects {
 /// join it only where they are beside it.
 ///
 /// The ground is divided into squares as wide as clusters look. Of each cluster it is noted between
-/// which coordinates its returns in a square lie; these boxes are compared with those in the same
+/// which coordinates its runs over a square lie; these boxes are compared with those in the same
 /// and the adjoining squares. Squares without a small cluster in or around them are left out.
 class NearbyClusters {
  public:
@@ -39,8 +38,7 @@ class NearbyClusters {
                  memory::FixedMemory& memory);
 
   /// Finds which clusters belong together. Real-time safe.
-  void join(const frame::PointPlanes& points,
-            const Clusters& clusters) noexcept TERRACUT_NONBLOCKING;
+  void join(const Clusters& clusters) noexcept TERRACUT_NONBLOCKING;
 
   /// Returns for each cluster the first of those it belongs together with.
   [[nodiscard]] std::span<const std::uint32_t> first() const noexcept {
@@ -52,7 +50,7 @@ class NearbyClusters {
  private:
   /// What a cluster does.
   enum class Part : std::uint8_t { kStays, kLooks, kIsSlim };
-  /// A cluster's returns in a square.
+  /// A cluster's runs over a square.
   struct Piece {
     Extent extent;
     std::uint32_t cluster, next;  ///< `next`: 1 + the next piece in the square; 0: none.
@@ -65,7 +63,11 @@ class NearbyClusters {
   [[nodiscard]] Part part_of(const Cluster& cluster) const noexcept;
   /// Marks the squares in and around which small clusters lie.
   void mark(const Clusters& clusters) noexcept;
-  void divide(const frame::PointPlanes& points, const Clusters& clusters) noexcept;
+  void divide(const Clusters& clusters) noexcept;
+  [[nodiscard]] static constexpr std::uint32_t square_at(std::uint32_t x,
+                                                         std::uint32_t y) noexcept {
+    return y % kSide * kSide + x % kSide;
+  }
   [[nodiscard]] bool is_marked(std::uint32_t square) const noexcept {
     return (marked_[square / kBits] >> square % kBits & 1U) != 0;
   }

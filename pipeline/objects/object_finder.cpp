@@ -45,7 +45,7 @@ void ObjectFinder::find(const frame::RangeImage& image, const stage::CellPlanes&
                         std::span<const frame::Label> labels) noexcept {
   parts_.divide(planes, config_.low_m);
   clusters_.find(image.points(), parts_, planes.height_m, reach_);
-  nearby_.join(image.points(), clusters_);
+  nearby_.join(clusters_);
   number();
   measure(image);
   take_feet(image, planes.height_m);

@@ -197,23 +197,23 @@ void Clusters::join_rows(int row, std::uint32_t below, const frame::PointPlanes&
                          const Reach& reach) noexcept {
   const auto stride = static_cast<std::uint32_t>(shape_.stride());
   const RowReach row_reach = reach.to_next_row(row - 1);
-  const std::uint32_t end = row_begin_;
+  const std::span<const Run> lower_runs = runs_.subspan(below, row_begin_ - below);
   std::uint32_t stretch = stretches_, stretch_below = stretches_;  // none
-  std::uint32_t lower = below;
-  for (std::uint32_t run = row_begin_; run < count_; ++run) {
-    const std::uint32_t begin_below = runs_[run].begin - stride,
-                        end_below = runs_[run].end - stride;
-    while (lower < end && runs_[lower].end < begin_below) ++lower;
-    for (std::uint32_t other = lower; other < end && runs_[other].begin <= end_below; ++other) {
+  std::size_t lower = 0;
+  for (const Run& run : runs_.subspan(row_begin_, count_ - row_begin_)) {
+    const std::uint32_t begin_below = run.begin - stride, end_below = run.end - stride;
+    while (lower < lower_runs.size() && lower_runs[lower].end < begin_below) ++lower;
+    for (std::size_t i = lower; i < lower_runs.size() && lower_runs[i].begin <= end_below; ++i) {
+      const Run& other = lower_runs[i];
       // Mostly the stretches of the pair before, which have been joined.
-      if (runs_[run].cluster == stretch && runs_[other].cluster == stretch_below) continue;
-      const std::uint32_t a = root_of(runs_[run].cluster), b = root_of(runs_[other].cluster);
+      if (run.cluster == stretch && other.cluster == stretch_below) continue;
+      const std::uint32_t a = root_of(run.cluster), b = root_of(other.cluster);
       if (a != b) {
-        if (!touch(runs_[run], runs_[other], stride, points, row_reach)) continue;
+        if (!touch(run, other, stride, points, row_reach)) continue;
         joined_[std::max(a, b)] = std::min(a, b);
       }
-      stretch = runs_[run].cluster;
-      stretch_below = runs_[other].cluster;
+      stretch = run.cluster;
+      stretch_below = other.cluster;
     }
   }
 }

@@ -67,10 +67,14 @@ void NearbyClusters::mark(const Clusters& clusters) noexcept {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (parts_[runs[i].cluster] != Part::kLooks) continue;
     const Squares squares(clusters.extents()[i], 1 / config_.join_m);
+    // A run is at most 8 cells long, and goes over fewer squares than a word has bits.
+    const std::uint32_t first_x = squares.least_x - 1, count = squares.most_x - squares.least_x + 3;
+    const std::uint64_t bits = (std::uint64_t{1} << count) - 1;
+    const std::uint32_t shift = first_x % kBits;
     for (std::uint32_t y = squares.least_y - 1; y != squares.most_y + 2; ++y) {
-      for (std::uint32_t x = squares.least_x - 1; x != squares.most_x + 2; ++x) {
-        const std::uint32_t square = square_at(x, y);
-        marked_[square / kBits] |= std::uint64_t{1} << square % kBits;
+      marked_[square_at(first_x, y) / kBits] |= bits << shift;
+      if (shift + count > kBits) {
+        marked_[square_at(first_x + kBits, y) / kBits] |= bits >> (kBits - shift);
       }
     }
   }

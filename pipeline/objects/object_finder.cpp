@@ -148,7 +148,8 @@ std::uint16_t ObjectFinder::object_near(const frame::RangeImage& image,
                                         std::span<const frame::Label> cell_labels,
                                         const frame::OverflowReturn& extra) const noexcept {
   const frame::PointPlanes points = image.points();
-  float nearest_m2 = config_.gap_m * config_.gap_m;
+  const float farthest_m2 = config_.gap_m * config_.gap_m;
+  float nearest_m2 = farthest_m2;
   std::uint16_t object = 0;
   const auto look_at = [&](std::size_t cell) noexcept {
     if (cell_labels[cell] != frame::Label::kObstacle) return;
@@ -156,12 +157,12 @@ std::uint16_t ObjectFinder::object_near(const frame::RangeImage& image,
     const float y_m = points.y_m[cell] - extra.point.y_m;
     const float z_m = points.z_m[cell] - extra.point.z_m;
     const float distance_m2 = x_m * x_m + y_m * y_m + z_m * z_m;
-    if (distance_m2 > nearest_m2) return;
+    if (distance_m2 >= nearest_m2) return;
     nearest_m2 = distance_m2;
     object = object_of_cell_[cell];
   };
   look_at(extra.cell);
-  if (object != 0) return object;  // the owner of the same cell
+  if (nearest_m2 < farthest_m2) return object;  // that of the cell's owner
   const int row = static_cast<int>(extra.cell) / shape_.stride();
   const int column = static_cast<int>(extra.cell) % shape_.stride();
   for (int other_row = std::max(row - 1, 0); other_row <= std::min(row + 1, shape_.rows - 1);

@@ -122,6 +122,32 @@ TEST_F(ObjectsOfAFrame, WheelsBelongToTheirCarAndGrassAroundAPostDoesNot) {
   EXPECT_TRUE(objects_in(6, 7.5, 1, 5).contains(0));
 }
 
+TEST_F(ObjectsOfAFrame, LowReturnsOfASlantingFaceBelongToItButForTheLowest) {
+  // A face 2 m wide that leans back by 0.8 m a metre.
+  const test::BeamCast ground = test::ground_with_boxes({});
+  cast([&](double azimuth_rad, double elevation_rad) {
+    const double ahead = std::cos(elevation_rad) * std::cos(azimuth_rad),
+                 up = std::sin(elevation_rad);
+    const double face_m = (1.73 + 10 / 0.8) / (ahead / 0.8 - up);
+    const double z_m = 1.73 + face_m * up,
+                 y_m = face_m * std::cos(elevation_rad) * std::sin(azimuth_rad);
+    return ahead > 0 && z_m > 0 && z_m < 1.5 && std::abs(y_m) < 1
+               ? face_m
+               : ground(azimuth_rad, elevation_rad);
+  });
+  ASSERT_EQ(find_again().size(), 1U);
+  std::size_t low = 0;
+  for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
+    const float z_m = image.z_m()[cell];
+    if (!image.has_return(cell) || planes.label[cell] != Label::kObstacle) continue;
+    if (std::abs(image.y_m()[cell]) > 0.8F) continue;  // the cell above may miss the face
+    const int object = finder.object_of_return()[image.return_index()[cell]];
+    EXPECT_EQ(object, z_m < 0.1F ? 0 : 1) << z_m;
+    low += z_m < 0.25F && object == 1 ? 1 : 0;
+  }
+  EXPECT_GT(low, 10U);
+}
+
 TEST_F(ObjectsOfAFrame, SomethingLowByItselfIsOne) {
   EXPECT_EQ(find({{10, 10.5, 2, 3.7, 0, 0.28}}).size(), 1U) << "a person who lies on the road";
   EXPECT_TRUE(find({{10, 10.5, 2, 3.7, 0, 0.10}}).empty()) << "a plank";

@@ -22,21 +22,17 @@ bool are_near(const frame::PointPlanes& points, std::uint32_t a, std::uint32_t b
 /// return is within reach of the one before it. These are not the first cells of a row.
 std::uint32_t links(const frame::PointPlanes& points, std::size_t cell,
                     const Reach& reach) noexcept {
-  std::uint32_t links = 0;
-  for (std::uint32_t i = 0; i < kEightCells; i += 4) {
-    const auto between = [at = cell + i](const float* plane) noexcept {
-      return stage::load_four(plane + at) - stage::load_four(plane + at - 1);
+  const auto are_linked = [&](std::size_t four) noexcept -> stage::FourInts {
+    const auto between = [four](const float* plane) noexcept {
+      return stage::load_four(plane + four) - stage::load_four(plane + four - 1);
     };
     const FourFloats x_m = between(points.x_m), y_m = between(points.y_m),
                      z_m = between(points.z_m);
-    const FourFloats range_m = lesser(stage::load_four(&points.ground_range_m[cell + i]),
-                                      stage::load_four(&points.ground_range_m[cell + i - 1]));
-    const stage::FourInts bits =
-        (x_m * x_m + y_m * y_m + z_m * z_m <= reach.along_row_squared_m2(range_m)) &
-        stage::FourInts{1, 2, 4, 8};
-    links |= static_cast<std::uint32_t>(bits[0] | bits[1] | bits[2] | bits[3]) << i;
-  }
-  return links;
+    const FourFloats range_m = lesser(stage::load_four(&points.ground_range_m[four]),
+                                      stage::load_four(&points.ground_range_m[four - 1]));
+    return x_m * x_m + y_m * y_m + z_m * z_m <= reach.along_row_squared_m2(range_m);
+  };
+  return bits_of(are_linked(cell), are_linked(cell + 4));
 }
 
 /// Returns the same for the first eight cells of a row; the first one is linked to none.
@@ -84,56 +80,80 @@ Extent extent_of(const Run& run, const frame::PointPlanes& points,
           across(most_m, [](auto a, auto b) noexcept { return greater(a, b); })};
 }
 
+/// True if runs of adjacent rows are within reach anywhere. `run` is in the higher row, `stride`
+/// cells on.
+bool touch(const Run& run, const Run& lower, std::uint32_t stride, const frame::PointPlanes& points,
+           const RowReach& reach) noexcept {
+  const auto are_within = [&](std::uint32_t cell, std::uint32_t other) noexcept {
+    const float range_m = std::min(points.ground_range_m[cell], points.ground_range_m[other]);
+    return distance_squared_m2(points, cell, other) <= reach.squared_m2(range_m);
+  };
+  const std::uint32_t begin = std::max(run.begin, lower.begin + stride);
+  const std::uint32_t end = std::min(run.end, lower.end + stride);
+  // Runs that only meet at a corner:
+  if (begin == end) {
+    return run.begin == end ? are_within(begin, begin - stride - 1)
+                            : are_within(begin - 1, begin - stride);
+  }
+  for (std::uint32_t cell = begin; cell < end; ++cell) {
+    if (are_within(cell, cell - stride)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Clusters::Clusters(frame::ImageShape shape, std::size_t most_runs, memory::FixedMemory& memory)
     : shape_(shape),
       runs_(memory.take<Run>("objects", most_runs)),
+      extents_(memory.take<Extent>("objects", most_runs)),
+      joined_(memory.take<std::uint32_t>("objects", most_runs)),
       clusters_(memory.take<Cluster>("objects", most_runs)) {}
 
-std::uint32_t Clusters::root_of(std::uint32_t run) noexcept {
-  while (runs_[run].cluster != run) {
-    runs_[run].cluster = runs_[runs_[run].cluster].cluster;
-    run = runs_[run].cluster;
+std::uint32_t Clusters::root_of(std::uint32_t stretch) noexcept {
+  while (joined_[stretch] != stretch) {
+    joined_[stretch] = joined_[joined_[stretch]];
+    stretch = joined_[stretch];
   }
-  return run;
+  return stretch;
 }
 
 void Clusters::join(std::uint32_t a, std::uint32_t b) noexcept {
   a = root_of(a);
   b = root_of(b);
-  runs_[std::max(a, b)].cluster = std::min(a, b);
+  joined_[std::max(a, b)] = std::min(a, b);
 }
 
-void Clusters::find(const frame::PointPlanes& points, std::span<const Part> parts,
+void Clusters::find(const frame::PointPlanes& points, const Parts& parts,
                     std::span<const float> height_m, const Reach& reach) noexcept {
-  count_ = row_begin_ = cells_left_out_ = 0;
+  count_ = stretches_ = row_begin_ = cells_left_out_ = 0;
   for (int row = 0; row < shape_.rows; ++row) {
     const std::uint32_t below = row_begin_;
-    row_begin_ = stretch_ = count_;
+    row_begin_ = stretch_begin_ = count_;
     cut_row(row, points, parts, height_m, reach);
-    join_rows(row, below, points, reach);
+    if (row > 0) join_rows(row, below, points, reach);
   }
   number();
 }
 
-void Clusters::cut_row(int row, const frame::PointPlanes& points, std::span<const Part> parts,
+void Clusters::cut_row(int row, const frame::PointPlanes& points, const Parts& parts,
                        std::span<const float> height_m, const Reach& reach) noexcept {
   const auto begin = static_cast<std::uint32_t>(shape_.cell(row, 0));
   const std::uint32_t end = begin + static_cast<std::uint32_t>(shape_.columns);
   for (std::uint32_t eight = begin; eight < end; eight += kEightCells) {
-    const std::uint32_t bodies = among_eight(Part::kBody, parts, eight);
+    const std::uint32_t bodies = parts.bodies(eight);
     if (bodies == 0) continue;
+    const std::uint32_t before = count_;
     cut_eight(eight, bodies,
               eight == begin ? first_links(points, eight, reach) : links(points, eight, reach),
               points, reach);
-  }
-  for (Run& run : runs_.subspan(row_begin_, count_ - row_begin_)) {
-    run.extent = extent_of(run, points, height_m);
+    for (std::uint32_t run = before; run < count_; ++run) {
+      extents_[run] = extent_of(runs_[run], points, height_m);
+    }
   }
   if (count_ > row_begin_ && runs_[row_begin_].begin == begin && runs_[count_ - 1].end == end &&
       are_near(points, begin, end - 1, reach)) {
-    join(row_begin_, count_ - 1);
+    join(runs_[row_begin_].cluster, stretches_ - 1);
   }
 }
 
@@ -149,25 +169,26 @@ void Clusters::cut_eight(std::uint32_t eight, std::uint32_t bodies, std::uint32_
     }
     const auto first = static_cast<std::uint32_t>(std::countr_zero(rest));
     const auto length = 1 + static_cast<std::uint32_t>(std::countr_one(linked >> (first + 1)));
-    Run& run = runs_[count_];
-    run.begin = eight + first;
-    run.end = run.begin + length;
-    run.cluster = count_;
-    if ((linked & 1U << first) != 0) {
-      run.cluster = runs_[count_ - 1].cluster;  // only the first cell can be linked to a run before
-    } else {
-      if (goes_on_behind(run.begin, points, reach)) join(count_, stretch_ - 1);
-      stretch_ = count_;
+    const std::uint32_t begin = eight + first;
+    if ((linked & 1U << first) == 0) {
+      joined_[stretches_] = stretches_;
+      if (goes_on_behind(begin, points, reach)) {
+        join(stretches_, runs_[stretch_begin_ - 1].cluster);
+      }
+      stretch_begin_ = count_;
+      ++stretches_;
     }
-    ++count_;
+    runs_[count_++] = {begin, begin + length, stretches_ - 1};
     rest &= ~(((1U << length) - 1) << first);
   }
 }
 
 bool Clusters::goes_on_behind(std::uint32_t cell, const frame::PointPlanes& points,
                               const Reach& reach) const noexcept {
-  if (stretch_ == row_begin_ || stretch_ == count_ || runs_[count_ - 1].end != cell) return false;
-  const std::uint32_t front = runs_[stretch_].begin, before = runs_[stretch_ - 1].end;
+  if (stretch_begin_ == row_begin_ || stretch_begin_ == count_ || runs_[count_ - 1].end != cell) {
+    return false;
+  }
+  const std::uint32_t front = runs_[stretch_begin_].begin, before = runs_[stretch_begin_ - 1].end;
   return before == front && points.ground_range_m[front] < points.ground_range_m[cell] &&
          are_near(points, before - 1, cell, reach);
 }
@@ -175,52 +196,48 @@ bool Clusters::goes_on_behind(std::uint32_t cell, const frame::PointPlanes& poin
 void Clusters::join_rows(int row, std::uint32_t below, const frame::PointPlanes& points,
                          const Reach& reach) noexcept {
   const auto stride = static_cast<std::uint32_t>(shape_.stride());
-  const std::uint32_t end = row_begin_;
-  std::uint32_t lower = below;
-  for (std::uint32_t run = row_begin_; run < count_; ++run) {
-    const std::uint32_t begin_below = runs_[run].begin - stride,
-                        end_below = runs_[run].end - stride;
-    while (lower < end && runs_[lower].end < begin_below) ++lower;
-    for (std::uint32_t other = lower; other < end && runs_[other].begin <= end_below; ++other) {
-      if (runs_[run].cluster == runs_[other].cluster) continue;
-      if (touch(runs_[run], runs_[other], row, points, reach)) join(run, other);
+  const RowReach row_reach = reach.to_next_row(row - 1);
+  const std::span<const Run> lower_runs = runs_.subspan(below, row_begin_ - below);
+  std::uint32_t stretch = stretches_, stretch_below = stretches_;  // none
+  std::size_t lower = 0;
+  for (const Run& run : runs_.subspan(row_begin_, count_ - row_begin_)) {
+    const std::uint32_t begin_below = run.begin - stride, end_below = run.end - stride;
+    while (lower < lower_runs.size() && lower_runs[lower].end < begin_below) ++lower;
+    for (std::size_t i = lower; i < lower_runs.size() && lower_runs[i].begin <= end_below; ++i) {
+      const Run& other = lower_runs[i];
+      // Mostly the stretches of the pair before, which have been joined.
+      if (run.cluster == stretch && other.cluster == stretch_below) continue;
+      const std::uint32_t a = root_of(run.cluster), b = root_of(other.cluster);
+      if (a != b) {
+        if (!touch(run, other, stride, points, row_reach)) continue;
+        joined_[std::max(a, b)] = std::min(a, b);
+      }
+      stretch = run.cluster;
+      stretch_below = other.cluster;
     }
   }
-}
-
-bool Clusters::touch(const Run& run, const Run& lower, int row, const frame::PointPlanes& points,
-                     const Reach& reach) const noexcept {
-  const auto stride = static_cast<std::uint32_t>(shape_.stride());
-  const auto are_within = [&](std::uint32_t cell, std::uint32_t other) {
-    const float range_m = std::min(points.ground_range_m[cell], points.ground_range_m[other]);
-    return distance_squared_m2(points, cell, other) <=
-           reach.to_next_row_squared_m2(row - 1, range_m);
-  };
-  const std::uint32_t begin = std::max(run.begin, lower.begin + stride);
-  const std::uint32_t end = std::min(run.end, lower.end + stride);
-  // Runs that only meet at a corner:
-  if (begin == end) {
-    return run.begin == end ? are_within(begin, begin - stride - 1)
-                            : are_within(begin - 1, begin - stride);
-  }
-  for (std::uint32_t cell = begin; cell < end; ++cell) {
-    if (are_within(cell, cell - stride)) return true;
-  }
-  return false;
 }
 
 void Clusters::number() noexcept {
   clusters_found_ = 0;
+  for (std::uint32_t i = 0; i < stretches_; ++i) {
+    if (joined_[i] == i) {
+      joined_[i] = clusters_found_++;
+    } else {
+      joined_[i] = joined_[joined_[i]];  // of an earlier stretch, which has its number
+    }
+  }
+  std::uint32_t begun = 0;
   for (std::uint32_t i = 0; i < count_; ++i) {
     Run& run = runs_[i];
-    if (run.cluster == i) {
-      run.cluster = clusters_found_++;
-      clusters_[run.cluster] = {run.extent, 0};
-    } else {
-      run.cluster = runs_[run.cluster].cluster;  // an earlier run, which has its number
+    run.cluster = joined_[run.cluster];
+    Cluster& cluster = clusters_[run.cluster];
+    if (run.cluster == begun) {  // clusters are numbered in the order of their first runs
+      cluster = {extents_[i], 0};
+      ++begun;
     }
-    clusters_[run.cluster].cells += run.end - run.begin;
-    clusters_[run.cluster].extent.add(run.extent);
+    cluster.cells += run.end - run.begin;
+    cluster.extent.add(extents_[i]);
   }
 }
 

@@ -18,9 +18,10 @@ constexpr std::array<FourFloats, 2> kAxesX{FourFloats{k0, k22, k45, k67},
 constexpr std::array<FourFloats, 2> kAxesY{FourFloats{0, k67, k45, k22},
                                            FourFloats{k0, k22, k45, k67}};
 
-constexpr FourFloats absolute(FourFloats a) noexcept {
-  return a < 0 ? -a : a;
-}
+// The same without signs.
+constexpr std::array<FourFloats, 2> kWidthsX{FourFloats{k0, k22, k45, k67},
+                                             FourFloats{0, k67, k45, k22}};
+constexpr std::array<FourFloats, 2> kWidthsY = kAxesY;
 
 }  // namespace
 
@@ -56,15 +57,15 @@ bool Outermost::exceed(const Extent& extent) const noexcept {
   stage::FourInts outside{};
   for (std::size_t half = 0; half < kHalves; ++half) {
     const FourFloats way = middle_m[0] * kAxesX[half] + middle_m[1] * kAxesY[half];
-    const FourFloats aside =
-        half_m[0] * absolute(kAxesX[half]) + half_m[1] * absolute(kAxesY[half]);
+    const FourFloats aside = half_m[0] * kWidthsX[half] + half_m[1] * kWidthsY[half];
     outside |= (way + aside > most_[half]) | (way - aside < least_[half]);
   }
   return stage::is_any(outside);
 }
 
-void Outermost::add(const frame::PointPlanes& points, const Run& run) noexcept {
-  if (!exceed(run.extent)) return;
+void Outermost::add(const frame::PointPlanes& points, const Run& run,
+                    const Extent& extent) noexcept {
+  if (!exceed(extent)) return;
   for (std::uint32_t cell = run.begin; cell < run.end; ++cell) add(points, cell);
 }
 

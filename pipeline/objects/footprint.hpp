@@ -18,8 +18,9 @@ class Outermost {
  public:
   /// Begins with one return.
   void begin(const frame::PointPlanes& points, std::uint32_t cell) noexcept TERRACUT_NONBLOCKING;
-  /// Adds the returns of a run.
-  void add(const frame::PointPlanes& points, const Run& run) noexcept TERRACUT_NONBLOCKING;
+  /// Adds the returns of a run of that extent.
+  void add(const frame::PointPlanes& points, const Run& run,
+           const Extent& extent) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] Footprint footprint(const frame::PointPlanes& points) const noexcept
       TERRACUT_NONBLOCKING;
 

@@ -9,14 +9,18 @@ namespace {
 
 using stage::FourFloats;
 
-/// Counts squares along both axes up to a place, from beyond any return.
-struct Steps {
-  std::uint32_t x, y;
-  Steps(stage::FourFloats at_m, float squares_per_m) noexcept {
+/// The squares over which some returns lie, counted along both axes from beyond any return.
+struct Squares {
+  std::uint32_t least_x, least_y, most_x, most_y;
+  Squares(const Extent& extent, float squares_per_m) noexcept {
     constexpr float kPositive = 1 << 16;
-    const auto steps = __builtin_convertvector(at_m * squares_per_m + kPositive, stage::FourInts);
-    x = static_cast<std::uint32_t>(steps[0]);
-    y = static_cast<std::uint32_t>(steps[1]);
+    const FourFloats corners_m = __builtin_shufflevector(extent.least_m, extent.most_m, 0, 1, 4, 5);
+    const auto steps =
+        __builtin_convertvector(corners_m * squares_per_m + kPositive, stage::FourInts);
+    least_x = static_cast<std::uint32_t>(steps[0]);
+    least_y = static_cast<std::uint32_t>(steps[1]);
+    most_x = static_cast<std::uint32_t>(steps[2]);
+    most_y = static_cast<std::uint32_t>(steps[3]);
   }
 };
 
@@ -25,23 +29,55 @@ struct Steps {
 NearbyClusters::NearbyClusters(const Config& config, std::size_t most_clusters,
                                std::size_t most_pieces, memory::FixedMemory& memory)
     : config_(config),
+      marked_(memory.take<std::uint64_t>("objects", kSide * kSide / kBits)),
       first_piece_(memory.take<std::uint32_t>("objects", kSide * kSide)),
       pieces_(memory.take<Piece>("objects", most_pieces)),
+      parts_(memory.take<Part>("objects", most_clusters)),
       first_(memory.take<std::uint32_t>("objects", most_clusters)),
       whole_(memory.take<Cluster>("objects", most_clusters)) {}
 
-void NearbyClusters::join(const frame::PointPlanes& points, const Clusters& clusters) noexcept {
+void NearbyClusters::join(const Clusters& clusters) noexcept {
   const std::span<const Cluster> all = clusters.clusters();
   clusters_ = all.size();
-  for (std::uint32_t i = 0; i < clusters_; ++i) first_[i] = i;
-  divide(points, clusters.runs());
-  for (const Piece& piece : pieces_.first(pieces_used_)) {
-    const Cluster& cluster = all[piece.cluster];
-    const bool stands =
-        cluster.extent.bottom_m() < config_.bottom_m && cluster.extent.top_m() > config_.upright_m;
-    if (cluster.cells < config_.small_cells && !stands) join_around(piece);
+  for (std::uint32_t i = 0; i < clusters_; ++i) {
+    first_[i] = i;
+    parts_[i] = part_of(all[i]);
   }
+  mark(clusters);
+  divide(clusters);
+  const std::span<const Piece> pieces = pieces_.first(pieces_used_);
+  for (const Piece& piece : pieces) {
+    if (parts_[piece.cluster] == Part::kLooks) join_around(piece);
+  }
+  for (const Piece& piece : pieces) first_piece_[piece.square] = 0;
   settle(all);
+}
+
+NearbyClusters::Part NearbyClusters::part_of(const Cluster& cluster) const noexcept {
+  const Extent& extent = cluster.extent;
+  const bool stands = extent.bottom_m() < config_.bottom_m && extent.top_m() > config_.upright_m;
+  if (!stands) return cluster.cells < config_.small_cells ? Part::kLooks : Part::kStays;
+  const FourFloats size_m = extent.most_m - extent.least_m;
+  return std::max(size_m[0], size_m[1]) < config_.slim_m ? Part::kIsSlim : Part::kStays;
+}
+
+void NearbyClusters::mark(const Clusters& clusters) noexcept {
+  std::ranges::fill(marked_, std::uint64_t{0});
+  const std::span<const Run> runs = clusters.runs();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (parts_[runs[i].cluster] != Part::kLooks) continue;
+    const Squares squares(clusters.extents()[i], 1 / config_.join_m);
+    // A run is at most 8 cells long, and goes over fewer squares than a word has bits.
+    const std::uint32_t first_x = squares.least_x - 1, count = squares.most_x - squares.least_x + 3;
+    const std::uint64_t bits = (std::uint64_t{1} << count) - 1;
+    const std::uint32_t shift = first_x % kBits;
+    for (std::uint32_t y = squares.least_y - 1; y != squares.most_y + 2; ++y) {
+      marked_[square_at(first_x, y) / kBits] |= bits << shift;
+      if (shift + count > kBits) {
+        marked_[square_at(first_x + kBits, y) / kBits] |= bits >> (kBits - shift);
+      }
+    }
+  }
 }
 
 void NearbyClusters::settle(std::span<const Cluster> clusters) noexcept {
@@ -57,23 +93,17 @@ void NearbyClusters::settle(std::span<const Cluster> clusters) noexcept {
   }
 }
 
-void NearbyClusters::divide(const frame::PointPlanes& points, std::span<const Run> runs) noexcept {
-  std::ranges::fill(first_piece_, 0U);
+void NearbyClusters::divide(const Clusters& clusters) noexcept {
   pieces_used_ = 0;
-  const auto square_of = [per_m = 1 / config_.join_m](FourFloats at_m) noexcept {
-    const Steps steps(at_m, per_m);
-    return steps.y % kSide * kSide + steps.x % kSide;
-  };
-  for (const Run& run : runs) {
-    const Extent& extent = run.extent;
-    const std::uint32_t square = square_of(extent.least_m);
-    if (square == square_of(extent.most_m)) {
-      add(square, run.cluster, extent);
-      continue;
-    }
-    for (std::uint32_t cell = run.begin; cell < run.end; ++cell) {
-      const FourFloats at_m{points.x_m[cell], points.y_m[cell], points.z_m[cell], 0};
-      add(square_of(at_m), run.cluster, {at_m, at_m});
+  const std::span<const Run> runs = clusters.runs();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Extent& extent = clusters.extents()[i];
+    const Squares squares(extent, 1 / config_.join_m);
+    for (std::uint32_t y = squares.least_y; y != squares.most_y + 1; ++y) {
+      for (std::uint32_t x = squares.least_x; x != squares.most_x + 1; ++x) {
+        const std::uint32_t square = square_at(x, y);
+        if (is_marked(square)) add(square, runs[i].cluster, extent);
+      }
     }
   }
 }
@@ -84,15 +114,15 @@ void NearbyClusters::add(std::uint32_t square, std::uint32_t cluster,
     if (pieces_[i - 1].cluster == cluster) return pieces_[i - 1].extent.add(extent);
   }
   if (pieces_used_ == pieces_.size()) return;
-  pieces_[pieces_used_++] = {extent, cluster, first_piece_[square]};
+  pieces_[pieces_used_++] = {extent, cluster, first_piece_[square], square};
   first_piece_[square] = pieces_used_;
 }
 
 void NearbyClusters::join_around(const Piece& piece) noexcept {
-  const auto [x, y] = Steps(piece.extent.least_m, 1 / config_.join_m);
+  const std::uint32_t x = piece.square % kSide, y = piece.square / kSide;
   for (std::uint32_t other_y = y - 1; other_y != y + 2; ++other_y) {
     for (std::uint32_t other_x = x - 1; other_x != x + 2; ++other_x) {
-      std::uint32_t i = first_piece_[other_y % kSide * kSide + other_x % kSide];
+      std::uint32_t i = first_piece_[square_at(other_x, other_y)];
       for (; i != 0; i = pieces_[i - 1].next) {
         const Piece& other = pieces_[i - 1];
         if (first_[other.cluster] == first_[piece.cluster]) continue;
@@ -100,7 +130,12 @@ void NearbyClusters::join_around(const Piece& piece) noexcept {
                                                  piece.extent.least_m - other.extent.most_m),
                                          FourFloats{});
         const FourFloats square_m2 = gap_m * gap_m;
-        if (square_m2[0] + square_m2[1] + square_m2[2] >= config_.join_m * config_.join_m) continue;
+        const float aside_m2 = square_m2[0] + square_m2[1];
+        if (aside_m2 + square_m2[2] >= config_.join_m * config_.join_m) continue;
+        if (parts_[other.cluster] == Part::kIsSlim &&
+            aside_m2 >= config_.beside_m * config_.beside_m) {
+          continue;
+        }
         const std::uint32_t a = root_of(piece.cluster), b = root_of(other.cluster);
         first_[std::max(a, b)] = std::min(a, b);
       }

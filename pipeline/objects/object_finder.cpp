@@ -3,18 +3,18 @@
 #include "object_finder.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace terracut::objects {
 
 namespace {
 
-/// True if one of two returns lies above the other as on an upright face, up to 1:3 aslant. Growth
-/// before a body, which slopes up to it, is none.
+/// True if one of two returns lies above the other as on a face that is more upright than level.
+/// Growth before a body, which slopes up to it, is none.
 bool is_face(const frame::PointPlanes& points, std::uint32_t a, std::uint32_t b) noexcept {
   const float up_m = points.z_m[a] - points.z_m[b];
-  constexpr float kSlant = 1.0F / 3;
-  return distance_squared_m2(points, a, b) <= (1 + kSlant * kSlant) * up_m * up_m;
+  return distance_squared_m2(points, a, b) <= 2 * up_m * up_m;
 }
 
 /// Adds returns to an object, of which `first` and `last` are the lowest and the highest index.
@@ -32,9 +32,9 @@ ObjectFinder::ObjectFinder(const Config& config, const mount::RingProfile& profi
     : config_(config),
       shape_(shape),
       reach_(config.gap_m, profile, shape, memory),
+      parts_(shape, memory),
       clusters_(shape, shape.cells() / 2, memory),
       nearby_(config.nearby, shape.cells() / 2, shape.cells() / 4, memory),
-      parts_(memory.take<Part>("objects", shape.cells())),
       object_of_cluster_(memory.take<std::uint16_t>("objects", shape.cells() / 2)),
       object_of_cell_(memory.take<std::uint16_t>("objects", shape.cells())),
       object_of_return_(memory.take<std::uint16_t>("objects", return_capacity)),
@@ -43,21 +43,13 @@ ObjectFinder::ObjectFinder(const Config& config, const mount::RingProfile& profi
 
 void ObjectFinder::find(const frame::RangeImage& image, const stage::CellPlanes& planes,
                         std::span<const frame::Label> labels) noexcept {
-  divide(planes);
+  parts_.divide(planes, config_.low_m);
   clusters_.find(image.points(), parts_, planes.height_m, reach_);
-  nearby_.join(image.points(), clusters_);
+  nearby_.join(clusters_);
   number();
   measure(image);
   take_feet(image, planes.height_m);
-  take_overflow(image, labels);
-}
-
-void ObjectFinder::divide(const stage::CellPlanes& planes) noexcept {
-  const float low_m = config_.low_m;
-  for (std::size_t cell = 0; cell < parts_.size(); ++cell) {
-    const Part part = planes.height_m[cell] < low_m ? Part::kFoot : Part::kBody;
-    parts_[cell] = planes.label[cell] == frame::Label::kObstacle ? part : Part::kNone;
-  }
+  take_overflow(image, planes.label, labels);
 }
 
 void ObjectFinder::number() noexcept {
@@ -90,7 +82,9 @@ void ObjectFinder::measure(const frame::RangeImage& image) noexcept {
   std::ranges::fill(object_of_return_.first(returns_), std::uint16_t{0});
   std::ranges::fill(object_of_cell_, std::uint16_t{0});
   std::uint16_t begun = 0;
-  for (const Run& run : clusters_.runs()) {
+  const std::span<const Run> runs = clusters_.runs();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Run& run = runs[i];
     const std::uint16_t number = object_of_cluster_[run.cluster];
     if (number == 0) continue;
     Outermost& outermost = outermost_[number - 1U];
@@ -98,7 +92,7 @@ void ObjectFinder::measure(const frame::RangeImage& image) noexcept {
       outermost.begin(points, run.begin);
       begun = number;
     }
-    outermost.add(points, run);
+    outermost.add(points, run, clusters_.extents()[i]);
     std::uint32_t first = return_index[run.begin], last = first;
     for (std::uint32_t cell = run.begin; cell < run.end; ++cell) {
       const std::uint32_t index = return_index[cell];
@@ -122,11 +116,11 @@ void ObjectFinder::take_feet(const frame::RangeImage& image,
   for (int row = shape_.rows - 2; row >= 0; --row) {
     const auto begin = static_cast<std::uint32_t>(shape_.cell(row, 0));
     for (std::uint32_t eight = begin; eight < begin + stride; eight += kEightCells) {
-      if (among_eight(Part::kFoot, parts_, eight) == 0) continue;
-      for (std::uint32_t cell = eight; cell < eight + kEightCells; ++cell) {
+      for (std::uint32_t feet = parts_.feet(eight); feet != 0; feet &= feet - 1) {
+        const std::uint32_t cell = eight + static_cast<std::uint32_t>(std::countr_zero(feet));
         const std::uint16_t number = object_of_cell_[cell + stride];
-        if (parts_[cell] != Part::kFoot || number == 0) continue;
-        if (!is_face(points, cell, cell + stride)) continue;
+        if (number == 0) continue;
+        if (height_m[cell] < config_.least_m || !is_face(points, cell, cell + stride)) continue;
         object_of_cell_[cell] = number;
         const std::uint32_t index = image.return_index()[cell];
         object_of_return_[index] = number;
@@ -139,10 +133,11 @@ void ObjectFinder::take_feet(const frame::RangeImage& image,
 }
 
 void ObjectFinder::take_overflow(const frame::RangeImage& image,
+                                 std::span<const frame::Label> cell_labels,
                                  std::span<const frame::Label> labels) noexcept {
   for (const frame::OverflowReturn& extra : image.overflow()) {
     if (labels[extra.return_index] != frame::Label::kObstacle) continue;
-    const std::uint16_t number = object_near(image, extra);
+    const std::uint16_t number = object_near(image, cell_labels, extra);
     if (number == 0) continue;
     object_of_return_[extra.return_index] = number;
     add(1, extra.return_index, extra.return_index, objects_[number - 1U]);
@@ -150,24 +145,26 @@ void ObjectFinder::take_overflow(const frame::RangeImage& image,
 }
 
 std::uint16_t ObjectFinder::object_near(const frame::RangeImage& image,
+                                        std::span<const frame::Label> cell_labels,
                                         const frame::OverflowReturn& extra) const noexcept {
   const frame::PointPlanes points = image.points();
-  const int row = static_cast<int>(extra.cell) / shape_.stride();
-  const int column = static_cast<int>(extra.cell) % shape_.stride();
-  float nearest_m2 = config_.gap_m * config_.gap_m;
+  const float farthest_m2 = config_.gap_m * config_.gap_m;
+  float nearest_m2 = farthest_m2;
   std::uint16_t object = 0;
   const auto look_at = [&](std::size_t cell) noexcept {
-    if (parts_[cell] == Part::kNone) return;
+    if (cell_labels[cell] != frame::Label::kObstacle) return;
     const float x_m = points.x_m[cell] - extra.point.x_m;
     const float y_m = points.y_m[cell] - extra.point.y_m;
     const float z_m = points.z_m[cell] - extra.point.z_m;
     const float distance_m2 = x_m * x_m + y_m * y_m + z_m * z_m;
-    if (distance_m2 > nearest_m2) return;
+    if (distance_m2 >= nearest_m2) return;
     nearest_m2 = distance_m2;
     object = object_of_cell_[cell];
   };
   look_at(extra.cell);
-  if (object != 0) return object;  // the owner of the same cell
+  if (nearest_m2 < farthest_m2) return object;  // that of the cell's owner
+  const int row = static_cast<int>(extra.cell) / shape_.stride();
+  const int column = static_cast<int>(extra.cell) % shape_.stride();
   for (int other_row = std::max(row - 1, 0); other_row <= std::min(row + 1, shape_.rows - 1);
        ++other_row) {
     for (const int aside : {0, -1, 1}) {

@@ -13,7 +13,7 @@
 #include "pipeline/objects/footprint.hpp"
 #include "pipeline/objects/nearby_clusters.hpp"
 #include "pipeline/objects/object.hpp"
-#include "pipeline/objects/part.hpp"
+#include "pipeline/objects/parts.hpp"
 #include "pipeline/objects/reach.hpp"
 #include "pipeline/stage/cell_planes.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -38,7 +38,8 @@ class ObjectFinder {
     /// them, more than rows and columns lie apart on a car's side 30 m away.
     float gap_m = 0.5F;
     std::uint32_t fewest_returns = 10;  ///< Clusters with fewer returns are no objects.
-    float low_m = 0.25F;  ///< Returns lower than this above the ground are feet, others bodies.
+    float low_m = 0.25F;   ///< Returns lower than this above the ground are feet, others bodies.
+    float least_m = 0.1F;  ///< Feet lower than this belong to no body: they may well be ground.
     NearbyClusters::Config nearby;
   };
 
@@ -65,8 +66,6 @@ class ObjectFinder {
   [[nodiscard]] std::uint32_t cells_left_out() const noexcept { return clusters_.cells_left_out(); }
 
  private:
-  /// Divides obstacle cells into bodies and feet by their heights.
-  void divide(const stage::CellPlanes& planes) noexcept;
   /// Makes objects of clusters that belong together.
   void number() noexcept;
   void measure(const frame::RangeImage& image) noexcept;
@@ -74,16 +73,18 @@ class ObjectFinder {
   void take_feet(const frame::RangeImage& image, std::span<const float> height_m) noexcept;
   /// Gives returns that do not own their cell the object of the cell, if near, or of the nearest
   /// cell around.
-  void take_overflow(const frame::RangeImage& image, std::span<const frame::Label> labels) noexcept;
+  void take_overflow(const frame::RangeImage& image, std::span<const frame::Label> cell_labels,
+                     std::span<const frame::Label> labels) noexcept;
   [[nodiscard]] std::uint16_t object_near(const frame::RangeImage& image,
+                                          std::span<const frame::Label> cell_labels,
                                           const frame::OverflowReturn& extra) const noexcept;
 
   Config config_;
   frame::ImageShape shape_;
   Reach reach_;
+  Parts parts_;
   Clusters clusters_;
   NearbyClusters nearby_;
-  std::span<Part> parts_;
   std::span<std::uint16_t> object_of_cluster_, object_of_cell_, object_of_return_;  // 0: none
   std::span<Outermost> outermost_;
   std::span<Object> objects_;

@@ -14,6 +14,20 @@
 
 namespace terracut::objects {
 
+/// How far apart returns may be that are seen so many radians apart: `gap_m`, or more, up to twice
+/// that.
+struct RowReach {
+  float gap_m, steps_rad;
+
+  /// Returns the square of the reach for returns of that horizontal range, or of four such ranges.
+  template <class Numbers>
+  [[nodiscard]] Numbers squared_m2(Numbers range_m) const noexcept {
+    const Numbers least_m = Numbers{} + gap_m;
+    const Numbers reach_m = lesser(greater(steps_rad * range_m, least_m), 2 * least_m);
+    return reach_m * reach_m;
+  }
+};
+
 /// Tells how far apart returns of neighbouring cells may be and still belong together: `gap_m`, or
 /// more, up to twice that, where beams lie far apart: two steps between rows, or eight between
 /// columns, because a car's side may be seen at a grazing angle (7 degrees).
@@ -35,21 +49,14 @@ class Reach {
   /// such ranges.
   template <class Numbers>
   [[nodiscard]] Numbers along_row_squared_m2(Numbers range_m) const noexcept {
-    return squared_m2(8 * column_step_rad_ * range_m);
+    return RowReach{gap_m_, 8 * column_step_rad_}.squared_m2(range_m);
   }
-  /// Returns the same from a row to the next higher one.
-  [[nodiscard]] float to_next_row_squared_m2(int row, float range_m) const noexcept {
-    return squared_m2(2 * row_steps_rad_[static_cast<std::size_t>(row)] * range_m);
+  /// Returns the reach from a row to the next higher one.
+  [[nodiscard]] RowReach to_next_row(int row) const noexcept {
+    return {gap_m_, 2 * row_steps_rad_[static_cast<std::size_t>(row)]};
   }
 
  private:
-  template <class Numbers>
-  [[nodiscard]] Numbers squared_m2(Numbers steps_m) const noexcept {
-    const Numbers least_m = Numbers{} + gap_m_;
-    const Numbers reach_m = lesser(greater(steps_m, least_m), 2 * least_m);
-    return reach_m * reach_m;
-  }
-
   float gap_m_, column_step_rad_;
   std::span<float> row_steps_rad_;  // by the lower row
 };

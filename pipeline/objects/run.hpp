@@ -38,7 +38,6 @@ struct Extent {
 
 /// Body cells side by side in a row that belong together, of the same eight cells of the row.
 struct Run {
-  Extent extent;
   std::uint32_t begin, end;  ///< Cells [begin, end), which do not cross the seam.
   std::uint32_t cluster;     ///< Its cluster's number.
 };

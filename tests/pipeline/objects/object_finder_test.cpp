@@ -64,6 +64,17 @@ TEST_F(ObjectsOfAFrame, TwoPersonsHalfAMetreApartAt15MetresAreTwo) {
   EXPECT_NE(objects_in(14, 16, 2.0, 2.5), objects_in(14, 16, 3.0, 3.5));
 }
 
+TEST_F(ObjectsOfAFrame, APersonIsNotJoinedByWhatHangsBesideButACarIs) {
+  find({{15, 15.3, 2.0, 2.5, 0, 1.75}, {15, 15.2, 2.95, 3.15, 0.6, 1.0}});
+  const std::set<int> person = objects_in(14, 16, 1.9, 2.6), beside = objects_in(14, 16, 2.9, 3.2);
+  ASSERT_FALSE(person.empty() || beside.empty());
+  ASSERT_NE(*person.rbegin(), 0) << "only the lowest returns are no object's";
+  EXPECT_FALSE(beside.contains(*person.rbegin()));
+  find({{15, 17, 0, 2.5, 0, 1.75}, {15, 15.2, 2.95, 3.15, 0.6, 1.0}});
+  EXPECT_TRUE(objects_in(14, 16, 0, 2.6).contains(*objects_in(14, 16, 2.9, 3.2).rbegin()));
+  EXPECT_FALSE(objects_in(14, 16, 2.9, 3.2).contains(0));
+}
+
 TEST_F(ObjectsOfAFrame, ACarBehindAPoleIsOne) {
   const auto found = find({{10, 10.1, 1.4, 1.5, 0, 4}, {14, 18, -1, 3.5, 0.2, 1.5}});
   ASSERT_EQ(found.size(), 2U);
@@ -109,6 +120,32 @@ TEST_F(ObjectsOfAFrame, WheelsBelongToTheirCarAndGrassAroundAPostDoesNot) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_LT(found[0].box.length_m, 0.6F);
   EXPECT_TRUE(objects_in(6, 7.5, 1, 5).contains(0));
+}
+
+TEST_F(ObjectsOfAFrame, LowReturnsOfASlantingFaceBelongToItButForTheLowest) {
+  // A face 2 m wide that leans back by 0.8 m a metre.
+  const test::BeamCast ground = test::ground_with_boxes({});
+  cast([&](double azimuth_rad, double elevation_rad) {
+    const double ahead = std::cos(elevation_rad) * std::cos(azimuth_rad),
+                 up = std::sin(elevation_rad);
+    const double face_m = (1.73 + 10 / 0.8) / (ahead / 0.8 - up);
+    const double z_m = 1.73 + face_m * up,
+                 y_m = face_m * std::cos(elevation_rad) * std::sin(azimuth_rad);
+    return ahead > 0 && z_m > 0 && z_m < 1.5 && std::abs(y_m) < 1
+               ? face_m
+               : ground(azimuth_rad, elevation_rad);
+  });
+  ASSERT_EQ(find_again().size(), 1U);
+  std::size_t low = 0;
+  for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
+    const float z_m = image.z_m()[cell];
+    if (!image.has_return(cell) || planes.label[cell] != Label::kObstacle) continue;
+    if (std::abs(image.y_m()[cell]) > 0.8F) continue;  // the cell above may miss the face
+    const int object = finder.object_of_return()[image.return_index()[cell]];
+    EXPECT_EQ(object, z_m < 0.1F ? 0 : 1) << z_m;
+    low += z_m < 0.25F && object == 1 ? 1 : 0;
+  }
+  EXPECT_GT(low, 10U);
 }
 
 TEST_F(ObjectsOfAFrame, SomethingLowByItselfIsOne) {

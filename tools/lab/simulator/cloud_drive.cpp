@@ -63,7 +63,7 @@ Status simulate_clouds(const CloudDriveConfig& config, const ShotPattern& patter
       if (range_m < config.effects.min_range_m || range_m > max_range_m) continue;
       const Eigen::Vector3f at = (range_m * direction).cast<float>();
       points.push_back({at.x(), at.y(), at.z(), static_cast<float>(echo->intensity) / 255});
-      truth.push_back(static_cast<std::uint32_t>(hit->truth));
+      truth.push_back(hit->label());
     }
     if (Status taken = sink({points, truth}); !taken) return taken;
   }

@@ -32,6 +32,12 @@ std::optional<double> way_to_leaf_m(const world::Shape& shape, const world::Chor
   return in_m + depth_m < chord.out_m ? std::optional(in_m + depth_m) : std::nullopt;
 }
 
+/// Returns an instance number of label files, which have room for 65535; in longer drives numbers
+/// come again.
+std::uint16_t instance_of(std::uint32_t object, world::Truth truth) noexcept {
+  return has_instances(truth) ? static_cast<std::uint16_t>(object % 65535 + 1) : std::uint16_t{0};
+}
+
 }  // namespace
 
 ObjectIndex::ObjectIndex(const scenes::Scene& scene)
@@ -122,7 +128,8 @@ std::optional<world::Hit> ObjectIndex::cast(const world::SightLine& line, double
       const Eigen::Vector3d normal = shape.density_per_m > 0
                                          ? Eigen::Vector3d(-line.direction)
                                          : placed.T_world_object.linear() * chord->normal;
-      nearest = world::Hit{limit_m, normal, shape.truth, shape.material};
+      nearest = world::Hit{limit_m, normal, shape.truth, shape.material,
+                           instance_of(candidate.object, shape.truth)};
     }
   }
   return nearest;

@@ -116,7 +116,7 @@ auto ScanHead<EncoderTraits>::measure_along(const Beam& beam, const Sighting& si
   const double range_m = to_eigen(exact).norm();
   if (range_m < effects.min_range_m || range_m > effects.max_range_m) return std::nullopt;
   return Measured{{static_cast<std::uint16_t>(std::lround(counts)), sighting.echo.intensity,
-                   static_cast<std::uint32_t>(sighting.hit.truth)},
+                   sighting.hit.label()},
                   exact};
 }
 

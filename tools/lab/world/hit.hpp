@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 #include "materials.hpp"
 
@@ -25,6 +26,12 @@ struct Hit {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   Truth truth = Truth::kRoad;
   Material material = Material::kAsphalt;
+  std::uint16_t instance = 0;  ///< Number of the object, if it has_instances(truth); else 0.
+
+  /// Returns the entry of a label file.
+  [[nodiscard]] std::uint32_t label() const noexcept {
+    return static_cast<std::uint32_t>(truth) | std::uint32_t{instance} << 16;
+  }
 };
 
 }  // namespace terracut::world

@@ -30,6 +30,12 @@ enum class Truth : std::uint32_t {
          truth == Truth::kOtherGround || truth == Truth::kTerrain;
 }
 
+/// True for the classes of which SemanticKITTI numbers the instances: vehicles and persons.
+[[nodiscard]] constexpr bool has_instances(Truth truth) noexcept {
+  return truth == Truth::kCar || truth == Truth::kTruck || truth == Truth::kPerson ||
+         truth == Truth::kBicyclist;
+}
+
 /// The optical material of a surface.
 enum class Material : std::uint8_t {
   kAsphalt,

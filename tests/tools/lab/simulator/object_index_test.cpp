@@ -41,7 +41,9 @@ TEST(ObjectIndex, NearerOfTwoIsMet) {
   ASSERT_TRUE(low && high);
   EXPECT_EQ(low->truth, world::Truth::kCar);
   EXPECT_NEAR(low->way_m, 9.5, 1e-9);
+  EXPECT_EQ(low->label(), 10U | 2U << 16) << "the car is the scene's second object";
   EXPECT_EQ(high->truth, world::Truth::kBuilding);
+  EXPECT_EQ(high->label(), 50U) << "buildings have no numbers";
   EXPECT_NEAR(high->way_m, 19.5, 1e-9);
   EXPECT_FALSE(index.cast({{0, 0, 0.5}, Vector3d::UnitX()}, 0, 1, 9));
 }

@@ -15,7 +15,7 @@ namespace {
 
 /// Points nearer than this are left out: at such distances the beam's start beside the origin
 /// changes the elevation too much. No vehicle's lowest beam meets the road nearer than this.
-constexpr float kNearest_m = 1.0F;
+constexpr float kNearestUsed_m = 1.0F;
 /// A bin lies in a gap if the fullest bin around it has more than this many times its points.
 constexpr std::uint32_t kGapShare = 50;
 /// The least share of the points that must lie in teeth narrower than the gaps beside them.
@@ -34,7 +34,7 @@ void ElevationComb::add(std::span<const scan::ScanPoint> points) {
     const double elevation_deg = beams::rad_to_deg(std::atan2(double{p.z_m}, double{distance_m}));
     const auto bin = static_cast<std::size_t>((elevation_deg + 90) * kBinsPerDegree);
     all_.add(std::min(bin, kBins - 1));
-    if (distance_m > kNearest_m) far_.add(std::min(bin, kBins - 1));
+    if (distance_m > kNearestUsed_m) far_.add(std::min(bin, kBins - 1));
   }
 }
 

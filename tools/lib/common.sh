@@ -5,7 +5,8 @@ repo=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 export repo
 
 # ccache knows a file again in every checkout of the project, wherever that lies.
-export CCACHE_BASEDIR=$repo CCACHE_NOHASHDIR=yes
+# It takes precompiled headers as they come.
+export CCACHE_BASEDIR=$repo CCACHE_NOHASHDIR=yes CCACHE_SLOPPINESS=pch_defines,time_macros
 
 say() { printf '\n== %s\n' "$*" >&2; }
 die() {

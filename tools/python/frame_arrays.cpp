@@ -14,7 +14,7 @@ namespace terracut::python {
 namespace py = pybind11;
 namespace {
 
-using Point = stream::WirePoint;
+using stream::WirePoint;
 
 py::dtype point_type() {
   py::list names, formats, offsets;
@@ -23,21 +23,21 @@ py::dtype point_type() {
     formats.append(format);
     offsets.append(offset);
   };
-  add("x", "<f4", offsetof(Point, x_m));
-  add("y", "<f4", offsetof(Point, y_m));
-  add("z", "<f4", offsetof(Point, z_m));
-  add("intensity", "u1", offsetof(Point, intensity));
-  add("label", "u1", offsetof(Point, label));
-  add("ring", "<u2", offsetof(Point, row));
-  add("time", "<f4", offsetof(Point, time_s));
-  return {names, formats, offsets, sizeof(Point)};
+  add("x", "<f4", offsetof(WirePoint, x_m));
+  add("y", "<f4", offsetof(WirePoint, y_m));
+  add("z", "<f4", offsetof(WirePoint, z_m));
+  add("intensity", "u1", offsetof(WirePoint, intensity));
+  add("label", "u1", offsetof(WirePoint, label));
+  add("ring", "<u2", offsetof(WirePoint, row));
+  add("time", "<f4", offsetof(WirePoint, time_s));
+  return {names, formats, offsets, sizeof(WirePoint)};
 }
 
 py::array array_of(const py::object& self, const py::dtype& type, std::size_t offset,
                    py::ssize_t columns) {
   const auto& points = self.cast<const FrameData&>().points;
   const auto rows = static_cast<py::ssize_t>(points.size());
-  const auto step = static_cast<py::ssize_t>(sizeof(Point));
+  const auto step = static_cast<py::ssize_t>(sizeof(WirePoint));
   const auto* at =
       reinterpret_cast<const std::byte*>(points.data()) + (points.empty() ? 0 : offset);
   if (columns == 1) return {type, {rows}, {step}, at, self};
@@ -75,11 +75,11 @@ void bind_frame(py::module_& module) {
                              })
       .def_property_readonly(
           "data", [](const py::object& self) { return array_of(self, point_type(), 0, 1); })
-      .def_property_readonly("points", view<float>(offsetof(Point, x_m), 3))
-      .def_property_readonly("intensity", view<std::uint8_t>(offsetof(Point, intensity)))
-      .def_property_readonly("labels", view<std::uint8_t>(offsetof(Point, label)))
-      .def_property_readonly("ring", view<std::uint16_t>(offsetof(Point, row)))
-      .def_property_readonly("time", view<float>(offsetof(Point, time_s)))
+      .def_property_readonly("points", view<float>(offsetof(WirePoint, x_m), 3))
+      .def_property_readonly("intensity", view<std::uint8_t>(offsetof(WirePoint, intensity)))
+      .def_property_readonly("labels", view<std::uint8_t>(offsetof(WirePoint, label)))
+      .def_property_readonly("ring", view<std::uint16_t>(offsetof(WirePoint, row)))
+      .def_property_readonly("time", view<float>(offsetof(WirePoint, time_s)))
       .def_property_readonly("height_above_ground_m",
                              [](const py::object& self) -> py::object {
                                const auto& frame = self.cast<const FrameData&>();

@@ -15,7 +15,7 @@ from pathlib import Path
 
 REPOSITORY, DRIVE, COMPILER = sys.argv[1:4]
 # Built as the tests' own build is, and as deep below the repository, so that a compiler cache knows most of it.
-SETTINGS = ("TERRACUT_DEVELOPER_MODE=ON", "CMAKE_UNITY_BUILD_BATCH_SIZE=8")
+SETTINGS = ("TERRACUT_DEVELOPER_MODE=ON", "CMAKE_UNITY_BUILD_BATCH_SIZE=16")
 
 
 def main() -> int:

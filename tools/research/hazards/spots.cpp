@@ -94,9 +94,11 @@ std::optional<Eigen::Isometry3d> Spots::draw(const Hazard& hazard, GroundKind gr
                                    : turn * std::numbers::pi;
     Eigen::Isometry3d T_vehicle_hazard = Eigen::Isometry3d::Identity();
     T_vehicle_hazard.translation() = Eigen::Vector3d(at.x(), at.y(), plane->height_m);
+    // The shortest turn from z to the normal; Eigen's FromTwoVectors takes long to compile.
+    const Eigen::Vector3d up = plane->normal();
+    const double twice_w = std::sqrt(2 * (1 + up.z()));
     T_vehicle_hazard.linear() =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), plane->normal())
-            .toRotationMatrix() *
+        Eigen::Quaterniond(twice_w / 2, -up.y() / twice_w, up.x() / twice_w, 0).toRotationMatrix() *
         Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     if (is_free(extent, ground, T_vehicle_hazard)) return T_vehicle_hazard;
   }

@@ -12,12 +12,12 @@
 namespace terracut::packets {
 namespace {
 
-constexpr std::int64_t kStamp_ns = 1'582'979'696'500'000'000;  // 2020-02-29 12:34:56.5 UTC
+constexpr std::int64_t kLeapDay_ns = 1'582'979'696'500'000'000;  // 2020-02-29 12:34:56.5 UTC
 
 TEST(StatusStreamWriter, SendsSixteenTypesInTurn) {
   StatusStreamWriter writer(test::s2_table(), hdl64e::StatusFlavour::kS2);
   std::string types;
-  for (int i = 0; i < 32; ++i) types += static_cast<char>(writer.next(kStamp_ns).type);
+  for (int i = 0; i < 32; ++i) types += static_cast<char>(writer.next(kLeapDay_ns).type);
   EXPECT_EQ(types, "HMSDNYGTV1234567HMSDNYGTV1234567");
 }
 
@@ -27,7 +27,7 @@ TEST(StatusStreamWriter, TellsDateTimeAndState) {
   std::array<int, 9> values{};
   // The clock moves on inside the cycle; its six bytes must not.
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = writer.next(kStamp_ns + static_cast<std::int64_t>(i) * 100'000'000).value;
+    values[i] = writer.next(kLeapDay_ns + static_cast<std::int64_t>(i) * 100'000'000).value;
   }
   EXPECT_THAT(values, testing::ElementsAre(12, 34, 56, 29, 2, 20, 'P', 256 - 7, 0x45));
 }
@@ -39,7 +39,7 @@ TEST(StatusStreamWriter, SendsTheTableRoundAfterRound) {
     std::vector<std::uint8_t> sent;
     int warnings = 0;
     for (int packet = 0; packet < hdl64e::kStatusRoundPackets; ++packet) {
-      const hdl64e::StatusPair pair = writer.next(kStamp_ns);
+      const hdl64e::StatusPair pair = writer.next(kLeapDay_ns);
       if (packet % 16 >= 9) sent.push_back(pair.value);
       warnings += pair.type == hdl64e::kWarningType ? 1 : 0;
     }
@@ -51,7 +51,7 @@ TEST(StatusStreamWriter, SendsTheTableRoundAfterRound) {
 TEST(StatusStreamWriter, OnlyTheS3SendsTypesThatAreNoDigit) {
   StatusStreamWriter writer(test::s2_table(), hdl64e::StatusFlavour::kS2);
   for (int packet = 0; packet < hdl64e::kStatusRoundPackets; ++packet) {
-    const hdl64e::StatusPair pair = writer.next(kStamp_ns);
+    const hdl64e::StatusPair pair = writer.next(kLeapDay_ns);
     EXPECT_EQ(hdl64e::status_place(pair.type), packet % 16);
   }
 }

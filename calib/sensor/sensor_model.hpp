@@ -42,6 +42,7 @@ enum class SensorModel : std::uint8_t {
   kPandarXt16,
   kPandarXt32,
   kPandarXt32m,
+  kOt128,
   kOuster32,  ///< OS0, OS1 or OS2; which of them, only the unit's metadata says.
   kOuster64,
   kOuster128
@@ -163,6 +164,15 @@ inline constexpr std::array kSensorTable{
               .stream_number = 13,
               .lasers = kPandarXt32mLasers,
               .has_unit_tables = true},
+    SensorRow{.model = SensorModel::kOt128,
+              .name = "Hesai OT128",
+              .sensor = Sensor::kOt128,
+              .word = "ot128",
+              .stream_number = 17,
+              .lasers = kOt128Lasers,
+              .has_unit_tables = true,
+              .most_packets_per_second = 36'001,  // each packet holds one firing
+              .longest_packet_bytes = 893},
     SensorRow{.model = SensorModel::kOuster32,
               .name = "32-row Ouster",
               .sensor = Sensor::kOuster32,

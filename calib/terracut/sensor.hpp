@@ -21,6 +21,7 @@ enum class Sensor : std::uint8_t {
   kPandarXt16,
   kPandarXt32,
   kPandarXt32m,
+  kOt128,
   kOuster32,  ///< An OS0, OS1 or OS2 with 32 rows.
   kOuster64,
   kOuster128

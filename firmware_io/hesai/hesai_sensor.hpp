@@ -43,7 +43,19 @@ class HesaiSensor : public table::TableSensor<Model> {
   }
   [[nodiscard]] std::int32_t advance_ticks(std::int32_t step_ticks, std::size_t group,
                                            bool dual_return) const noexcept {
-    return follows_firing_ ? Table::advance_ticks(step_ticks, group, dual_return) : 0;
+    if (!follows_firing_) return 0;
+    if (step_ticks < kFast) return Table::advance_ticks(step_ticks, group, dual_return);
+    constexpr std::int32_t kBlock_ns = Model::kLayout.column_ns / 2;
+    return static_cast<std::int32_t>(std::int64_t{step_ticks - kFast} *
+                                     (Model::group_ns(group) % kBlock_ns) / kBlock_ns);
+  }
+  /// Returns the step, plus kFast if blocks follow one another twice as fast: a laser then fires in
+  /// either block as in its half of a slow one.
+  [[nodiscard]] static std::int32_t step_ticks(const packet::PacketAzimuths& azimuths,
+                                               std::size_t /*column*/) noexcept {
+    const std::int32_t slow_ns =
+        Model::kPace.column_ns * Model::kPace.firings(azimuths.dual_return);
+    return azimuths.step_ticks + (azimuths.nominal_period_ns < slow_ns ? kFast : 0);
   }
   static void begin_packet(const packet::PacketAzimuths& /*azimuths*/) noexcept {}
   static void read_column(std::span<const std::uint8_t> payload, std::size_t column,
@@ -56,9 +68,14 @@ class HesaiSensor : public table::TableSensor<Model> {
     } else {
       packet::split_wide_returns(first, found.raw, &found.intensity[0]);
     }
+    if constexpr (kLayout.least_count > 1) {
+      for (std::uint16_t& raw : found.raw) raw = raw < kLayout.least_count ? std::uint16_t{0} : raw;
+    }
   }
 
  private:
+  static constexpr std::int32_t kFast = 1 << 20;  ///< Above any step.
+
   PacketReader reader_{Model::kLayout};
   bool follows_firing_;
 };

@@ -117,9 +117,32 @@ struct PandarXt32m : ModelOf<sensor::SensorModel::kPandarXt32m> {
   }
 };
 
+/// OT128. Lasers have one of 16 times, which differ between its two kinds of blocks by at most
+/// 2.144 us; their mean is taken. The second half of a block is that of every other block at high
+/// resolution.
+struct Ot128 : ModelOf<sensor::SensorModel::kOt128> {
+  static constexpr int kDefaultColumns = 1800;  ///< Firings a frame at 10 Hz.
+  static constexpr std::size_t kGroups = 16;
+  [[nodiscard]] static constexpr std::size_t group(std::size_t channel) noexcept {
+    constexpr std::size_t kFirst = 24, kLast = 87;  // of the dense middle
+    constexpr std::array<std::uint8_t, 64> kMiddle{6, 5, 3, 5, 6, 1, 4, 2, 4, 2, 3, 0, 0, 1, 7, 7,
+                                                   4, 5, 6, 2, 3, 5, 0, 1, 3, 7, 4, 1, 6, 2, 4, 5,
+                                                   0, 2, 3, 7, 0, 1, 6, 7, 4, 5, 6, 2, 3, 5, 0, 1,
+                                                   3, 7, 4, 1, 6, 2, 4, 5, 0, 2, 3, 7, 0, 1, 6, 7};
+    const bool is_middle = channel >= kFirst && channel <= kLast;
+    return is_middle ? 8U + kMiddle[channel - kFirst] : channel % 8;
+  }
+  [[nodiscard]] static constexpr std::int32_t group_ns(std::size_t group) noexcept {
+    constexpr std::array<std::int32_t, kGroups> kFired_ns{
+        46'645, 34'067, 19'939, 6'289,  40'356, 27'778, 13'650, 0,
+        1'653,  3'971,  7'942,  10'260, 15'303, 17'621, 21'592, 23'910};
+    return kFired_ns[group];
+  }
+};
+
 /// All models above, for code that folds over models.
 using Models = table::ModelList<Pandar40p, Pandar64, PandarQt64, PandarQt128, PandarXt16,
-                                PandarXt32, PandarXt32m>;
+                                PandarXt32, PandarXt32m, Ot128>;
 /// A macro for code that needs the preprocessor: expands to DO(Template<model>) for each model
 /// above.
 #define TERRACUT_FOR_HESAI_MODELS(DO, Template) \
@@ -129,6 +152,7 @@ using Models = table::ModelList<Pandar40p, Pandar64, PandarQt64, PandarQt128, Pa
   DO(Template<terracut::hesai::PandarQt128>)    \
   DO(Template<terracut::hesai::PandarXt16>)     \
   DO(Template<terracut::hesai::PandarXt32>)     \
-  DO(Template<terracut::hesai::PandarXt32m>)
+  DO(Template<terracut::hesai::PandarXt32m>)    \
+  DO(Template<terracut::hesai::Ot128>)
 
 }  // namespace terracut::hesai

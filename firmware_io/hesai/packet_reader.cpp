@@ -51,6 +51,12 @@ std::optional<frame::Reject> PacketReader::read(Bytes payload,
     }
     return layout_.fits(payload.size()) ? frame::Reject::kWrongMagic : frame::Reject::kWrongSize;
   }
+  // Where blocks begin to follow one another at another rate, steps are judged anew.
+  if (const std::int32_t column_ns = layout_of(layout_.model).column_ns_in(payload);
+      column_ns != layout_.column_ns) {
+    layout_.column_ns = column_ns;
+    steps_ = table::HeadSteps(pace_of(layout_), kClockWrap_us);
+  }
   const Bytes tail = payload.subspan(layout_.tail_at());
   const std::optional<bool> dual_return = is_dual(tail[layout_.tail.return_mode_at]);
   if (!dual_return) return frame::Reject::kWrongMagic;

@@ -79,7 +79,7 @@ SensorModel robosense_model(Bytes payload) noexcept {
 SensorModel hesai_model(Bytes payload) noexcept {
   const auto* const found = std::ranges::find_if(
       hesai::kLayouts,
-      [&](const hesai::PacketLayout& layout) { return hesai::is_of(layout, payload); });
+      [&](const hesai::PacketLayout& layout) { return hesai::is_surely_of(layout, payload); });
   return found == hesai::kLayouts.end() ? SensorModel::kUnknown : found->model;
 }
 
@@ -155,6 +155,10 @@ SensorModel recognise_sensor_as(std::optional<SensorModel> named, Bytes payload)
   if (named && is_ouster(*named) && is_ouster(model)) {
     return ouster::format_of(payload, ouster::rows_of(*named)) ? *named : model;
   }
+  const auto* const hesai =
+      named ? std::ranges::find(hesai::kLayouts, *named, &hesai::PacketLayout::model)
+            : hesai::kLayouts.end();
+  if (hesai != hesai::kLayouts.end() && hesai::is_of(*hesai, payload)) return *named;
   // The VLS-128 needs no name: its block ids identify it.
   const bool may_be_named = model == SensorModel::kOtherVelodyne && named &&
                             has_factory_table(*named) && *named != SensorModel::kVls128;

@@ -22,7 +22,8 @@ namespace terracut::sensor {
 /// Returns which sensor sent a payload, as recognise_sensor() does, when the user has named the
 /// model. Simulators, old firmware and the VLP-32A send Velodyne's data packets with product
 /// numbers not known here; these count as the named model's if their blocks fit it. So do an
-/// Ouster's packets, some of which may be of several numbers of rows.
+/// Ouster's packets, some of which may be of several numbers of rows, and those of a Hesai's size
+/// with another version.
 [[nodiscard]] SensorModel recognise_sensor_as(std::optional<SensorModel> named,
                                               std::span<const std::uint8_t> payload) noexcept
     TERRACUT_NONBLOCKING;

@@ -125,7 +125,12 @@ int SensorProbe::columns(SensorModel model) const {
   }
   const Head& head = *head_of(model);
   const bool fires_slowly = dual_return(model) || 2 * head.slow_steps > head.packets;
-  return static_cast<int>(std::lround(1 / (*hz * firing_s(model, fires_slowly))));
+  // A Hesai's packets tell how fast their blocks follow one another.
+  const double period_s = hesai::Models::has(model)
+                              ? head.last->nominal_period_ns * 1e-9 *
+                                    (head.last->dual_return ? 2 : 1) / head.last->columns
+                              : firing_s(model, fires_slowly);
+  return static_cast<int>(std::lround(1 / (*hz * period_s)));
 }
 
 std::string SensorProbe::foreign_models() const {

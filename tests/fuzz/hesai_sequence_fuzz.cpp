@@ -40,16 +40,10 @@ struct Hesai {
                       bool dual, int encoding) {
     (void)first_reading, (void)encoding;  // have no place in its packets
     Bytes bytes{};
-    if (kLayout.header_bytes > 0) {
-      std::ranges::copy(hesai::kPacketStart, bytes.begin());
-      bytes[kLayout.counts_at()] = static_cast<std::uint8_t>(kLayout.lasers);
-      bytes[kLayout.counts_at() + 1] = static_cast<std::uint8_t>(kLayout.blocks);
-      bytes[kLayout.counts_at() + 3] = hesai::kMillimetresPerCount;
-    }
+    hesai::begin_packet(kLayout, dual, bytes);
     for (int block = 0; block < kLayout.blocks; ++block) {
       const Column& from = columns[static_cast<std::size_t>(block)];
       std::size_t at = kLayout.block_at(block);
-      if (kLayout.header_bytes == 0) std::ranges::copy(hesai::kBlockStart, &bytes[at]);
       put(bytes, at + kLayout.azimuth_at(),
           static_cast<std::uint16_t>(beams::wrap_cdeg(from.unwrapped_azimuth_cdeg)));
       at += kLayout.returns_at();
@@ -59,8 +53,6 @@ struct Hesai {
         at += kLayout.return_bytes;
       }
     }
-    bytes[kLayout.tail_at() + kLayout.tail.return_mode_at] =
-        dual ? hesai::kLastAndStrongest : hesai::kStrongest;
     hesai::write_stamp_us(kLayout, columns[0].stamp_ns / 1'000, bytes);
     return bytes;
   }
@@ -70,7 +62,7 @@ struct Hesai {
     for (int block = 0; block < kLayout.blocks; ++block) {
       std::size_t at = kLayout.block_at(block) + kLayout.returns_at();
       for (int laser = 0; laser < kLayout.lasers; ++laser, at += kLayout.return_bytes) {
-        returns += payload[at] != 0 || payload[at + 1] != 0;
+        returns += payload[at] >= kLayout.least_count || payload[at + 1] != 0;
       }
     }
     return returns;

@@ -44,7 +44,8 @@ TEST(SensorTable, KeepsTheWordsAndTheNumbersOnTheWire) {
                                                  {"pandarxt32m", 13},
                                                  {"ouster32", 14},
                                                  {"ouster64", 15},
-                                                 {"ouster128", 16}}));
+                                                 {"ouster128", 16},
+                                                 {"ot128", 17}}));
 }
 
 TEST(SensorTable, TellsModelsApartByWordAndProductNumber) {

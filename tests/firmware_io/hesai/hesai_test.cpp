@@ -74,7 +74,7 @@ Both decode_both(const std::vector<Payload>& payloads, const beams::BeamTable& t
 template <class Sensor>
 class HesaiStream : public testing::Test {};
 template <class... Model>
-using SensorsOf = testing::Types<Hesai<Model>...>;
+using SensorsOf = testing::Types<Hesai<Model>..., Hesai<hesai::Ot128, true>>;
 using Sensors = hesai::Models::In<SensorsOf>;
 TYPED_TEST_SUITE(HesaiStream, Sensors);
 
@@ -157,6 +157,44 @@ TYPED_TEST(HesaiStream, HasNoHolesWherePacketsCameLateAndSwapped) {
   EXPECT_EQ(both.decoded, payloads.size());
   EXPECT_EQ(both.losses.network_gap_packets, 0U);
   EXPECT_EQ(both.losses.azimuth_hole_columns, 0U);
+}
+
+TYPED_TEST(HesaiStream, LosesNothingInASectorThatItIsBlindInAndCountsWhatIsLostBesideIt) {
+  constexpr std::size_t kLearnt = 5, kLost = 3;
+  std::mt19937 random(7);
+  const auto unit = TypeParam::random_unit(random);
+  hesai::PacketReader reader(hesai::layout_of(TypeParam::sheet().model));
+  for (const bool dual_return : {false, true}) {
+    SCOPED_TRACE(dual_return);
+    const double turn = 1e5 / TypeParam::firing_us(dual_return) /
+                        TypeParam::firings_per_packet(dual_return);  // in packets
+    RotatingHead head{.dual_return = dual_return, .share_of_returns = 0.02};
+    head.packets = static_cast<int>(10 * turn);
+    auto payloads = TypeParam::payloads(head);
+    const auto lost = payloads.begin() + static_cast<std::ptrdiff_t>(8.2 * turn);  // at 52 degrees
+    payloads.erase(lost, lost + kLost);
+    memory::FixedMemory memory;
+    decode::Decoder decoder(unit, {}, {}, memory);
+    std::vector<frame::FrameInfo> frames;
+    const auto on_frame = [&](const frame::FrameInfo& info,
+                              const frame::MeasuredReturns&) noexcept { frames.push_back(info); };
+    for (const Payload& payload : payloads) {
+      packet::PacketAzimuths azimuths;
+      ASSERT_EQ(reader.read(payload.bytes, azimuths), std::nullopt);
+      if (azimuths.first_cdeg() >= 9'000 && azimuths.first_cdeg() < 27'000) continue;
+      test::decode(decoder, {.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, on_frame);
+    }
+    test::end_stream(decoder, on_frame);
+    EXPECT_EQ(decoder.losses().network_gap_packets, kLost);
+    EXPECT_EQ(decoder.losses().azimuth_hole_columns,
+              kLost * static_cast<std::size_t>(TypeParam::kColumns) / (dual_return ? 2 : 1));
+    EXPECT_NEAR(decoder.blind().from_cdeg, 9'000, 500);
+    EXPECT_NEAR(decoder.blind().to_cdeg, 27'000, 500);
+    ASSERT_GE(frames.size(), 10U);
+    EXPECT_EQ(std::count_if(frames.begin() + kLearnt, frames.end() - 1,
+                            [](const frame::FrameInfo& frame) { return !frame.complete; }),
+              1);
+  }
 }
 
 TYPED_TEST(HesaiStream, RefusesWhatIsNoDataPacketOfTheModel) {

@@ -44,8 +44,28 @@ std::vector<double> of_both_loops(const std::vector<double>& one,
   return fired_us;
 }
 
+/// The OT128's lasers: eight times of the outer ones and forty of the middle, repeated.
+std::vector<double> of_ot128(const std::vector<double>& outer, const std::vector<double>& middle) {
+  std::vector<double> fired_us;
+  for (std::size_t i = 0; i < 128; ++i) {
+    const std::size_t m = i - 24;
+    fired_us.push_back(i < 24 || i >= 88 ? outer[i % 8] : middle[m < 40 ? m : m - 24]);
+  }
+  return fired_us;
+}
+
 std::vector<HesaiSheet> make_sheets() {
   using enum sensor::SensorModel;
+  const std::vector<double> early{20.52,  16.549, 10.26,  16.549, 20.52, 3.971,  14.231, 7.942,
+                                  14.231, 7.942,  10.26,  1.653,  1.653, 3.971,  22.838, 22.838,
+                                  14.231, 16.549, 20.52,  7.942,  10.26, 16.549, 1.653,  3.971,
+                                  10.26,  22.838, 14.231, 3.971,  20.52, 7.942,  14.231, 16.549,
+                                  1.653,  7.942,  10.26,  22.838, 1.653, 3.971,  20.52,  22.838};
+  const std::vector<double> late{22.664, 18.693, 10.26,  18.693, 22.664, 3.971,  16.375, 7.942,
+                                 16.375, 7.942,  10.26,  1.653,  1.653,  3.971,  24.982, 24.982,
+                                 16.375, 18.693, 22.664, 7.942,  10.26,  18.693, 1.653,  3.971,
+                                 10.26,  24.982, 16.375, 3.971,  22.664, 7.942,  16.375, 18.693,
+                                 1.653,  7.942,  10.26,  24.982, 1.653,  3.971,  22.664, 24.982};
   std::vector<HesaiSheet> sheets{
       {.model = kPandar40p,
        .bytes = 1262,
@@ -161,7 +181,43 @@ std::vector<HesaiSheet> make_sheets() {
        .microseconds_at = 811,
        .date_at = 805,
        .block_us = 50,
-       .fired_us = evenly(32, 2.888, 16)}};
+       .fired_us = evenly(32, 2.888, 16)},
+      {.model = kOt128,
+       .bytes = 861,
+       .more = 32,
+       .first_block = 12,
+       .lasers = 128,
+       .blocks = 2,
+       .bytes_a_return = 3,
+       .mode_at = 817,
+       .microseconds_at = 826,
+       .date_at = 820,
+       .block_us = 55.556,
+       .fired_us = of_both_loops(
+           of_ot128({46.645, 34.067, 18.867, 6.289, 40.356, 27.778, 12.578, 0}, early),
+           of_ot128({46.645, 34.067, 21.011, 6.289, 40.356, 27.778, 14.722, 0}, late)),
+       .least_distance = 4,
+       .version = 128,
+       .state_at = 816,
+       .state = 2},
+      {.model = kOt128,
+       .bytes = 861,
+       .more = 32,
+       .first_block = 12,
+       .lasers = 128,
+       .blocks = 2,
+       .bytes_a_return = 3,
+       .mode_at = 817,
+       .microseconds_at = 826,
+       .date_at = 820,
+       .block_us = 27.778,
+       .fired_us =
+           of_both_loops(of_ot128({18.867, 6.289, 18.867, 6.289, 12.578, 0, 12.578, 0}, early),
+                         of_ot128({18.867, 6.289, 21.011, 6.289, 12.578, 0, 14.722, 0}, late)),
+       .least_distance = 4,
+       .version = 128,
+       .state_at = 816,
+       .state = 0}};
   for (HesaiSheet& sheet : sheets) {
     const double earliest_us = std::ranges::min(sheet.fired_us);
     for (double& fired_us : sheet.fired_us) fired_us -= earliest_us;
@@ -197,15 +253,25 @@ double clock_us(const HesaiSheet& sheet, std::span<const std::uint8_t> payload) 
 
 }  // namespace
 
-const HesaiSheet& hesai_sheet_of(sensor::SensorModel model) {
+const HesaiSheet& hesai_sheet_of(sensor::SensorModel model, bool is_high) {
   static const std::vector<HesaiSheet> kSheets = make_sheets();
-  return *std::ranges::find(kSheets, model, &HesaiSheet::model);
+  return *std::ranges::find_if(kSheets, [&](const HesaiSheet& sheet) {
+    return sheet.model == model && (!is_high || (sheet.state_at > 0 && sheet.state == 0));
+  });
 }
 
 Packet HesaiReference::decode(std::span<const std::uint8_t> payload) {
   Packet packet;
   packet.refusal = Refusal::kOtherPacket;
   if (!is_packet(sheet_, payload)) return packet;
+  if (sheet_.state_at > 0) {
+    const bool is_high = payload[static_cast<std::size_t>(sheet_.state_at)] == 0;
+    if (is_high != (sheet_.state == 0)) {
+      sheet_ = hesai_sheet_of(sheet_.model, is_high);
+      last_step_deg_ = 0;
+      last_us_ = -1;
+    }
+  }
   const int returns = returns_of(payload[static_cast<std::size_t>(sheet_.mode_at)]);
   if (returns == 0) return packet;
   packet.dual_return = returns == 2;
@@ -253,7 +319,7 @@ Packet HesaiReference::decode(std::span<const std::uint8_t> payload) {
       beam.laser = laser;
       beam.raw_distance = little_endian(payload, at);
       beam.intensity = payload[static_cast<std::size_t>(at) + 2];
-      if (beam.raw_distance == 0) continue;
+      if (beam.raw_distance < sheet_.least_distance) continue;
       const double since_us = sheet_.fired_us[static_cast<std::size_t>(laser)];
       beam.fired_us = block / returns * sheet_.block_us + since_us;
       beam.rotor_deg = block_deg + packet.step_deg * since_us / sheet_.block_us;
@@ -285,6 +351,8 @@ std::vector<Payload> hesai_payloads(const HesaiSheet& sheet, const RotatingHead&
       put(bytes, sheet.counts_at() + 3, 4, 1);
     }
     put(bytes, sheet.mode_at, head.dual_return ? 0x39 : 0x37, 1);
+    if (sheet.version > 0) put(bytes, 4, static_cast<unsigned>(sheet.version), 1);
+    if (sheet.state_at > 0) put(bytes, sheet.state_at, static_cast<unsigned>(sheet.state), 1);
     const double first_us = static_cast<double>(n) * (sheet.blocks / returns) * sheet.block_us;
     for (int block = 0; block < sheet.blocks; ++block) {
       if (sheet.blocks_have_a_start) put(bytes, sheet.azimuth_at(block) - 2, 0xEEFF, 2);

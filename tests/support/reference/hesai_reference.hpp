@@ -25,6 +25,9 @@ struct HesaiSheet {
   int mode_at = 0, microseconds_at = 0, date_at = 0;
   double block_us = 0;           ///< From a firing of all lasers to the next.
   std::vector<double> fired_us;  ///< As printed, from whatever moment.
+  int least_distance = 1;        ///< Smaller ones are none.
+  int version = 0;               ///< Byte 4 of the packets of some.
+  int state_at = 0, state = 0;   ///< Of the operational state, and which; 0: has none.
 
   /// Of the number of lasers, before that of blocks.
   [[nodiscard]] int counts_at() const { return first_block == 8 ? 2 : 6; }
@@ -35,7 +38,8 @@ struct HesaiSheet {
     return first_block + block * block_bytes() + (blocks_have_a_start ? 2 : 0);
   }
 };
-[[nodiscard]] const HesaiSheet& hesai_sheet_of(sensor::SensorModel model);
+/// Of an OT128, also at high resolution.
+[[nodiscard]] const HesaiSheet& hesai_sheet_of(sensor::SensorModel model, bool is_high = false);
 
 /// A plain, slow decoder of Hesai's data packets, single and dual return, written from the manuals,
 /// byte by byte and in double. It shares nothing with the product's decoder but the table's struct.

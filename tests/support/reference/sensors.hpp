@@ -136,8 +136,8 @@ using Hdl32e = Velodyne<velodyne::Hdl32e>;
 using Vlp32c = Velodyne<velodyne::Vlp32c>;
 using Vls128 = Velodyne<velodyne::Vls128>;
 
-/// Of Hesai's models.
-template <class Model>
+/// Of Hesai's models; the OT128 also at high resolution.
+template <class Model, bool kIsHigh = false>
 struct Hesai {
   using Decoder = decode::Decoder;
   using Calibration = beams::BeamTable;
@@ -147,7 +147,7 @@ struct Hesai {
   static constexpr int kBlockBytes = static_cast<int>(Model::kLayout.block_at(1)) - kFirstBlock;
   static constexpr int kBlocks = Model::kLayout.blocks;
 
-  static const HesaiSheet& sheet() { return hesai_sheet_of(Model::kModel); }
+  static const HesaiSheet& sheet() { return hesai_sheet_of(Model::kModel, kIsHigh); }
   static double firing_us(bool) { return sheet().block_us; }
   static double firings_per_packet(bool dual_return) {
     return static_cast<double>(sheet().blocks) / (dual_return ? 2 : 1);

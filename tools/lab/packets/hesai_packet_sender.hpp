@@ -34,17 +34,10 @@ class HesaiPacketSender {
   [[nodiscard]] Status send(std::span<const Column> columns, int /*first_column*/,
                             capture::PcapWriter& capture) const {
     std::array<std::uint8_t, kLayout.packet_bytes()> bytes{};
-    if (kLayout.header_bytes > 0) {
-      std::ranges::copy(hesai::kPacketStart, bytes.begin());
-      bytes[kLayout.counts_at()] = static_cast<std::uint8_t>(kLayout.lasers);
-      bytes[kLayout.counts_at() + 1] = static_cast<std::uint8_t>(kLayout.blocks);
-      bytes[kLayout.counts_at() + 3] = hesai::kMillimetresPerCount;
-    }
+    hesai::begin_packet(kLayout, is_dual_, bytes);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       fill(columns[c], std::span(bytes).subspan(kLayout.block_at(static_cast<int>(c))));
     }
-    bytes[kLayout.tail_at() + kLayout.tail.return_mode_at] =
-        is_dual_ ? hesai::kLastAndStrongest : hesai::kStrongest;
     hesai::write_stamp_us(kLayout, columns.front().stamp_ns / 1000, bytes);
     return capture.write({.payload = bytes,
                           .stamp_ns = columns.back().stamp_ns + kLayout.column_ns,
@@ -61,7 +54,6 @@ class HesaiPacketSender {
     const auto put = [&](std::size_t at, std::uint16_t value) {
       std::ranges::copy(packet::Le16::of(value).bytes, block.subspan(at).begin());
     };
-    if (kLayout.header_bytes == 0) std::ranges::copy(hesai::kBlockStart, block.begin());
     put(kLayout.azimuth_at(),
         static_cast<std::uint16_t>(beams::wrap_cdeg(column.unwrapped_azimuth_cdeg)));
     std::size_t at = kLayout.returns_at();

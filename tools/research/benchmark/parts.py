@@ -82,6 +82,7 @@ MODELS = {
     "pandarxt16": ("PandarXT-16", "made ones"),
     "pandarxt32": ("PandarXT-32", "a real capture, dual return"),
     "pandarxt32m": ("PandarXT-32M", "made ones"),
+    "ot128": ("OT128", "made ones"),
     "ouster32": ("Ouster, 32 rows", "made ones"),
     "ouster64": ("Ouster, 64 rows", "a real capture, legacy profile"),
     "ouster128": ("Ouster, 128 rows", "four real captures, RNG19, RNG15 and FUSA dual profiles"),

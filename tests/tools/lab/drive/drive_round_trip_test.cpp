@@ -136,6 +136,7 @@ using SensorsWith =
                    packets::HesaiEncoderTraits<hesai::Pandar40p>,
                    packets::HesaiEncoderTraits<hesai::PandarQt128>,
                    packets::HesaiEncoderTraits<hesai::PandarXt32m>,
+                   packets::HesaiEncoderTraits<hesai::Ot128>,
                    packets::OusterEncoderTraits<32>, packets::OusterEncoderTraits<128>>;
 using Sensors = velodyne::Models::In<SensorsWith>;
 TYPED_TEST_SUITE(DriveRoundTrip, Sensors);

@@ -28,7 +28,8 @@ template <class EncoderTraits>
 std::vector<typename EncoderTraits::Column> random_columns(const RandomColumns& settings) {
   std::mt19937 random(settings.seed);
   std::uniform_real_distribution<double> chance(0, 1);
-  std::uniform_int_distribution<unsigned> distance(1, 65'535), byte(0, 255);
+  constexpr unsigned kLeastOfAnOt128 = 4;
+  std::uniform_int_distribution<unsigned> distance(kLeastOfAnOt128, 65'535), byte(0, 255);
   const auto unit = packets::unit_in_mode<EncoderTraits>(EncoderTraits::nominal(), settings.returns,
                                                          settings.spin_hz);
   const std::int64_t firing_ns = packets::firing_ns<EncoderTraits>(unit, settings.returns);

@@ -6,11 +6,12 @@
 
 #include <vector>
 
-#include "calib/beams/angle.hpp"
+#include "tests/calib/mount/sensor_view.hpp"
 
 namespace terracut::mount {
 namespace {
 
+using test::mount_in_degrees;
 using Cloud = std::vector<std::array<float, 3>>;
 
 /// What a sensor on `truth` sees, in the vehicle frame that `given` leads to: the inverse of the
@@ -60,13 +61,9 @@ std::optional<Mount> verdict(const Mount& given, const Cloud& each_frame, int fr
   return check.contradiction();
 }
 
-Mount mount(double height_m, double roll_deg, double pitch_deg) {
-  return {height_m, beams::deg_to_rad(roll_deg), beams::deg_to_rad(pitch_deg)};
-}
-
 TEST(MountCheck, AgreesWithTheMountThatIsTheRightOne) {
-  for (const Mount& truth :
-       {mount(0.5, 0, 0), mount(1.73, 0, 0), mount(3, -4, 12), mount(5.5, 0, 0)}) {
+  for (const Mount& truth : {mount_in_degrees(0.5, 0, 0), mount_in_degrees(1.73, 0, 0),
+                             mount_in_degrees(3, -4, 12), mount_in_degrees(5.5, 0, 0)}) {
     EXPECT_FALSE(verdict(truth, Seen(truth, truth).add_lane().points(), 20)) << truth.height_m;
   }
 }
@@ -76,12 +73,17 @@ TEST(MountCheck, ShowsTheMountThatTheGroundIsSeenFrom) {
     Mount truth, given;
   };
   for (const auto& [truth, given] :
-       {Case{mount(0.5, 0, 0), mount(1.73, 0, 0)}, Case{mount(1.2, 0, 0), mount(1.73, 0, 0)},
-        Case{mount(2.5, 0, 0), mount(1.73, 0, 0)}, Case{mount(1.73, 0, 10), mount(1.73, 0, 0)},
-        Case{mount(1.73, 0, 0), mount(1.73, 0, 10)}, Case{mount(1.73, -6, 0), mount(1.73, 0, 0)},
-        Case{mount(1.73, 0, 0), mount(2.03, 0, 0)}, Case{mount(1.73, 0, 0), mount(1.43, 0, 0)},
-        Case{mount(1.73, 0, 0), mount(1.73, 4, 0)}, Case{mount(1.73, 0, 0), mount(1.73, 0, -3)},
-        Case{mount(0.8, 3, -8), mount(1.73, 2, 3)}}) {
+       {Case{mount_in_degrees(0.5, 0, 0), mount_in_degrees(1.73, 0, 0)},
+        Case{mount_in_degrees(1.2, 0, 0), mount_in_degrees(1.73, 0, 0)},
+        Case{mount_in_degrees(2.5, 0, 0), mount_in_degrees(1.73, 0, 0)},
+        Case{mount_in_degrees(1.73, 0, 10), mount_in_degrees(1.73, 0, 0)},
+        Case{mount_in_degrees(1.73, 0, 0), mount_in_degrees(1.73, 0, 10)},
+        Case{mount_in_degrees(1.73, -6, 0), mount_in_degrees(1.73, 0, 0)},
+        Case{mount_in_degrees(1.73, 0, 0), mount_in_degrees(2.03, 0, 0)},
+        Case{mount_in_degrees(1.73, 0, 0), mount_in_degrees(1.43, 0, 0)},
+        Case{mount_in_degrees(1.73, 0, 0), mount_in_degrees(1.73, 4, 0)},
+        Case{mount_in_degrees(1.73, 0, 0), mount_in_degrees(1.73, 0, -3)},
+        Case{mount_in_degrees(0.8, 3, -8), mount_in_degrees(1.73, 2, 3)}}) {
     const auto seen = verdict(given, Seen(truth, given).add_lane().points());
     ASSERT_TRUE(seen) << truth.height_m << " " << given.height_m;
     EXPECT_NEAR(seen->height_m, truth.height_m, 0.01);
@@ -91,11 +93,11 @@ TEST(MountCheck, ShowsTheMountThatTheGroundIsSeenFrom) {
 }
 
 TEST(MountCheck, KnowsTheMountBetterFromADriveAndLeavesOutWhatContradicts) {
-  const Mount given = mount(1.73, 0, 0), truth = mount(1.76, 0.5, -0.3);
+  const Mount given = mount_in_degrees(1.73, 0, 0), truth = mount_in_degrees(1.76, 0.5, -0.3);
   MountCheck check(given);
   EXPECT_FALSE(check.by_drive());
   const Cloud seen = Seen(truth, given).add_lane().points();
-  const Cloud elsewhere = Seen(mount(1.2, 0, 0), given).add_lane().points();
+  const Cloud elsewhere = Seen(mount_in_degrees(1.2, 0, 0), given).add_lane().points();
   for (int i = 0; i < 12; ++i) check.add_frame(i % 4 == 0 ? elsewhere : seen);
   EXPECT_FALSE(check.contradiction());
   const auto by_drive = check.by_drive();
@@ -106,14 +108,15 @@ TEST(MountCheck, KnowsTheMountBetterFromADriveAndLeavesOutWhatContradicts) {
 }
 
 TEST(MountCheck, SaysNothingOfWhatItsTolerancesAllow) {
-  const Mount given = mount(1.73, 0, 0);
-  for (const Mount& truth : {mount(1.9, 0, 0), mount(1.56, 0, 0), mount(1.73, 3.2, -2.2)}) {
+  const Mount given = mount_in_degrees(1.73, 0, 0);
+  for (const Mount& truth : {mount_in_degrees(1.9, 0, 0), mount_in_degrees(1.56, 0, 0),
+                             mount_in_degrees(1.73, 3.2, -2.2)}) {
     EXPECT_FALSE(verdict(given, Seen(truth, given).add_lane().points()));
   }
 }
 
 TEST(MountCheck, NeedsSeveralFramesThatAgree) {
-  const Mount given = mount(1.73, 0, 0), truth = mount(1.2, 0, 0);
+  const Mount given = mount_in_degrees(1.73, 0, 0), truth = mount_in_degrees(1.2, 0, 0);
   const Cloud wrong = Seen(truth, given).add_lane().points();
   const Cloud right = Seen(given, given).add_lane().points();
   EXPECT_FALSE(verdict(given, wrong, 2));
@@ -128,14 +131,15 @@ TEST(MountCheck, NeedsSeveralFramesThatAgree) {
 }
 
 TEST(MountCheck, IsNotMisledByALongRoofUnderTheSensor) {
-  const Mount given = mount(3.2, 0, 0);  // on a bus, whose roof begins 0.5 m below and is 9 m long
+  const Mount given =
+      mount_in_degrees(3.2, 0, 0);  // on a bus, whose roof begins 0.5 m below and is 9 m long
   const auto scene =
       Seen(given, given).add_lane(9).add_deck(3, 9, 2.7, 0.1);  // more points than the road
   EXPECT_FALSE(verdict(given, scene.points()));
 }
 
 TEST(MountCheck, IsNotMisledByALorryAheadAndSlopesBeyond) {
-  const Mount given = mount(1.73, 0, 0);
+  const Mount given = mount_in_degrees(1.73, 0, 0);
   EXPECT_FALSE(
       verdict(given, Seen(given, given).add_lane(3, 8).add_deck(6, 14, 1.2, 0.08).points()));
   // Level where it stands, and up or down from 6 m on, on both sides: a hollow, and a crest.
@@ -153,7 +157,7 @@ TEST(MountCheck, IsNotMisledByALorryAheadAndSlopesBeyond) {
 }
 
 TEST(MountCheck, AFrameWithoutGroundCountsForNothing) {
-  MountCheck check(mount(1.73, 0, 0));
+  MountCheck check(mount_in_degrees(1.73, 0, 0));
   for (int i = 0; i < 20; ++i) check.add_frame({});
   EXPECT_EQ(check.frames(), 0U);
   EXPECT_FALSE(check.contradiction());

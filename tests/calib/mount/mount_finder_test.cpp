@@ -13,12 +13,9 @@
 namespace terracut::mount {
 namespace {
 
+using test::mount_in_degrees;
 using test::SensorView;
 using testing::HasSubstr;
-
-Mount mount(double height_m, double roll_deg, double pitch_deg) {
-  return {height_m, beams::deg_to_rad(roll_deg), beams::deg_to_rad(pitch_deg)};
-}
 
 /// The lane before and behind, up to 15 m, its heights by `z_m`.
 template <class Height>
@@ -64,7 +61,8 @@ class UnevenGround {
 };
 
 TEST(MountFinder, FindsTheMountThatASensorStandsOn) {
-  for (const Mount& truth : {mount(0.8, 5, -5), mount(1.73, 0, 0), mount(3, -4, 5)}) {
+  for (const Mount& truth :
+       {mount_in_degrees(0.8, 5, -5), mount_in_degrees(1.73, 0, 0), mount_in_degrees(3, -4, 5)}) {
     MountFinder finder;
     EXPECT_TRUE(finder.add_frame(lane(truth, 3, level).points()));
     const auto found = finder.found();
@@ -78,7 +76,7 @@ TEST(MountFinder, FindsTheMountThatASensorStandsOn) {
 }
 
 TEST(MountFinder, IsNotMisledByFramesInWhichTheRoadIsHidden) {
-  const Mount truth = mount(1.73, 1, 2);
+  const Mount truth = mount_in_degrees(1.73, 1, 2);
   const auto roof = [](double, double) { return 1.2; };  // long, and all that is seen
   MountFinder finder;
   for (int i = 0; i < 10; ++i) {
@@ -94,7 +92,7 @@ TEST(MountFinder, IsNotMisledByFramesInWhichTheRoadIsHidden) {
 
 TEST(MountFinder, StandsByItsUncertaintyOnUnevenGround) {
   constexpr int kRoads = 60;
-  const Mount truth = mount(1.73, 0, 0);
+  const Mount truth = mount_in_degrees(1.73, 0, 0);
   int height_held = 0, roll_held = 0, pitch_held = 0;
   for (unsigned seed = 0; seed < kRoads; ++seed) {
     const UnevenGround ground(seed, 0.02);
@@ -117,7 +115,7 @@ TEST(MountFinder, StandsByItsUncertaintyOnUnevenGround) {
 }
 
 TEST(MountFinder, IsLessCertainTheLessGroundItSees) {
-  const Mount truth = mount(3, 0, 0);
+  const Mount truth = mount_in_degrees(3, 0, 0);
   const auto uncertainty = [&](double from_m) {
     MountFinder finder;
     finder.add_frame(lane(truth, from_m, level).points());
@@ -138,8 +136,8 @@ TEST(MountFinder, IsLessCertainTheLessGroundItSees) {
 TEST(MountFinder, IsLessCertainTheMoreFramesDiffer) {
   MountFinder alike, different;
   for (int i = 0; i < 10; ++i) {
-    alike.add_frame(lane(mount(1.73, 0, 0), 3, level).points());
-    different.add_frame(lane(mount(1.73 + 0.01 * i, 0, 0), 3, level).points());
+    alike.add_frame(lane(mount_in_degrees(1.73, 0, 0), 3, level).points());
+    different.add_frame(lane(mount_in_degrees(1.73 + 0.01 * i, 0, 0), 3, level).points());
   }
   const auto sure = alike.found(), unsure = different.found();
   ASSERT_TRUE(sure && unsure);
@@ -150,7 +148,7 @@ TEST(MountFinder, IsLessCertainTheMoreFramesDiffer) {
 
 TEST(MountFinder, AnswersAMountThatCanBeStatedAsItIsPrinted) {
   MountFinder finder;
-  finder.add_frame(lane(mount(1.73456789, 1.23456, -2.34567), 3, level).points());
+  finder.add_frame(lane(mount_in_degrees(1.73456789, 1.23456, -2.34567), 3, level).points());
   const auto found = finder.found();
   ASSERT_TRUE(found);
   EXPECT_EQ(found->mount.height_m, 1.735);
@@ -161,7 +159,8 @@ TEST(MountFinder, AnswersAMountThatCanBeStatedAsItIsPrinted) {
 TEST(MountFinder, TakesTheRollOfASensorUpsideDownAcrossTheHalfTurn) {
   MountFinder finder;
   for (const double roll_deg : {179.0, -179.8, 179.6, -179.6, -178.0}) {
-    finder.add_estimate(MountEstimate{mount(1.73, roll_deg, 1), mount(0.01, 0.1, 0.1), 0});
+    finder.add_estimate(
+        MountEstimate{mount_in_degrees(1.73, roll_deg, 1), mount_in_degrees(0.01, 0.1, 0.1), 0});
   }
   const auto found = finder.certain();
   ASSERT_TRUE(found) << found.error().message;
@@ -172,7 +171,7 @@ TEST(MountFinder, SaysWhyThereIsNoMount) {
   MountFinder finder;
   EXPECT_THAT(finder.found(),
               calib::IsRefusedWith(ErrorCode::kMountNotFound, HasSubstr("no frame")));
-  const auto seen = lane(mount(1.73, 0, 0), 3, level);
+  const auto seen = lane(mount_in_degrees(1.73, 0, 0), 3, level);
   finder.add_frame(seen.points());
   finder.add_frame({});
   EXPECT_TRUE(finder.found()) << "half of the frames are enough";

@@ -6,9 +6,14 @@
 #include <cstddef>
 #include <vector>
 
+#include "calib/beams/angle.hpp"
 #include "calib/mount/mount.hpp"
 
 namespace terracut::test {
+
+inline mount::Mount mount_in_degrees(double height_m, double roll_deg, double pitch_deg) {
+  return {height_m, beams::deg_to_rad(roll_deg), beams::deg_to_rad(pitch_deg)};
+}
 
 /// Points of the vehicle frame as a sensor on `mount` has them.
 class SensorView {

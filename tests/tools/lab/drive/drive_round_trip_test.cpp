@@ -130,14 +130,12 @@ class DriveRoundTrip : public terracut::test::InScratchFolder {
 };
 
 template <class... VelodyneModel>
-using SensorsWith =
-    testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits,
-                   packets::VelodyneEncoderTraits<VelodyneModel>...,
-                   packets::HesaiEncoderTraits<hesai::Pandar40p>,
-                   packets::HesaiEncoderTraits<hesai::PandarQt128>,
-                   packets::HesaiEncoderTraits<hesai::PandarXt32m>,
-                   packets::HesaiEncoderTraits<hesai::Ot128>,
-                   packets::OusterEncoderTraits<32>, packets::OusterEncoderTraits<128>>;
+using SensorsWith = testing::Types<
+    packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits,
+    packets::VelodyneEncoderTraits<VelodyneModel>..., packets::HesaiEncoderTraits<hesai::Pandar40p>,
+    packets::HesaiEncoderTraits<hesai::PandarQt128>,
+    packets::HesaiEncoderTraits<hesai::PandarXt32m>, packets::HesaiEncoderTraits<hesai::Ot128>,
+    packets::OusterEncoderTraits<32>, packets::OusterEncoderTraits<128>>;
 using Sensors = velodyne::Models::In<SensorsWith>;
 TYPED_TEST_SUITE(DriveRoundTrip, Sensors);
 

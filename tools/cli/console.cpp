@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -115,7 +116,10 @@ ExitCode done_or_refused(const Status& status) {
 std::string progress_line(const ProgressState& state) {
   const int places = state.unit == "s" ? 1 : 0;
   std::string line = fmt::format("{}: {:.{}f}", state.task, state.done, places);
-  if (state.total > 0) line += fmt::format(" of {:.0f}", state.total);
+  if (state.total > 0) {
+    const bool is_whole = std::round(state.total) == state.total;
+    line += fmt::format(" of {:.{}f}", state.total, is_whole ? 0 : places);
+  }
   line += fmt::format(" {}", state.unit);
   if (state.total > 0) line += fmt::format(", {:.0f} %", 100.0 * state.done / state.total);
   return line + fmt::format(", after {:.0f} s", state.lasts_s);

@@ -10,6 +10,8 @@ namespace {
 TEST(Progress, IsSaidInNumbersThatAreReadAtAGlance) {
   EXPECT_EQ(progress_line({"simulating", "s", 0.3287, 3, 5.2}),
             "simulating: 0.3 of 3 s, 11 %, after 5 s");
+  EXPECT_EQ(progress_line({"simulating", "s", 0.2, 0.5, 5}),
+            "simulating: 0.2 of 0.5 s, 40 %, after 5 s");
   EXPECT_EQ(progress_line({"sending", "packets", 17'362, 0, 5}),
             "sending: 17362 packets, after 5 s");
   EXPECT_EQ(progress_line({"labelling", "scans", 150, 20'000, 60}),

@@ -15,6 +15,8 @@ namespace terracut::frame {
 /// The number of firings processed together: enough to fill vectors with one laser's returns, few
 /// enough that the returns of all lasers stay in the cache next to the core.
 inline constexpr std::size_t kTileFirings = 24;
+/// A bit for each firing of a tile.
+inline constexpr std::uint32_t kAllFirings = (std::uint32_t{1} << kTileFirings) - 1;
 /// One value for each firing of a tile.
 template <class Value>
 using TileRow = std::array<Value, kTileFirings>;

@@ -14,7 +14,6 @@ namespace terracut::frame {
 namespace {
 
 constexpr std::size_t kWordBits = 64;
-constexpr std::uint32_t kAllFirings = (1U << kTileFirings) - 1;
 
 /// A flag, 0 or 1, for each firing.
 using Flags = std::uint8_t[kTileFirings];

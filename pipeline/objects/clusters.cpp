@@ -6,6 +6,8 @@
 #include <array>
 #include <bit>
 
+#include "pipeline/objects/joined_sets.hpp"
+
 namespace terracut::objects {
 namespace {
 
@@ -110,18 +112,8 @@ Clusters::Clusters(frame::ImageShape shape, std::size_t most_runs, memory::Fixed
       joined_(memory.take<std::uint32_t>("objects", most_runs)),
       clusters_(memory.take<Cluster>("objects", most_runs)) {}
 
-std::uint32_t Clusters::root_of(std::uint32_t stretch) noexcept {
-  while (joined_[stretch] != stretch) {
-    joined_[stretch] = joined_[joined_[stretch]];
-    stretch = joined_[stretch];
-  }
-  return stretch;
-}
-
 void Clusters::join(std::uint32_t a, std::uint32_t b) noexcept {
-  a = root_of(a);
-  b = root_of(b);
-  joined_[std::max(a, b)] = std::min(a, b);
+  join_sets(joined_, first_of_set(joined_, a), first_of_set(joined_, b));
 }
 
 void Clusters::find(const frame::PointPlanes& points, const Parts& parts,
@@ -207,10 +199,11 @@ void Clusters::join_rows(int row, std::uint32_t below, const frame::PointPlanes&
       const Run& other = lower_runs[i];
       // Mostly the stretches of the pair before, which have been joined.
       if (run.cluster == stretch && other.cluster == stretch_below) continue;
-      const std::uint32_t a = root_of(run.cluster), b = root_of(other.cluster);
+      const std::uint32_t a = first_of_set(joined_, run.cluster),
+                          b = first_of_set(joined_, other.cluster);
       if (a != b) {
         if (!touch(run, other, stride, points, row_reach)) continue;
-        joined_[std::max(a, b)] = std::min(a, b);
+        join_sets(joined_, a, b);
       }
       stretch = run.cluster;
       stretch_below = other.cluster;

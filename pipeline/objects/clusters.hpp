@@ -59,7 +59,6 @@ class Clusters {
                  const Reach& reach) noexcept;
   /// Numbers the clusters and sums up what is known of them.
   void number() noexcept;
-  [[nodiscard]] std::uint32_t root_of(std::uint32_t stretch) noexcept;
   void join(std::uint32_t a, std::uint32_t b) noexcept;
 
   frame::ImageShape shape_;

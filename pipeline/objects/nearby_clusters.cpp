@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "pipeline/objects/joined_sets.hpp"
+
 namespace terracut::objects {
 namespace {
 
@@ -136,19 +138,10 @@ void NearbyClusters::join_around(const Piece& piece) noexcept {
             aside_m2 >= config_.beside_m * config_.beside_m) {
           continue;
         }
-        const std::uint32_t a = root_of(piece.cluster), b = root_of(other.cluster);
-        first_[std::max(a, b)] = std::min(a, b);
+        join_sets(first_, first_of_set(first_, piece.cluster), first_of_set(first_, other.cluster));
       }
     }
   }
-}
-
-std::uint32_t NearbyClusters::root_of(std::uint32_t cluster) noexcept {
-  while (first_[cluster] != cluster) {
-    first_[cluster] = first_[first_[cluster]];
-    cluster = first_[cluster];
-  }
-  return cluster;
 }
 
 }  // namespace terracut::objects

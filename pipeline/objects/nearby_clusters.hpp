@@ -77,7 +77,6 @@ class NearbyClusters {
   void join_around(const Piece& piece) noexcept;
   /// Makes first() final, and sums up.
   void settle(std::span<const Cluster> clusters) noexcept;
-  [[nodiscard]] std::uint32_t root_of(std::uint32_t cluster) noexcept;
 
   Config config_;
   std::uint32_t pieces_used_ = 0;

@@ -108,7 +108,6 @@ void ReturnHeights::assign_tile(const frame::MeasuredReturns& turn, std::size_t 
 inline bool ReturnHeights::take_cells(const frame::MeasuredReturns& turn, std::size_t tile,
                                       std::size_t laser, const float* of_row,
                                       const frame::TileRow<std::uint32_t>& next) noexcept {
-  constexpr std::uint32_t kEveryFiring = (std::uint32_t{1} << frame::kTileFirings) - 1;
   const frame::MeasuredReturns::LaserRow& row = turn.row(tile, laser);
   bool all_known = row.owned == row.returns;
   const auto take = [&](std::size_t f, float height_m) noexcept {
@@ -117,7 +116,7 @@ inline bool ReturnHeights::take_cells(const frame::MeasuredReturns& turn, std::s
   };
   if (row.is_run) {
     const float* const first = of_row + row.least;
-    if (row.returns == kEveryFiring) {
+    if (row.returns == frame::kAllFirings) {
       for (std::size_t f = 0; f < frame::kTileFirings; ++f) take(f, first[f]);
     } else {
       frame::for_each_firing(row.returns, [&](std::size_t f) noexcept { take(f, first[f]); });

@@ -10,8 +10,6 @@
 namespace terracut::stage {
 namespace {
 
-constexpr std::uint32_t kWholeTile = (std::uint32_t{1} << frame::kTileFirings) - 1;
-
 void copy_where_measured(const frame::Label* __restrict from, const std::uint16_t* __restrict raw,
                          std::uint8_t* __restrict to) noexcept {
   for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
@@ -93,7 +91,7 @@ bool ReturnLabels::write_tile(const frame::MeasuredReturns& turn, std::size_t ti
     if (row.is_run && row.owned == row.returns) {
       const std::size_t cell =
           static_cast<std::size_t>(rows[i]) * stride + static_cast<std::size_t>(row.least);
-      if (row.returns == kWholeTile) {
+      if (row.returns == frame::kAllFirings) {
         std::memcpy(of_laser[i].data(), &planes.label[cell], frame::kTileFirings);
       } else {
         copy_where_measured(&planes.label[cell], raw + i * frame::kTileFirings, of_laser[i].data());

@@ -19,17 +19,22 @@ using frame::Label;
 /// True for beams that return nothing.
 using Loses = std::function<bool(double azimuth_rad, double elevation_rad)>;
 
-/// Turns of a sensor on level ground, labelled by their heights.
+/// Labels the returns of level ground and what stands on it by their heights.
+void label_by_height(const frame::RangeImage& image, stage::CellPlanes& planes) {
+  for (std::size_t cell = 0; cell < planes.label.size(); ++cell) {
+    planes.height_m[cell] = image.has_return(cell) ? image.z_m()[cell] : NAN;
+    planes.label[cell] = !image.has_return(cell)     ? Label::kNone
+                         : image.z_m()[cell] > 0.05F ? Label::kObstacle
+                                                     : Label::kGround;
+  }
+}
+
+/// Turns of a sensor on level ground.
 struct ViewOfASensor : testing::Test, test::BoxScene {
   /// Looks at some turns of the same scene.
   Condition see(const test::BeamCast& beams, int turns) {
     cast(beams);
-    for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
-      planes.height_m[cell] = image.has_return(cell) ? image.z_m()[cell] : NAN;
-      planes.label[cell] = !image.has_return(cell)     ? Label::kNone
-                           : image.z_m()[cell] > 0.05F ? Label::kObstacle
-                                                       : Label::kGround;
-    }
+    label_by_height(image, planes);
     for (int i = 0; i < turns; ++i) view.look(image, planes);
     return view.worst();
   }
@@ -137,13 +142,7 @@ TEST_F(ViewOfASensor, HasNoSprayWherePolesStandWhoseReturnsAreOneRowApart) {
   Visibility sparse_view{{}, profile, kSparse, memory};
   const auto look = [&](const test::BeamCast& beams, int turns) {
     test::cast_frame(profile, beams, sparse_image);
-    for (std::size_t cell = 0; cell < kSparse.cells(); ++cell) {
-      const bool is_there = sparse_image.has_return(cell);
-      labels.height_m[cell] = is_there ? sparse_image.z_m()[cell] : NAN;
-      labels.label[cell] = !is_there                          ? Label::kNone
-                           : sparse_image.z_m()[cell] > 0.05F ? Label::kObstacle
-                                                              : Label::kGround;
-    }
+    label_by_height(sparse_image, labels);
     for (int i = 0; i < turns; ++i) sparse_view.look(sparse_image, labels);
   };
   look(open_field, 12);

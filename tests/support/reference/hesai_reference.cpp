@@ -199,25 +199,14 @@ std::vector<HesaiSheet> make_sheets() {
        .least_distance = 4,
        .version = 128,
        .state_at = 816,
-       .state = 2},
-      {.model = kOt128,
-       .bytes = 861,
-       .more = 32,
-       .first_block = 12,
-       .lasers = 128,
-       .blocks = 2,
-       .bytes_a_return = 3,
-       .mode_at = 817,
-       .microseconds_at = 826,
-       .date_at = 820,
-       .block_us = 27.778,
-       .fired_us =
-           of_both_loops(of_ot128({18.867, 6.289, 18.867, 6.289, 12.578, 0, 12.578, 0}, early),
-                         of_ot128({18.867, 6.289, 21.011, 6.289, 12.578, 0, 14.722, 0}, late)),
-       .least_distance = 4,
-       .version = 128,
-       .state_at = 816,
-       .state = 0}};
+       .state = 2}};
+  HesaiSheet high = sheets.back();
+  high.block_us = 27.778;
+  high.fired_us =
+      of_both_loops(of_ot128({18.867, 6.289, 18.867, 6.289, 12.578, 0, 12.578, 0}, early),
+                    of_ot128({18.867, 6.289, 21.011, 6.289, 12.578, 0, 14.722, 0}, late));
+  high.state = 0;
+  sheets.push_back(high);
   for (HesaiSheet& sheet : sheets) {
     const double earliest_us = std::ranges::min(sheet.fired_us);
     for (double& fired_us : sheet.fired_us) fired_us -= earliest_us;

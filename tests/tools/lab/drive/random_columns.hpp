@@ -8,6 +8,7 @@
 
 #include "tools/lab/drive/head_azimuths.hpp"
 #include "tools/lab/packets/encoder_traits.hpp"
+#include "tools/lab/packets/table_encoder_traits.hpp"
 
 namespace terracut::test {
 
@@ -21,6 +22,13 @@ struct RandomColumns {
   std::uint32_t seed = 1;
 };
 
+/// The smallest distance that is one.
+template <class EncoderTraits>
+inline constexpr unsigned kLeastCount = 1;
+template <class Model>
+inline constexpr unsigned kLeastCount<packets::HesaiEncoderTraits<Model>> =
+    hesai::layout_of(Model::kModel).least_count;
+
 /// Columns of a steadily rotating head that measures noise; whole packets. Every return's truth
 /// says which return it is: its number in order of arrival, and its intensity in the low eight
 /// bits.
@@ -28,8 +36,8 @@ template <class EncoderTraits>
 std::vector<typename EncoderTraits::Column> random_columns(const RandomColumns& settings) {
   std::mt19937 random(settings.seed);
   std::uniform_real_distribution<double> chance(0, 1);
-  constexpr unsigned kLeastOfAnOt128 = 4;
-  std::uniform_int_distribution<unsigned> distance(kLeastOfAnOt128, 65'535), byte(0, 255);
+  std::uniform_int_distribution<unsigned> distance(kLeastCount<EncoderTraits>, 65'535),
+      byte(0, 255);
   const auto unit = packets::unit_in_mode<EncoderTraits>(EncoderTraits::nominal(), settings.returns,
                                                          settings.spin_hz);
   const std::int64_t firing_ns = packets::firing_ns<EncoderTraits>(unit, settings.returns);

@@ -10,8 +10,8 @@ Mistakes are made by rule, from clang's syntax tree: a comparison off by its bou
 a constant off by one, a sign or negation lost, a statement dropped, two arguments of one type swapped, a function that returns at
 once. All drawn ones are compiled into one program, in a copy of the tree (build/mutants/tree); a number in the environment makes
 one of them. The suites of `./tools/test` run once without any, which shows whom each is reached by; then, for each mistake, those
-that reach it, until one fails: first the quick ones for all mistakes, then the slower ones for those not noticed yet. Verdicts go into build/mutants/verdicts.json as they fall, and a run that broke
-off goes on there. Exit code 1 where a mistake was not noticed.
+that reach it, until one fails: first the quick ones for all mistakes, then the slower ones for those not noticed yet. Verdicts go into
+build/mutants/verdicts.json as they fall, and a run that broke off goes on there. Exit code 1 where a mistake was not noticed.
 
 A mistake that survives may change nothing anyone can see (a bound that is never met): look before you write a test.
 """
@@ -132,7 +132,10 @@ class Trial:
 
         names = self.suites.names()
         with ThreadPoolExecutor(self.suites.jobs) as pool:
-            looked = dict(zip(names, pool.map(look, names)))
+            looked = {name: each for name, each in zip(names, pool.map(look, names)) if each[0] is not None}
+        if failing := [name for name in names if name not in looked]:
+            print(f"left out, they fail without a mistake: {' '.join(failing)}", flush=True)
+        names = list(looked)
         seconds = {name: each[0] for name, each in looked.items()}
         reached_by = {number: sorted((name for name in names if number in looked[name][1]), key=seconds.get) for number in self.numbered}
         return seconds, reached_by

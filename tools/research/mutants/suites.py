@@ -12,7 +12,7 @@ LEFT_OUT = re.compile("slow|install|documents")
 
 
 class Failed(Exception):
-    """The tree could not be built or its suites fail without a mistake."""
+    """The tree could not be built."""
 
 
 class Suites:
@@ -63,11 +63,10 @@ class Suites:
         return failed[0] if failed else names[0]
 
     def timed(self, name, reached):
+        """How long a suite takes without a mistake; None if it fails."""
         begun = time.monotonic()
         failed = self.run([name], reached=reached)
-        if failed:
-            raise Failed(f"{name} fails without a mistake in the tree")
-        return time.monotonic() - begun
+        return None if failed else time.monotonic() - begun
 
     def shared(self):
         given = os.environ.get("TERRACUT_SHARED")

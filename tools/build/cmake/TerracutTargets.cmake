@@ -28,6 +28,12 @@ function(terracut_add_room name)
   endif()
 endfunction()
 
+# terracut_optimise(sources...): tests that compute more than they are compiled; what is precompiled for the others, which
+#   are not optimised, is of no use to them.
+function(terracut_optimise)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O1 SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # terracut_add_test(NAME SOURCES... LIBS... [APART sources...] [LABELS ...] [TIMEOUT seconds])
 #   a GoogleTest program, every suite an entry of ctest (DiscoverSuites.cmake). LABELS is one word; "threads" says that
 #   there is something to find for ThreadSanitizer and adds the program to `threaded_tests`,

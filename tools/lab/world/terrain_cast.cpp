@@ -112,9 +112,9 @@ std::optional<Hit> Terrain::cast(const SightLine& line, double limit_m) const no
   double way_m = 0;
   Spot at = spot(line, way_m);
   Zone here = zone(at);
+  double clearance = clearance_m(here, at);
+  if (clearance <= 0) return within(ground_hit(here, line, way_m, way_m));
   while (way_m < limit_m) {
-    const double clearance = clearance_m(here, at);
-    if (clearance <= 0) return within(ground_hit(here, line, way_m, way_m));
     if (clearance > highest_step_m_ && down + steepest_ * level < 0) return std::nullopt;
     double next_m = way_m + safe_step_m(here, line, at, clearance);
     at = spot(line, next_m);
@@ -123,11 +123,15 @@ std::optional<Hit> Terrain::cast(const SightLine& line, double limit_m) const no
       next_m = way_of_edge_m(here, line, way_m, next_m);
       at = spot(line, next_m);
     }
-    if (clearance_m(here, at) <= 0) return within(ground_hit(here, line, way_m, next_m));
+    clearance = clearance_m(here, at);
+    if (clearance <= 0) return within(ground_hit(here, line, way_m, next_m));
     if (leaves) {
       const Zone next = zone(at);
-      if (clearance_m(next, at) <= 0) return within(face_hit(here, next, line, next_m));
-      here = next;
+      if (!(next == here)) {
+        clearance = clearance_m(next, at);
+        if (clearance <= 0) return within(face_hit(here, next, line, next_m));
+        here = next;
+      }
     }
     way_m = next_m;
   }

@@ -15,7 +15,6 @@ HEADER = """#pragma once
 #include <unistd.h>
 
 #include <cstdlib>
-#include <type_traits>
 
 namespace terracut::mutants {
 inline constexpr int kMost = 65536;
@@ -40,7 +39,7 @@ inline bool reach(int number) noexcept {
   return chosen == number;
 }
 constexpr bool planted(int number) noexcept {
-  if (std::is_constant_evaluated()) return false;
+  if (__builtin_is_constant_evaluated()) return false;
   return reach(number);
 }
 }  // namespace terracut::mutants
@@ -87,12 +86,15 @@ def plant(repository, tree, numbered):
     by_file = defaultdict(list)
     for number, site in numbered.items():
         by_file[site.file].append((site.begin, site.end, site.shape.format(id=number)))
+    header = tree / "build/planted.hpp"
+    put(header, HEADER.encode())
+    # Included by those that need it alone: before a precompiled header it would make that useless.
+    first = f'#include "{header}"\n#line 1\n'.encode()
     for name, places in by_file.items():
         content = (repository / name).read_bytes()
         for begin, end, text in sorted(places, reverse=True):
             content = content[:begin] + text.encode() + content[end:]
-        put(tree / name, content)
-    put(tree / "build/planted.hpp", HEADER.encode())
+        put(tree / name, first + content)
 
 
 def files_with(sites):

@@ -21,8 +21,7 @@ class Suites:
         self.folder = tree / "build/release"
 
     def configure(self):
-        flags = f"-w -include {self.tree / 'build/planted.hpp'}"
-        subprocess.run(["cmake", "--preset", "release", f"-DCMAKE_CXX_FLAGS={flags}"], cwd=self.tree, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "--preset", "release", "-DCMAKE_CXX_FLAGS=-w"], cwd=self.tree, check=True, stdout=subprocess.DEVNULL)
 
     def build(self):
         """Builds all. Returns the numbers of mistakes that do not compile; raises Failed for anything else."""

@@ -89,7 +89,7 @@ def plant(repository, tree, numbered):
     header = tree / "build/planted.hpp"
     put(header, HEADER.encode())
     # Included by those that need it alone: before a precompiled header it would make that useless.
-    first = f'#include "{header}"\n#line 1\n'.encode()
+    first = f'#include "{header}"\n'.encode()
     for name, places in by_file.items():
         content = (repository / name).read_bytes()
         for begin, end, text in sorted(places, reverse=True):

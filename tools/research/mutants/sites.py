@@ -96,7 +96,8 @@ def _negation(source, cursor):
     operand = next(iter(cursor.get_children()), None)
     if operand is not None and text.startswith(("!", "-")) and is_scalar(operand) and is_scalar(cursor):
         if operand.kind != Kind.INTEGER_LITERAL:
-            yield _expression(source, cursor, "sign", text[0], "", text[1:])
+            # What is asked only whether it holds may be of any type: the mistake is a bool, as the right one is.
+            yield _expression(source, cursor, "sign", text[0], "", "!" + text if text[0] == "!" else text[1:])
 
 
 def _statement(source, cursor):

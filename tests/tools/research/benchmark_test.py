@@ -101,8 +101,10 @@ class Printed(unittest.TestCase):
                               "01": {"terracut, from packets": [1, 1], "peer": [0.6, 0.5]}}}  # fmt: skip
         both = {"at": "", "load": 0} | parts.of_peers(report)
         alone = {name: of for name, of in both.items() if name != "peer"}
-        table = printed(results_of(peers={"recorded": [both], "street": [alone]}), "peers")
-        self.assertIn("| peer | x 2.00; 8.00 / 8.00 ms; 70.0 / 50.0 % |  |", table)
+        results = results_of(peers={"recorded": [both], "street": [alone]})
+        self.assertIn("| peer | x 2.00; 8.00 / 8.00 ms |  |", printed(results, "peers"))
+        self.assertEqual(printed(results, "quality").splitlines()[2:],
+                         ["| terracut | 95.0 / 100.0 | 95.0 / 100.0 |", "| peer | 70.0 / 50.0 |  |"])  # fmt: skip
 
     def test_a_part_says_what_it_is_of_and_what_was_left_out(self):
         results = results_of(sensors={"hdl64e, street": [round_of(2), round_of(2, load=3.5)]})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""The tables of docs/reference/benchmark.md and the figures in README.md, of what was measured."""
+"""The tables of docs/reference and the figures in README.md, of what was measured."""
 
 import statistics
 
@@ -9,7 +9,7 @@ from tables import table
 
 from .parts import CASES, MODELS
 
-DOCUMENTS = ("README.md", "docs/reference/benchmark.md", "docs/reference/sensors.md")
+DOCUMENTS = ("README.md", *(f"docs/reference/{page}.md" for page in ("benchmark", "evaluation", "sensors")))
 STAGE_ROWS = {
     "total": "**total**",
     "after_frame": "of it after the turn's last packet",
@@ -159,22 +159,35 @@ def outputs_table(which, results):
     return [*table(title, names, [(str(row[title]), [str(row[name]) for name in names]) for row in rows]), ""]
 
 
-def peers_table(results):
+def peer_rounds(results):
+    """The last round of each drive, and the names of all programs."""
     cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items()}
-    if not cases:
-        return []
-    names = dict.fromkeys(name for told in cases.values() for name in told if name not in STAMPED)
+    return cases, dict.fromkeys(name for told in cases.values() for name in told if name not in STAMPED)
+
+
+def peers_table(results):
+    cases, names = peer_rounds(results)
 
     def cell(told, name):
         if name not in told:
             return ""
         (p50, p99), unit = told[name]["ms"], told[FROM_PACKETS]["ms"][0]
-        time = f"x {p50 / unit:.2f}; {p50:.2f} / {p99:.2f} ms"
-        shares = ["-" if share is None else f"{100 * share:.1f}" for share in told[name]["quality"]]
-        return time if name in (SEGMENTING, AFTER_FRAME) else f"{time}; {' / '.join(shares)} %"
+        return f"x {p50 / unit:.2f}; {p50:.2f} / {p99:.2f} ms"
 
-    return table("times terracut's whole work; p50 / p99; IoU_g / Recall_o", cases,
-                 [(name, [cell(told, name) for told in cases.values()]) for name in names])  # fmt: skip
+    return table("times terracut's whole work; p50 / p99", cases,
+                 [(name, [cell(told, name) for told in cases.values()]) for name in names]) if cases else []  # fmt: skip
+
+
+def quality_table(results):
+    cases, names = peer_rounds(results)
+
+    def cell(told, name):
+        shares = told[name]["quality"] if name in told else ()
+        return " / ".join("-" if share is None else f"{100 * share:.1f}" for share in shares)
+
+    rows = [("terracut" if name == FROM_PACKETS else name, [cell(told, name) for told in cases.values()])
+            for name in names if name not in (SEGMENTING, AFTER_FRAME)]  # fmt: skip
+    return [*table("IoU_g / Recall_o, %", cases, rows)] if cases else []
 
 
 def frame_text(results):
@@ -206,5 +219,6 @@ def blocks(results):
         "outputs": (outputs_table("each", results) + outputs_table("stalled", results))[:-1],
         "peers": peers_table(results),
     }
-    texts = {"frame_text": frame_text(results), "live_text": live_text(results), "memory_text": memory_text(results)}
-    return {part: [*stamp(results[part]), *lines] for part, lines in tables.items()} | texts
+    bare = {"quality": quality_table(results), "frame_text": frame_text(results), "live_text": live_text(results),
+            "memory_text": memory_text(results)}  # fmt: skip
+    return {part: [*stamp(results[part]), *lines] for part, lines in tables.items()} | bare

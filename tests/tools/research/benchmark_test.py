@@ -109,12 +109,22 @@ class Printed(unittest.TestCase):
     def test_a_part_says_what_it_is_of_and_what_was_left_out(self):
         results = results_of(sensors={"hdl64e, street": [round_of(2), round_of(2, load=3.5)]})
         results["sensors"].measured["note"] = "others at work"
-        results["sensors"].left_out["hdl64e, recorded"] = "there is no data"
+        results["sensors"].left_out |= {"hdl64e, recorded": "there is no data", "vlp16": "no such sensor", "ruby128": "there is no data"}
         said = printed(results, "sensors")
-        self.assertIn("terracut 1.2.3 (abcdef01, program 12), beside 1.0 (old) in turn; a machine; 2026-11-27 10:00 UTC; 2 rounds; load average "
+        self.assertIn("terracut 1.2.3 (abcdef01, program 12), beside 1.0 (old) in turn; 2026-11-27 10:00 UTC; 2 rounds; load average "
                       "0.5 to 3.5; others at work.",
                       said)  # fmt: skip
-        self.assertIn("Left out: hdl64e, recorded (there is no data).", said)
+        self.assertIn("Left out: hdl64e, recorded, ruby128 (there is no data); vlp16 (no such sensor).", said)
+
+    def test_a_machine_is_told_once_unless_parts_were_measured_on_several(self):
+        rounds = [round_of(2, quality=[1, 1])]
+        results = results_of(sensors={"hdl64e, street": rounds}, models={"hdl64e": rounds},
+                             instructions={"hdl64e, street": [{"at": "", "load": 0, "all": 1.0}]})  # fmt: skip
+        self.assertEqual(printed(results, "machine"), "Machine: a machine.")
+        self.assertIn("in turn; a machine; 2026", printed(results, "models"))  # on another page
+        results["sensors"].measured["machine"] = "another"
+        self.assertEqual(printed(results, "machine"), "Machine: another.\nMachine: a machine.")
+        self.assertIn("in turn; another; 2026", printed(results, "sensors"))
 
     def test_the_documents_show_what_was_measured(self):
         shown = blocks({part.name: Results(RESULTS / f"{part.name}.json") for part in parts.PARTS})

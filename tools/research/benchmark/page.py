@@ -27,6 +27,7 @@ UNIT = "hdl64e, street"  # what the others are told in
 # The drive that the live trial sends: the columns of the sensors' tables which its latencies belong to.
 SENT = {"hdl64e": "hdl64e, street", "ruby128": "ruby128, street, dual return", "vlp16": "vlp16, street"}
 FIRING_TO_LABEL, LONGEST = "firing to label, mean", "the longest in ten degrees"
+ELSEWHERE = "models"  # the part that another page shows
 STAMPED = ("at", "load")  # of every round, beside its figures
 MEBI = 1 << 20
 
@@ -53,18 +54,27 @@ def spanned(ratios):
     return f"{statistics.median(ratios):.2f}{span}"
 
 
-def stamp(results):
-    """What the figures of a part are of, in a line."""
+def machines(results):
+    """Where the parts were measured that benchmark.md shows, each once."""
+    return list(dict.fromkeys(of.measured["machine"] for name, of in results.items() if of.cases and name != ELSEWHERE))
+
+
+def stamp(results, known=""):
+    """What the figures of a part are of, in a line; the machine that the page names once is left out."""
     of, rounds = results.measured, [figures for case in results.cases.values() for figures in case]
     if not rounds:
         return ["Not measured.", ""]
     loads = [figures["load"] for figures in rounds]
     beside = f", beside {of['beside']} in turn" if of.get("beside") else ""
+    machine = "" if of["machine"] == known else f"{of['machine']}; "
     note = f"; {of['note']}" if of.get("note") else ""
-    text = (f"terracut {of['version']} ({of['commit']}, program {of['program']}){beside}; {of['machine']}; "
+    text = (f"terracut {of['version']} ({of['commit']}, program {of['program']}){beside}; {machine}"
             f"{min(figures['at'] for figures in rounds)} UTC; {of['way']}; load average {min(loads)} to {max(loads)}{note}.")  # fmt: skip
-    left_out = [f"{what} ({reason})" for what, reason in results.left_out.items()]
-    return [text, *([f"Left out: {'; '.join(left_out)}."] if left_out else []), ""]
+    left_out = {}
+    for what, reason in results.left_out.items():
+        left_out.setdefault(reason, []).append(what)
+    reasons = [f"{', '.join(names)} ({reason})" for reason, names in left_out.items()]
+    return [text, *([f"Left out: {'; '.join(reasons)}."] if reasons else []), ""]
 
 
 def sensor_table(sensors, results):
@@ -219,6 +229,8 @@ def blocks(results):
         "outputs": (outputs_table("each", results) + outputs_table("stalled", results))[:-1],
         "peers": peers_table(results),
     }
-    bare = {"quality": quality_table(results), "frame_text": frame_text(results), "live_text": live_text(results),
-            "memory_text": memory_text(results)}  # fmt: skip
-    return {part: [*stamp(results[part]), *lines] for part, lines in tables.items()} | bare
+    found = machines(results)
+    known = found[0] if len(found) == 1 else ""
+    bare = {"machine": [f"Machine: {machine}." for machine in found], "quality": quality_table(results), "frame_text": frame_text(results),
+            "live_text": live_text(results), "memory_text": memory_text(results)}  # fmt: skip
+    return {part: [*stamp(results[part], "" if part == ELSEWHERE else known), *lines] for part, lines in tables.items()} | bare

@@ -29,6 +29,7 @@ SENT = {"hdl64e": "hdl64e, street", "ruby128": "ruby128, street, dual return", "
 FIRING_TO_LABEL, LONGEST = "firing to label, mean", "the longest in ten degrees"
 ELSEWHERE = "models"  # the part that another page shows
 STAMPED = ("at", "load")  # of every round, beside its figures
+TIMED, TUNED = "street", "recorded"  # of the peers' drives: the one whose times README shows, the one that terracut is tuned on
 MEBI = 1 << 20
 
 
@@ -169,14 +170,11 @@ def outputs_table(which, results):
     return [*table(title, names, [(str(row[title]), [str(row[name]) for name in names]) for row in rows]), ""]
 
 
-def peer_rounds(results):
-    """The last round of each drive, and the names of all programs."""
-    cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items()}
-    return cases, dict.fromkeys(name for told in cases.values() for name in told if name not in STAMPED)
-
-
 def peers_table(results):
-    cases, names = peer_rounds(results)
+    cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items()}
+    if not cases:
+        return []
+    names = dict.fromkeys(name for told in cases.values() for name in told if name not in STAMPED)
 
     def cell(told, name):
         if name not in told:
@@ -185,19 +183,27 @@ def peers_table(results):
         return f"x {p50 / unit:.2f}; {p50:.2f} / {p99:.2f} ms"
 
     return table("times terracut's whole work; p50 / p99", cases,
-                 [(name, [cell(told, name) for told in cases.values()]) for name in names]) if cases else []  # fmt: skip
+                 [(name, [cell(told, name) for told in cases.values()]) for name in names])  # fmt: skip
 
 
-def quality_table(results):
-    cases, names = peer_rounds(results)
+def qualities_table(results):
+    """README's and evaluation.md's: how good each program is on each drive, and what a frame of the simulated street costs it."""
+    cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items()}
+    if TIMED not in cases:
+        return []
+    names = dict.fromkeys(name for told in cases.values() for name in told if name not in (*STAMPED, SEGMENTING, AFTER_FRAME))
+    # Drives that nothing was tuned on come first.
+    titles = {name: f"{name}, tuned on" if name == TUNED else name for name in sorted(cases, key=lambda name: name == TUNED)}
 
-    def cell(told, name):
-        shares = told[name]["quality"] if name in told else ()
-        return " / ".join("-" if share is None else f"{100 * share:.1f}" for share in shares)
+    def quality(told):
+        return " / ".join("-" if share is None else f"{100 * share:.1f}" for share in told["quality"]) if told else ""
 
-    rows = [("terracut" if name == FROM_PACKETS else name, [cell(told, name) for told in cases.values()])
-            for name in names if name not in (SEGMENTING, AFTER_FRAME)]  # fmt: skip
-    return [*table("IoU_g / Recall_o, %", cases, rows)] if cases else []
+    rows = [("terracut" if name == FROM_PACKETS else name,
+             [*(quality(cases[case].get(name)) for case in titles), f"{cases[TIMED][name]['ms'][0]:.2f}" if name in cases[TIMED] else ""])
+            for name in names]  # fmt: skip
+    left_out = ", ".join(results["peers"].left_out)
+    return [*table("IoU_g / Recall_o, %", [*titles.values(), f"ms a frame, {TIMED}"], rows),
+            *(["", f"Not built for this measurement: {left_out}."] if left_out else [])]  # fmt: skip
 
 
 def frame_text(results):
@@ -231,6 +237,6 @@ def blocks(results):
     }
     found = machines(results)
     known = found[0] if len(found) == 1 else ""
-    bare = {"machine": [f"Machine: {machine}." for machine in found], "quality": quality_table(results), "frame_text": frame_text(results),
+    bare = {"machine": [f"Machine: {machine}." for machine in found], "qualities": qualities_table(results), "frame_text": frame_text(results),
             "live_text": live_text(results), "memory_text": memory_text(results)}  # fmt: skip
     return {part: [*stamp(results[part], "" if part == ELSEWHERE else known), *lines] for part, lines in tables.items()} | bare

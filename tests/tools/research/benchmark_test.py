@@ -101,18 +101,41 @@ class Printed(unittest.TestCase):
                               "01": {"terracut, from packets": [1, 1], "peer": [0.6, 0.5]}}}  # fmt: skip
         both = {"at": "", "load": 0} | parts.of_peers(report)
         alone = {name: of for name, of in both.items() if name != "peer"}
-        table = printed(results_of(peers={"recorded": [both], "street": [alone]}), "peers")
-        self.assertIn("| peer | x 2.00; 8.00 / 8.00 ms; 70.0 / 50.0 % |  |", table)
+        results = results_of(peers={"recorded": [both], "street": [alone]})
+        self.assertIn("| peer | x 2.00; 8.00 / 8.00 ms |  |", printed(results, "peers"))
+
+    def test_readme_has_the_peers_on_drives_that_nothing_was_tuned_on_first(self):
+        def told(ms, *quality):
+            return {"ms": [ms, ms], "quality": quality}
+
+        street = {"at": "", "load": 0, "terracut, from packets": told(2, 0.9, 1), "terracut, without decoding": told(1, 0.9, 1),
+                  "peer": told(6, 0.8, None)}  # fmt: skip
+        results = results_of(peers={"recorded": [street | {"peer": told(5, 0.7, 0.5)}], "street": [street]})
+        results["peers"].left_out |= {"other": "cannot be fetched"}
+        self.assertEqual(printed(results, "qualities").splitlines(),
+                         ["| IoU_g / Recall_o, % | street | recorded, tuned on | ms a frame, street |", "|---|---|---|---|",
+                          "| terracut | 90.0 / 100.0 | 90.0 / 100.0 | 2.00 |", "| peer | 80.0 / - | 70.0 / 50.0 | 6.00 |", "",
+                          "Not built for this measurement: other."])  # fmt: skip
 
     def test_a_part_says_what_it_is_of_and_what_was_left_out(self):
         results = results_of(sensors={"hdl64e, street": [round_of(2), round_of(2, load=3.5)]})
         results["sensors"].measured["note"] = "others at work"
-        results["sensors"].left_out["hdl64e, recorded"] = "there is no data"
+        results["sensors"].left_out |= {"hdl64e, recorded": "there is no data", "vlp16": "no such sensor", "ruby128": "there is no data"}
         said = printed(results, "sensors")
-        self.assertIn("terracut 1.2.3 (abcdef01, program 12), beside 1.0 (old) in turn; a machine; 2026-11-27 10:00 UTC; 2 rounds; load average "
+        self.assertIn("terracut 1.2.3 (abcdef01, program 12), beside 1.0 (old) in turn; 2026-11-27 10:00 UTC; 2 rounds; load average "
                       "0.5 to 3.5; others at work.",
                       said)  # fmt: skip
-        self.assertIn("Left out: hdl64e, recorded (there is no data).", said)
+        self.assertIn("Left out: hdl64e, recorded, ruby128 (there is no data); vlp16 (no such sensor).", said)
+
+    def test_a_machine_is_told_once_unless_parts_were_measured_on_several(self):
+        rounds = [round_of(2, quality=[1, 1])]
+        results = results_of(sensors={"hdl64e, street": rounds}, models={"hdl64e": rounds},
+                             instructions={"hdl64e, street": [{"at": "", "load": 0, "all": 1.0}]})  # fmt: skip
+        self.assertEqual(printed(results, "machine"), "Machine: a machine.")
+        self.assertIn("in turn; a machine; 2026", printed(results, "models"))  # on another page
+        results["sensors"].measured["machine"] = "another"
+        self.assertEqual(printed(results, "machine"), "Machine: another.\nMachine: a machine.")
+        self.assertIn("in turn; another; 2026", printed(results, "sensors"))
 
     def test_the_documents_show_what_was_measured(self):
         shown = blocks({part.name: Results(RESULTS / f"{part.name}.json") for part in parts.PARTS})

@@ -18,8 +18,8 @@ namespace terracut::baselines {
 /// each with one elevation. If the heights of a square vary much, it looks for a gap that the
 /// vehicle fits through: points above the gap are an overhang, and the elevation is that of the
 /// lowest interval. If the heights of the lowest interval still vary much, it is a vertical object
-/// standing on its lowest return. docs/reference/evaluation.md names the sources and what they
-/// leave open. Reports kElevationMap and kLabels.
+/// standing on its lowest return. Its sources and what they leave open are in
+/// docs/decisions/0037-the-papers-baselines.md. Reports kElevationMap and kLabels.
 class FixedGridElevationMap final : public Baseline {
  public:
   struct Config {

@@ -18,9 +18,9 @@ namespace terracut::baselines {
 /// of a polar map gets one ground height from a list. A column's returns give each height a cost,
 /// without an assumed distribution. Two neighbours cost more the more their heights differ beyond a
 /// possible slope, up to a limit that allows steps. Belief propagation solves the field; a return
-/// is ground if it is not far above its cell's height. docs/reference/evaluation.md names the
-/// sources and what they leave open. Reports kElevationMap when the costs are set, kMinCut when the
-/// field is solved, and kLabels.
+/// is ground if it is not far above its cell's height. Its sources and what they
+/// leave open are in docs/decisions/0037-the-papers-baselines.md. Reports kElevationMap when the
+/// costs are set, kMinCut when the field is solved, and kLabels.
 class HeightFieldMrf final : public Baseline {
  public:
   struct Config {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""The tables of docs/reference/benchmark.md and the figures in README.md, of what was measured."""
+"""The tables of docs/reference and the figures in README.md, of what was measured."""
 
 import statistics
 
@@ -9,7 +9,7 @@ from tables import table
 
 from .parts import CASES, MODELS
 
-DOCUMENTS = ("README.md", "docs/reference/benchmark.md", "docs/reference/sensors.md")
+DOCUMENTS = ("README.md", *(f"docs/reference/{page}.md" for page in ("benchmark", "evaluation", "sensors")))
 STAGE_ROWS = {
     "total": "**total**",
     "after_frame": "of it after the turn's last packet",
@@ -27,7 +27,9 @@ UNIT = "hdl64e, street"  # what the others are told in
 # The drive that the live trial sends: the columns of the sensors' tables which its latencies belong to.
 SENT = {"hdl64e": "hdl64e, street", "ruby128": "ruby128, street, dual return", "vlp16": "vlp16, street"}
 FIRING_TO_LABEL, LONGEST = "firing to label, mean", "the longest in ten degrees"
+ELSEWHERE = "models"  # the part that another page shows
 STAMPED = ("at", "load")  # of every round, beside its figures
+TIMED, TUNED = "street", "recorded"  # of the peers' drives: the one whose times README shows, the one that terracut is tuned on
 MEBI = 1 << 20
 
 
@@ -53,18 +55,27 @@ def spanned(ratios):
     return f"{statistics.median(ratios):.2f}{span}"
 
 
-def stamp(results):
-    """What the figures of a part are of, in a line."""
+def machines(results):
+    """Where the parts were measured that benchmark.md shows, each once."""
+    return list(dict.fromkeys(of.measured["machine"] for name, of in results.items() if of.cases and name != ELSEWHERE))
+
+
+def stamp(results, known=""):
+    """What the figures of a part are of, in a line; the machine that the page names once is left out."""
     of, rounds = results.measured, [figures for case in results.cases.values() for figures in case]
     if not rounds:
         return ["Not measured.", ""]
     loads = [figures["load"] for figures in rounds]
     beside = f", beside {of['beside']} in turn" if of.get("beside") else ""
+    machine = "" if of["machine"] == known else f"{of['machine']}; "
     note = f"; {of['note']}" if of.get("note") else ""
-    text = (f"terracut {of['version']} ({of['commit']}, program {of['program']}){beside}; {of['machine']}; "
+    text = (f"terracut {of['version']} ({of['commit']}, program {of['program']}){beside}; {machine}"
             f"{min(figures['at'] for figures in rounds)} UTC; {of['way']}; load average {min(loads)} to {max(loads)}{note}.")  # fmt: skip
-    left_out = [f"{what} ({reason})" for what, reason in results.left_out.items()]
-    return [text, *([f"Left out: {'; '.join(left_out)}."] if left_out else []), ""]
+    left_out = {}
+    for what, reason in results.left_out.items():
+        left_out.setdefault(reason, []).append(what)
+    reasons = [f"{', '.join(names)} ({reason})" for reason, names in left_out.items()]
+    return [text, *([f"Left out: {'; '.join(reasons)}."] if reasons else []), ""]
 
 
 def sensor_table(sensors, results):
@@ -169,12 +180,30 @@ def peers_table(results):
         if name not in told:
             return ""
         (p50, p99), unit = told[name]["ms"], told[FROM_PACKETS]["ms"][0]
-        time = f"x {p50 / unit:.2f}; {p50:.2f} / {p99:.2f} ms"
-        shares = ["-" if share is None else f"{100 * share:.1f}" for share in told[name]["quality"]]
-        return time if name in (SEGMENTING, AFTER_FRAME) else f"{time}; {' / '.join(shares)} %"
+        return f"x {p50 / unit:.2f}; {p50:.2f} / {p99:.2f} ms"
 
-    return table("times terracut's whole work; p50 / p99; IoU_g / Recall_o", cases,
+    return table("times terracut's whole work; p50 / p99", cases,
                  [(name, [cell(told, name) for told in cases.values()]) for name in names])  # fmt: skip
+
+
+def qualities_table(results):
+    """README's and evaluation.md's: how good each program is on each drive, and what a frame of the simulated street costs it."""
+    cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items()}
+    if TIMED not in cases:
+        return []
+    names = dict.fromkeys(name for told in cases.values() for name in told if name not in (*STAMPED, SEGMENTING, AFTER_FRAME))
+    # Drives that nothing was tuned on come first.
+    titles = {name: f"{name}, tuned on" if name == TUNED else name for name in sorted(cases, key=lambda name: name == TUNED)}
+
+    def quality(told):
+        return " / ".join("-" if share is None else f"{100 * share:.1f}" for share in told["quality"]) if told else ""
+
+    rows = [("terracut" if name == FROM_PACKETS else name,
+             [*(quality(cases[case].get(name)) for case in titles), f"{cases[TIMED][name]['ms'][0]:.2f}" if name in cases[TIMED] else ""])
+            for name in names]  # fmt: skip
+    left_out = ", ".join(results["peers"].left_out)
+    return [*table("IoU_g / Recall_o, %", [*titles.values(), f"ms a frame, {TIMED}"], rows),
+            *(["", f"Not built for this measurement: {left_out}."] if left_out else [])]  # fmt: skip
 
 
 def frame_text(results):
@@ -206,5 +235,8 @@ def blocks(results):
         "outputs": (outputs_table("each", results) + outputs_table("stalled", results))[:-1],
         "peers": peers_table(results),
     }
-    texts = {"frame_text": frame_text(results), "live_text": live_text(results), "memory_text": memory_text(results)}
-    return {part: [*stamp(results[part]), *lines] for part, lines in tables.items()} | texts
+    found = machines(results)
+    known = found[0] if len(found) == 1 else ""
+    bare = {"machine": [f"Machine: {machine}." for machine in found], "qualities": qualities_table(results), "frame_text": frame_text(results),
+            "live_text": live_text(results), "memory_text": memory_text(results)}  # fmt: skip
+    return {part: [*stamp(results[part], "" if part == ELSEWHERE else known), *lines] for part, lines in tables.items()} | bare

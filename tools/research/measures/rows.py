@@ -16,11 +16,11 @@ COUNTED = ("columns", "rows", "sectors", "steps")  # whole numbers
 # The value that switches a parameter's rule off, and what is left without it. Of others the paper's value is taken, or,
 # where it has none or the same, the half and the double.
 OFF = {
-    "elevation_map.lone_depth_m": ("1000", "lone returns are followed"),
+    "elevation_map.lone_depth_m": ("1000", "lone returns followed"),
     "elevation_map.window_m": ("0.1", "nothing stands out of a row"),
     "surface.step_up_m": ("0", "no rise at no distance"),
     "surface.step_up_limit_m": ("5", "steps of any height"),
-    "surface.far_slope": ("0", "no more rise where rings lie far apart"),
+    "surface.far_slope": ("0", "no more rise between distant rings"),
     "surface.extra_fall": ("0", "no further fall"),
     "surface.start_slope": ("2", "ground may begin anywhere"),
     "surface.tall_m": ("10", "steps up to the foot of something tall"),
@@ -29,9 +29,9 @@ OFF = {
     "adjacent.min_rise_m": ("0", "any rise is a step"),
     "adjacent.min_upper_height_m": ("-1", "upper ends of any height marked"),
     "adjacent.min_lower_height_m": (NO_LIMIT, "lower ends not marked"),
-    "boundary.scale_per_metre": ("0", "nearness the same at any range"),
-    "returns.same_surface_range_m": ("0", "second returns are labelled by themselves"),
-    "returns.same_surface_height_m": ("0", "second returns are labelled by themselves"),
+    "boundary.scale_per_metre": ("0", "nearness alike at any range"),
+    "returns.same_surface_range_m": ("0", "second returns by themselves"),
+    "returns.same_surface_height_m": ("0", "second returns by themselves"),
 }
 TOGETHER = {"grid.min_band_m=0,grid.max_band_m=1e9": "bands as the rings lie"}
 
@@ -99,7 +99,7 @@ def taken_back(parameter):
         return [Row(f"{parameter.key}={value}", what)]
     if parameter.paper not in ("", parameter.value):
         value = NO_LIMIT if parameter.paper == "no limit" else parameter.paper
-        return [Row(f"{parameter.key}={value}", "as in the paper")]
+        return [Row(f"{parameter.key}={value}", "the paper's")]
     if bound(parameter.value) is None:
         return []  # the paper's word for it, which no value can take back
     rows = [Row(f"{parameter.key}={scaled(parameter, factor)}", what) for factor, what in ((0.5, "half"), (2, "double"))]

@@ -16,7 +16,7 @@ from .program import Program, TrialError
 from .report import Report
 
 REPOSITORY = Path(__file__).resolve().parents[3]
-ABOUT = """Puts `terracut live` to the trials that docs/reference/benchmark.md names, and judges each point: PASS, FAIL, or SKIP
+ABOUT = """Puts `terracut live` to one of the trials below, and judges each point: PASS, FAIL, or SKIP
 with its reason. Wall-clock times are shown and not judged: a machine may be shared. Exit code 1 when a point
 failed, 2 when a trial could not be held. Results: DIR/results/TRIAL.json and .md."""
 

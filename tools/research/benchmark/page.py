@@ -28,6 +28,7 @@ UNIT = "hdl64e, street"  # what the others are told in
 SENT = {"hdl64e": "hdl64e, street", "ruby128": "ruby128, street, dual return", "vlp16": "vlp16, street"}
 FIRING_TO_LABEL, LONGEST = "firing to label, mean", "the longest in ten degrees"
 STAMPED = ("at", "load")  # of every round, beside its figures
+TIMED, TUNED = "street", "recorded"  # of the peers' drives: the one whose times README shows, the one that terracut is tuned on
 MEBI = 1 << 20
 
 
@@ -177,6 +178,26 @@ def peers_table(results):
                  [(name, [cell(told, name) for told in cases.values()]) for name in names])  # fmt: skip
 
 
+def qualities_table(results):
+    """README's: how good each program is on each drive, and what a frame of the simulated street costs it."""
+    cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items()}
+    if TIMED not in cases:
+        return []
+    names = dict.fromkeys(name for told in cases.values() for name in told if name not in (*STAMPED, SEGMENTING, AFTER_FRAME))
+    # Drives that nothing was tuned on come first.
+    titles = {name: f"{name}, tuned on" if name == TUNED else name for name in sorted(cases, key=lambda name: name == TUNED)}
+
+    def quality(told):
+        return " / ".join("-" if share is None else f"{100 * share:.1f}" for share in told["quality"]) if told else ""
+
+    rows = [("terracut" if name == FROM_PACKETS else name,
+             [*(quality(cases[case].get(name)) for case in titles), f"{cases[TIMED][name]['ms'][0]:.2f}" if name in cases[TIMED] else ""])
+            for name in names]  # fmt: skip
+    left_out = ", ".join(results["peers"].left_out)
+    return [*table("IoU_g / Recall_o, %", [*titles.values(), f"ms a frame, {TIMED}"], rows),
+            *(["", f"Not built for this measurement: {left_out}."] if left_out else [])]  # fmt: skip
+
+
 def frame_text(results):
     rounds = results["sensors"].cases.get(UNIT, ())
     return [f"{median(rounds, 'total', 0):.1f} ms" if rounds else ""]
@@ -206,5 +227,5 @@ def blocks(results):
         "outputs": (outputs_table("each", results) + outputs_table("stalled", results))[:-1],
         "peers": peers_table(results),
     }
-    texts = {"frame_text": frame_text(results), "live_text": live_text(results), "memory_text": memory_text(results)}
+    texts = {"qualities": qualities_table(results), "frame_text": frame_text(results), "live_text": live_text(results), "memory_text": memory_text(results)}
     return {part: [*stamp(results[part]), *lines] for part, lines in tables.items()} | texts

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""The documents hold together: links lead somewhere, files they name exist, each is in the index.
+"""The documents hold together: links lead somewhere, files they name exist, each is in the index, and a guide types what
+README's table does.
 
 links_test.py REPOSITORY
 """
@@ -10,6 +11,8 @@ import re
 import sys
 from pathlib import Path
 
+from blocks import blocks_of
+
 LINK = re.compile(r"\]\(([^()\s#]*)(?:#([^()\s]*))?\)")
 ROOMS = ("rt", "calib", "firmware_io", "pipeline", "tools", "tests", "docs")
 # `pipeline/live/packet_gate.hpp`, `tools/lab`: what begins as a room does.
@@ -17,6 +20,7 @@ PLACE = re.compile(rf"`((?:{'|'.join(ROOMS)})/[\w./-]+)`")
 # `packet_gate.hpp`, `packet_gate.*`, `run/packet_gate.*`: a source, wherever it lies.
 SOURCE = re.compile(r"`([\w./-]+\.(?:[ch]pp|py|\*))`")
 PAST = ("CHANGELOG.md",)  # names what was
+TYPED = re.compile(r"`(terracut [^`]+)`")
 
 
 def documents(repository: Path) -> list[Path]:
@@ -64,9 +68,19 @@ def unlisted(repository: Path):
                 yield f"docs/README.md does not list {folder}/{page.name}"
 
 
+def untyped(repository: Path):
+    """Commands of README's table begin lines of the guide's blocks, which other tests run."""
+    guide = [text for page in (repository / "docs/guide").glob("*.md") for _, text in blocks_of(page)]
+    lines = "".join(guide).splitlines()
+    rows = [line for line in (repository / "README.md").read_text().splitlines() if line.startswith("| ")]
+    for command in TYPED.findall("\n".join(rows)):
+        if not any(f"{line} ".startswith(f"{command} ") for line in lines):
+            yield f"README.md: no block of the guide has {command}"
+
+
 def main() -> int:
     repository = Path(sys.argv[1])
-    faults = list(unlisted(repository))
+    faults = [*unlisted(repository), *untyped(repository)]
     known = sources(repository)
     for document in documents(repository):
         said = [*broken_links(document)]

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""README works as printed: its commands are run in their order, in one folder, and each shows what it must.
+"""README and the first steps work as printed: their commands are run in their order, in one folder, and each shows what it must.
 
 readme_test.py REPOSITORY PROGRAM WORK_FOLDER
 
-Commands are the lines of README's shell blocks, taken as they stand. EXPECTED has them in the same order with what each must
+Commands are the lines of the pages' shell blocks, taken as they stand. EXPECTED has them in the same order with what each must
 show: a command without an expectation fails, and so does an expectation without a command. Everything runs in a network of
-its own, so that README's ports are free. About a minute and a half on two quiet cores.
+its own, so that the pages' ports are free. About a minute and a half on two quiet cores.
 """
 
 import dataclasses
@@ -28,11 +28,12 @@ from blocks import blocks_of
 from made_scans import write_sequence
 from own_network import skip_without_own_network
 
+PAGES = ("README.md", "docs/guide/first_steps.md")
 PATIENCE_S = 300
 
 
 class Failed(Exception):
-    """What README promises did not happen."""
+    """What a page promises did not happen."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -65,6 +66,7 @@ class GoesOn:
 BUILT = NotRun("installs packages and builds; `./tools/test --all` builds, installs and uses what was installed")
 EXPECTED = [
     ("./tools/demo", BUILT),
+    ("build/release/terracut view demo_output/drive.pcap", NotRun("needs what `./tools/demo` makes; `terracut view drive.pcap` is run below")),
     ("cmake -S . -B build/user -G Ninja -DCMAKE_UNITY_BUILD=ON -DTERRACUT_BUILD_TESTS=OFF", BUILT),
     ("cmake --build build/user", BUILT),
     ("cmake --install build/user --prefix ~/.local", BUILT),
@@ -89,10 +91,6 @@ EXPECTED = [
     ("terracut top", GoesOn(r"frames +[1-9](?:.|\n)*losses .*network_gap_packets [2-9]\d", codes=(-signal.SIGINT,))),
     ("terracut dump", Shows((r"dumps/terracut-\d+-\S+-asked\.pcap\n", r"replay it: terracut replay "))),
     ("terracut doctor", Shows((r"\d+ problems, \d+ warnings of \d+ checks",), codes=(0, 7))),  # 7: no vehicle's computer
-    # A fleet's recordings.
-    ("terracut manifest . -o fleet.json", Shows((r"drives +\d+, ", r"captures, [12] folders of clouds"), files=("fleet.json",))),
-    ("terracut relabel fleet.json -o labelled --shard 1/2", Shows((r"shard +1/2 of job", r"labelled +[1-9]\d* drives"))),
-    ("terracut relabel --status labelled", Shows((r"done +[1-9]\d* drives", r"missing +[1-9]\d* drives", r"failed +0 drives"))),
     # Labelled data.
     ("terracut eval simulated street --duration 0.5 --json before.json", Shows((r"terracut +9\d\.\d+",), files=("before.json",))),
     ("terracut eval simulated street --duration 0.5 --set elevation_map.obstacle_height_m=0.25 --json after.json",
@@ -108,9 +106,9 @@ EXPECTED = [
 NEEDED = {"./tools/compare": "scipy", "./tools/report": "jinja2, matplotlib, scipy"}
 
 
-def commands_of(readme: Path) -> list[str]:
+def commands_of(pages: list[Path]) -> list[str]:
     """Every line of the shell blocks, without its comment."""
-    lines = "".join(text for language, text in blocks_of(readme) if language in ("", "sh")).splitlines()
+    lines = "".join(text for page in pages for language, text in blocks_of(page) if language in ("", "sh")).splitlines()
     commands = [re.sub(r" +# .*$", "", line) for line in lines]
     return [command for command in commands if command]
 
@@ -118,7 +116,7 @@ def commands_of(readme: Path) -> list[str]:
 def reject_differences(commands: list[str]):
     expected = [command for command, _ in EXPECTED]
     if commands != expected:
-        difference = "\n".join(difflib.unified_diff(expected, commands, "EXPECTED", "README.md", lineterm="", n=0))
+        difference = "\n".join(difflib.unified_diff(expected, commands, "EXPECTED", " and ".join(PAGES), lineterm="", n=0))
         raise Failed(f"commands without an expectation (+), expectations without a command (-):\n{difference}")
 
 
@@ -161,7 +159,7 @@ def check(command: str, code: int, printed: str, codes: tuple[int, ...], pattern
 
 
 class Reader:
-    """Types README's commands, one after the other, in one folder."""
+    """Types the pages' commands, one after the other, in one folder."""
 
     def __init__(self, repository: Path, program: Path, folder: Path):
         self.folder = folder
@@ -197,11 +195,6 @@ class Reader:
                 if b"<canvas" not in page.read():
                     raise Failed(f"{command}\nserves no page")
 
-    def run_python(self, text: str, module: Path):
-        done = subprocess.run(["/usr/bin/python3", "-c", text], cwd=self.folder, env=self.environment | {"PYTHONPATH": str(module)},
-                              timeout=PATIENCE_S, capture_output=True, text=True, check=False)
-        check(text, done.returncode, done.stdout + done.stderr, (0,), (r"\[.*\]",))
-
     def close(self):
         for running in self.running:
             running.kill()
@@ -218,11 +211,9 @@ def missing_for(command: str) -> str:
 def main() -> int:
     repository, program, folder = (Path(argument).resolve() for argument in sys.argv[1:4])
     shutil.rmtree(folder, ignore_errors=True)
-    readme = repository / "README.md"
-    module = program.parent / "tools/python"
     reader = Reader(repository, program, folder / "one")
     try:
-        reject_differences(commands_of(readme))
+        reject_differences(commands_of([repository / page for page in PAGES]))
         for command, expected in EXPECTED:
             if isinstance(expected, NotRun):
                 print(f"not run   {command}: {expected.why}")
@@ -232,11 +223,6 @@ def main() -> int:
                 begun = time.monotonic()
                 reader.type(command, expected)
                 print(f"{time.monotonic() - begun:6.1f} s  {command}", flush=True)
-        for text in (text for language, text in blocks_of(readme) if language == "python"):
-            if list(module.glob("terracut/_terracut*.so")):
-                reader.run_python(text, module)
-            else:
-                print("not run   Python: the module is not built")
     except (Failed, subprocess.TimeoutExpired) as failure:
         print(f"FAILED {failure}")
         return 1

@@ -8,7 +8,7 @@ from .columns import CLOUDS, COLUMN_OF, MOUNTED, MOUNTS, ROWS_LEFT, SCENES, SENS
 from .rows import METHOD, STAGES
 from .worth import summary, worth_table
 
-DOCUMENTS = ("README.md", "docs/reference/method.md", "docs/reference/worth.md")
+DOCUMENTS = ("docs/reference/method.md", "docs/reference/worth.md")
 RESULTS = "docs/reference/measures.json"
 LEAST_TRIALS = 10
 RANGES_M = ((5, 10), (10, 20), (20, 40), (40, 60))
@@ -20,11 +20,6 @@ DISTURBED = {"ghosts_0.1": "ghosts, 0.1 % of low returns", "ghosts_1": "... 1 %"
 
 def figure(value):
     return "" if value is None else f"{value:.2f}"
-
-
-def scans_text(results):
-    iou, recall = results["rows"][METHOD]["scans"][:2]
-    return [f"IoU_g {iou:.1f} %, Recall_o {recall:.1f} %"]
 
 
 def stages_table(results):
@@ -95,7 +90,6 @@ def blocks(results, rows):
     """{name: lines} of all that the documents show."""
     version = results["version"]
     return {
-        "scans": scans_text(results),
         "stages": stages_table(results),
         "clouds": clouds_table(results),
         "simulated": simulated_table(results),

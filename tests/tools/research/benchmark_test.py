@@ -117,19 +117,6 @@ class Printed(unittest.TestCase):
                           "| terracut | 90.0 / 100.0 | 90.0 / 100.0 | 2.00 |", "| peer | 80.0 / - | 70.0 / 50.0 | 6.00 |", "",
                           "Not built for this measurement: other."])  # fmt: skip
 
-    def test_readme_has_the_peers_on_drives_that_nothing_was_tuned_on_first(self):
-        def told(ms, *quality):
-            return {"ms": [ms, ms], "quality": quality}
-
-        street = {"at": "", "load": 0, "terracut, from packets": told(2, 0.9, 1), "terracut, without decoding": told(1, 0.9, 1),
-                  "peer": told(6, 0.8, None)}  # fmt: skip
-        results = results_of(peers={"recorded": [street | {"peer": told(5, 0.7, 0.5)}], "street": [street]})
-        results["peers"].left_out |= {"other": "cannot be fetched"}
-        self.assertEqual(printed(results, "qualities").splitlines(),
-                         ["| IoU_g / Recall_o, % | street | recorded, tuned on | ms a frame, street |", "|---|---|---|---|",
-                          "| terracut | 90.0 / 100.0 | 90.0 / 100.0 | 2.00 |", "| peer | 80.0 / - | 70.0 / 50.0 | 6.00 |", "",
-                          "Not built for this measurement: other."])  # fmt: skip
-
     def test_a_part_says_what_it_is_of_and_what_was_left_out(self):
         results = results_of(sensors={"hdl64e, street": [round_of(2), round_of(2, load=3.5)]})
         results["sensors"].measured["note"] = "others at work"

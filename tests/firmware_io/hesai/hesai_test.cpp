@@ -11,8 +11,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 #include <unordered_map>
@@ -25,6 +23,7 @@
 #include "tests/support/places.hpp"
 #include "tests/support/reference/agreement.hpp"
 #include "tests/support/reference/sensors.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::reference {
 namespace {
@@ -313,8 +312,7 @@ struct Point {
 
 /// The cloud's points in the sensor frame here; nebula's has y at azimuth 0 and x at 90 degrees.
 std::vector<Point> read_nebula(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  const std::string bytes = test::content_of(path);
   const std::string kData = "DATA binary\n";
   std::vector<Point> points;
   for (std::size_t at = bytes.find(kData) + kData.size(); at + sizeof(Point) <= bytes.size();

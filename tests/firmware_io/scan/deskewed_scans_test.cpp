@@ -10,9 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -58,8 +56,7 @@ void decode(const Drive& drive, bool deskew, Visit&& visit) {
   if (deskew) {
     config.motion = &motion;
     config.deskew_at = frame::FrameInstant::kMiddle;
-    std::ifstream log(drive::can_log_path_of(drive.pcap));
-    samples = test::samples_of({std::istreambuf_iterator<char>(log), {}});
+    samples = test::samples_of(test::content_of(drive::can_log_path_of(drive.pcap)));
   }
   decode::Decoder decoder(drive.calibration, {}, config, memory);
   auto source = capture::PcapSource::open(drive.pcap);

@@ -7,13 +7,12 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "firmware_io/vehicle/signal_plan.hpp"
 #include "tests/firmware_io/can/frames.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::test {
 namespace {
@@ -32,8 +31,7 @@ class HealthFrames : public testing::Test {
     auto file = vehicle::read_dbc(kDbc);
     ASSERT_TRUE(file) << file.error().message;
     file_ = *std::move(file);
-    std::ifstream text(kDbc);
-    text_.assign(std::istreambuf_iterator<char>(text), {});
+    text_ = test::content_of(kDbc);
   }
   double value(const HealthReport& report, std::string_view signal) {
     const auto plan = SignalPlan::make(file_, signal);

@@ -5,12 +5,11 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <future>
-#include <iterator>
 
 #include "stream_test_support.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::stream {
 namespace {
@@ -99,8 +98,7 @@ TEST_P(ReadFramesScript, WritesPcdFilesWithThePointsAsTheyWere) {
   ASSERT_TRUE(server().serve(frame_of(3, points)));
   const Outcome outcome = end_of(script);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
-  std::ifstream file(folder_ / "000003.pcd", std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  const std::string content = test::content_of(folder_ / "000003.pcd");
   const auto wire = on_wire(points);
   const std::string_view bytes(reinterpret_cast<const char*>(wire.data()),
                                wire.size() * sizeof(WirePoint));
@@ -122,8 +120,7 @@ TEST_P(ReadFramesScript, WritesTheHeightsOfPointsThatHaveThem) {
   const Outcome outcome = end_of(script);
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_THAT(outcome.text, testing::HasSubstr("1000 points  334 ground  666 obstacle"));
-  std::ifstream file(folder_ / "000003.pcd", std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  const std::string content = test::content_of(folder_ / "000003.pcd");
   EXPECT_THAT(content,
               testing::HasSubstr(" ring time height_above_ground\nSIZE 4 4 4 1 1 2 4 4\n"));
   const std::string_view last(reinterpret_cast<const char*>(heights_m.data()), sizeof(float));

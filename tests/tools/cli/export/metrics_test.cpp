@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
@@ -116,8 +115,8 @@ TEST(MetricsText, IsWhatTheGuideSays) {
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("# TYPE ")) emitted.merge(metrics_named(line));
   }
-  std::ifstream guide(test::source_folder() / "docs/guide/monitoring.md");
-  EXPECT_EQ(metrics_named(std::string(std::istreambuf_iterator<char>(guide), {})), emitted);
+  EXPECT_EQ(metrics_named(test::content_of(test::source_folder() / "docs/guide/monitoring.md")),
+            emitted);
 }
 
 TEST(MetricsText, PassesPromtoolsCheck) {
@@ -131,8 +130,7 @@ TEST(MetricsText, PassesPromtoolsCheck) {
     const std::string command = "promtool check metrics <'" + (folder / "metrics.txt").string() +
                                 "' >'" + (folder / "said.txt").string() + "' 2>&1";
     const int status = std::system(command.c_str());
-    std::ifstream said(folder / "said.txt");
-    return status == 0 ? "" : std::string(std::istreambuf_iterator<char>(said), {}) + "refused";
+    return status == 0 ? "" : test::content_of(folder / "said.txt") + "refused";
   };
   EXPECT_EQ(check(metrics_text(run.figures())), "");
   run.hear_vehicle();

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -34,8 +33,7 @@ class ReportFrames : public test::InScratchFolder {
       report["frames"].push_back(entry);
     }
     ASSERT_TRUE(entries.write(folder_ / "r.json", without).has_value());
-    std::ifstream file(folder_ / "r.json", std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::string text = test::content_of(folder_ / "r.json");
     EXPECT_TRUE(text == json_text(report)) << text.substr(0, 300);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
   }

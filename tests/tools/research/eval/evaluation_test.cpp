@@ -6,12 +6,11 @@
 
 #include <atomic>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 #include "made_up_dataset.hpp"
 #include "tests/support/no_threads.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
 #include "tools/research/statistics/measures.hpp"
 
@@ -39,10 +38,6 @@ class EvaluationTest : public testing::Test {
   }
   [[nodiscard]] Journal journal() {
     return *Journal::open(dataset_.root() / "results.journal", "settings");
-  }
-  static std::string bytes_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
   }
   /// What results are, apart from times.
   static std::map<FrameKey, statistics::FrameCounts> counts_of(const FrameResults& results) {
@@ -100,7 +95,7 @@ TEST_F(EvaluationTest, WritesPredictionsWithOneLabelAPoint) {
   for (const auto& [key, result] : results) {
     const auto path = config_.predictions / key.method / "sequences" / key.sequence /
                       "predictions" / (key.frame + ".label");
-    const std::string bytes = bytes_of(path);
+    const std::string bytes = test::content_of(path);
     ASSERT_EQ(bytes.size(), 4 * result.points) << path;
     std::uint64_t ground = 0, counted_ground = 0;
     for (std::size_t i = 0; i < bytes.size(); i += 4) {
@@ -171,13 +166,13 @@ TEST_F(FaultyDataset, WithoutALabelFileForAFrame) {
 }
 
 TEST_F(FaultyDataset, WithFewerLabelsThanPoints) {
-  const std::string labels = bytes_of(dataset_.labels("00", 1));
+  const std::string labels = test::content_of(dataset_.labels("00", 1));
   dataset_.write(dataset_.labels("00", 1), labels.substr(0, labels.size() - 4));
   EXPECT_THAT(the_fault().what, HasSubstr("000001.label"));
 }
 
 TEST_F(FaultyDataset, WithATruncatedScan) {
-  const std::string points = bytes_of(dataset_.points("03", 0));
+  const std::string points = test::content_of(dataset_.points("03", 0));
   dataset_.write(dataset_.points("03", 0), points.substr(0, points.size() / 2 + 5));
   EXPECT_THAT(the_fault().what, HasSubstr("000000.bin"));
 }
@@ -195,7 +190,7 @@ TEST_F(FaultyDataset, WithAScanThatIsALinkToNowhere) {
 
 TEST_F(FaultyDataset, WithAScanOfZeros) {
   dataset_.write(dataset_.points("00", 1),
-                 std::string(bytes_of(dataset_.points("00", 1)).size(), 0));
+                 std::string(test::content_of(dataset_.points("00", 1)).size(), 0));
   EXPECT_THAT(the_fault().what, AllOf(HasSubstr("000001.bin"), HasSubstr("finite and not null")));
 }
 
@@ -218,7 +213,7 @@ TEST_F(FaultyDataset, WithASequenceThatHasNoScans) {
 }
 
 TEST_F(FaultyDataset, WithPointsThatAreNoPlacesCountsThemAndLabelsTheRest) {
-  std::string points = bytes_of(dataset_.points("00", 0));
+  std::string points = test::content_of(dataset_.points("00", 0));
   const float bad[] = {std::numeric_limits<float>::quiet_NaN(),
                        std::numeric_limits<float>::infinity()};
   std::memcpy(points.data(), &bad[0], 4);            // x of point 0

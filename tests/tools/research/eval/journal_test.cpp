@@ -4,8 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
-#include <iterator>
 #include <thread>
 
 #include "tests/support/scratch_folder.hpp"
@@ -18,10 +16,7 @@ using testing::Not;
 
 class JournalTest : public testing::Test {
  protected:
-  [[nodiscard]] std::string content() const {
-    std::ifstream file(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  [[nodiscard]] std::string content() const { return test::content_of(path_); }
   [[nodiscard]] FrameResults reopened() const {
     auto journal = Journal::open(path_, "settings");
     EXPECT_TRUE(journal) << journal.error().message;

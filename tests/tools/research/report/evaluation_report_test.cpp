@@ -5,11 +5,10 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/support/scratch_folder.hpp"
 #include "tests/tools/research/eval/made_up_dataset.hpp"
 #include "tests/tools/research/eval/made_up_koblenz.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
@@ -48,10 +47,7 @@ class ReportTest : public testing::Test {
                         });
   }
   [[nodiscard]] fs::path folder() const { return dataset_.root() / "report"; }
-  [[nodiscard]] std::string text() const {
-    std::ifstream file(folder() / "evaluation.json", std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  [[nodiscard]] std::string text() const { return test::content_of(folder() / "evaluation.json"); }
   [[nodiscard]] Json report() const { return Json::parse(text(), nullptr, false); }
 
   eval::MadeUpDataset dataset_;

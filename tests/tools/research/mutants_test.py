@@ -92,11 +92,25 @@ class Mistakes(unittest.TestCase):
             planting.put(tree / "main.cpp", MAIN.encode())
             planting.plant(self.root, tree, numbered)
             program = self.root / "program"
-            subprocess.run(["c++", "-std=c++20", "-include", tree / "build/planted.hpp", tree / "rt/made.cpp", tree / "main.cpp",
+            subprocess.run(["c++", "-std=c++20", tree / "rt/made.cpp", tree / "main.cpp",
                             "-o", program], check=True)  # fmt: skip
             run = lambda number: subprocess.run([program], env={"TERRACUT_MUTANT": str(number)}, capture_output=True, text=True).stdout
             self.assertEqual(run(0), "0 0 2 -3 6")
             self.assertEqual({run(number) for number in numbered}, shown)
+
+    def test_a_negation_is_lost_whatever_is_asked(self):
+        source = self.root / "rt/asked.cpp"
+        source.write_text("""
+struct Answer { bool good; explicit operator bool() const { return good; } };
+bool is_bad(Answer answer) { return !answer; }
+int main() { return is_bad({true}) ? 1 : 0; }
+""")
+        lost = [site for site in sites.sites_of(self.root, source, "c++ -std=c++20") if site.rule == "sign"]
+        tree, program = self.root / "tree", self.root / "program"
+        planting.plant(self.root, tree, dict(enumerate(lost, 1)))
+        subprocess.run(["c++", "-std=c++20", tree / "rt/asked.cpp", "-o", program], check=True)
+        codes = [subprocess.run([program], env={"TERRACUT_MUTANT": number}, check=False).returncode for number in ("0", "1")]
+        self.assertEqual(codes, [0, 1])
 
 
 if __name__ == "__main__":

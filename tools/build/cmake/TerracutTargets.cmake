@@ -28,10 +28,11 @@ function(terracut_add_room name)
   endif()
 endfunction()
 
-# terracut_optimise(sources...): tests that compute more than they are compiled; what is precompiled for the others, which
-#   are not optimised, is of no use to them.
+# terracut_optimise(sources...): for tests that run longer than it takes to compile them. The headers that are precompiled
+#   for the other tests, without optimisation, cannot serve them.
 function(terracut_optimise)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O1 SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
+  terracut_compile_apart(${ARGN})
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O1 SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # terracut_add_test(NAME SOURCES... LIBS... [APART sources...] [LABELS ...] [TIMEOUT seconds])

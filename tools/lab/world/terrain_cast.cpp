@@ -127,11 +127,9 @@ std::optional<Hit> Terrain::cast(const SightLine& line, double limit_m) const no
     if (clearance <= 0) return within(ground_hit(here, line, way_m, next_m));
     if (leaves) {
       const Zone next = zone(at);
-      if (!(next == here)) {
-        clearance = clearance_m(next, at);
-        if (clearance <= 0) return within(face_hit(here, next, line, next_m));
-        here = next;
-      }
+      clearance = clearance_m(next, at);
+      if (clearance <= 0) return within(face_hit(here, next, line, next_m));
+      here = next;
     }
     way_m = next_m;
   }

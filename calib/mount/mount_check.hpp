@@ -15,7 +15,7 @@ namespace terracut::mount {
 
 /// The thresholds at which the near ground contradicts a mount. The tolerances lie between the
 /// errors measured with right mounts and the errors that must be reported: 0.3 m, 3 degrees of
-/// pitch, 4 degrees of roll (docs/reference/method.md, "Is the mount right?"). Smaller errors are
+/// pitch, 4 degrees of roll (docs/reference/mount.md, "Is the mount right?"). Smaller errors are
 /// left to `terracut calibrate`.
 struct MountCheckConfig {
   double height_tolerance_m = 0.20;    ///< Right mounts are off by 0.12 m at most, on a hill.

@@ -34,8 +34,7 @@ struct FoundMount {
   std::size_t frames = 0;  ///< Number of frames the mount was found from.
 
   /// True if the mount is good enough for labels: its uncertainty is within 0.15 m and 2.5 degrees.
-  /// A less certain mount labels worse than a level one (docs/reference/method.md, "The mount,
-  /// found").
+  /// A less certain mount labels worse than a level one (docs/reference/mount.md).
   [[nodiscard]] bool is_certain() const noexcept;
 };
 

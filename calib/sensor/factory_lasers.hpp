@@ -6,7 +6,7 @@
 
 namespace terracut::sensor {
 
-/// One laser as the maker's manual describes it (docs/reference/sensors.md says which manual).
+/// One laser as the maker's manual describes it (decision 35 says which manual).
 struct FactoryLaser {
   double elevation_deg;           ///< Elevation of the beam; positive is up.
   double azimuth_offset_deg = 0;  ///< Azimuth of the beam from the head's, clockwise.

@@ -43,7 +43,7 @@ struct SegmenterConfig {
 /// (docs/reference/method.md).
 [[nodiscard]] SegmenterConfig terracut_profile() noexcept;
 
-/// Returns the method as published; docs/reference/method.md lists what the paper leaves open.
+/// Returns the method as published; decision 36 lists what the paper leaves open.
 [[nodiscard]] SegmenterConfig paper_profile() noexcept;
 
 }  // namespace terracut::ground

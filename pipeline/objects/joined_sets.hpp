@@ -8,9 +8,9 @@
 
 namespace terracut::objects {
 
-/// Sets of things that are joined again and again: of each thing `earlier` has one of the same set,
-/// no later than itself; the first thing of a set has itself. Returns the first one of a thing's
-/// set, and shortens the way to it.
+/// Union-find over numbered things: `earlier` has for each thing one of its set with a smaller
+/// number, and for the first thing of a set its own number. Returns the first thing of a set, and
+/// halves the path to it.
 [[nodiscard]] inline std::uint32_t first_of_set(std::span<std::uint32_t> earlier,
                                                 std::uint32_t thing) noexcept {
   while (earlier[thing] != thing) {
@@ -20,7 +20,7 @@ namespace terracut::objects {
   return thing;
 }
 
-/// Joins two sets, each given by its first thing.
+/// Joins two sets, each named by its first thing.
 inline void join_sets(std::span<std::uint32_t> earlier, std::uint32_t a, std::uint32_t b) noexcept {
   earlier[std::max(a, b)] = std::min(a, b);
 }

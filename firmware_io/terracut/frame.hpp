@@ -64,6 +64,15 @@ struct Frame {
   std::span<const FreeWaySector> free_way = {};
 };
 
+/// An object found while the sensor turns. Where one turn ends and the next begins it has returns
+/// of both, unlike the objects of a frame.
+struct CompleteObject {
+  Object object;            ///< Its returns are numbered as in `frame`; those of that frame alone.
+  std::uint32_t frame = 0;  ///< The frame with its last return.
+  /// Stamp of the first packet of the sector with its last return.
+  std::int64_t last_packet_ns = 0;
+};
+
 /// Some four degrees of a revolution, labelled while the sensor turns on: the returns of successive
 /// firings. points and labels have one entry per return, in order of arrival.
 struct Sector {
@@ -75,6 +84,9 @@ struct Sector {
   std::span<const Point> points;
   std::span<const Label> labels;
   std::span<const float> height_above_ground_m = {};  ///< As in Frame.
+  /// Objects that are complete since this sector: no later return is near enough to belong to them.
+  /// Empty unless asked for.
+  std::span<const CompleteObject> objects = {};
 };
 
 }  // namespace terracut

@@ -13,6 +13,7 @@
 #include "firmware_io/streams/hear_sensor.hpp"
 #include "pipeline/api/wanted.hpp"
 #include "pipeline/live/live_parts.hpp"
+#include "pipeline/points/complete_objects.hpp"
 #include "pipeline/points/scene_of_points.hpp"
 #include "pipeline/run/mount_on_air.hpp"
 #include "rt/memory/locked_memory.hpp"
@@ -71,6 +72,10 @@ struct LiveRun::Engine {
                                                       parts->turns.decoder().shape(), points.size(),
                                                       parts->turns.decoder().beam_turns());
     }
+    if (wanted.objects && on_sector) {
+      complete = std::make_unique<points::CompleteObjects>(profile, parts->turns.decoder().shape(),
+                                                           points.size());
+    }
     return {};
   }
 
@@ -111,6 +116,8 @@ struct LiveRun::Engine {
     auto& slots = *parts->thread.sectors();
     for (live::SectorPool::Frame taken; slots.take(taken);) {
       take_apart(taken.items);
+      std::span<const CompleteObject> objects;
+      if (complete) objects = complete->take(taken.record, taken.items, taken.heights_m);
       on_sector({.frame = taken.record.frame,
                  .first_return = taken.record.first_return,
                  .first_packet_ns = taken.record.first_packet_ns,
@@ -118,7 +125,8 @@ struct LiveRun::Engine {
                  .labelled_ns = taken.record.labels_ns,
                  .points = std::span<const Point>(points).first(taken.items.size()),
                  .labels = std::span<const Label>(labels).first(taken.items.size()),
-                 .height_above_ground_m = taken.heights_m});
+                 .height_above_ground_m = taken.heights_m,
+                 .objects = objects});
       slots.give_back(true);
       ++figures.sectors;
     }
@@ -146,6 +154,8 @@ struct LiveRun::Engine {
   scene::Wanted wanted;
   OnSector on_sector;                            ///< May be empty.
   std::unique_ptr<points::SceneOfPoints> scene;  ///< Null unless anything is to be found.
+  /// Null unless objects are to come with sectors.
+  std::unique_ptr<points::CompleteObjects> complete;
   std::unique_ptr<live::LiveParts> parts;
   std::vector<Point> points;
   std::vector<Label> labels;

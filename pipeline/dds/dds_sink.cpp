@@ -77,8 +77,9 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
   }
   if (diagnostics) sink->diagnostics_.emplace(*std::move(diagnostics));
   if (!config.objects.empty()) {
-    auto objects = ObjectWriter::open(sink->participant_, config.objects, config.object_markers,
-                                      config.quality);
+    auto objects = ObjectWriter::open(
+        sink->participant_, {config.objects, config.object_markers, config.sector_objects},
+        config.quality);
     if (!objects) return tl::unexpected(objects.error());
     sink->objects_.emplace(*std::move(objects));
   }
@@ -138,6 +139,9 @@ void DdsSink::await_readers() {
 Status DdsSink::put_sector(const publish::LabelledSector& sector) {
   put_points(sectors_, sector.points, sector.heights_m, sector.record.first_packet_ns, 0,
              CloudOf::kAll);
+  if (objects_ && !objects_->write(sector, frame_id_)) {
+    refused_.fetch_add(1, std::memory_order_relaxed);
+  }
   return {};
 }
 

@@ -33,7 +33,7 @@ class DdsSink final : public publish::FrameSink {
     Quality quality{};
     /// Topics from dds_topic(); an empty topic is not published.
     std::string points{}, sectors{}, ground{}, obstacles{}, road{}, raw{}, objects{},
-        object_markers{}, free_way{}, diagnostics{}, tf_static{};
+        object_markers{}, sector_objects{}, free_way{}, diagnostics{}, tf_static{};
     /// How long a frame waits for reliable readers to acknowledge earlier frames; 0: no wait.
     std::int64_t patience_ns = 0;
   };

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "object_writer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -25,42 +26,70 @@ std::vector<Point> points_of(const Places& places_m) {
   return points;
 }
 
+/// Boxes of one message.
+class Boxes {
+ public:
+  void add(const objects::Object& object, std::uint32_t id, std::int64_t stamp_ns,
+           std::string& frame_id) {
+    const auto [at_m, turned, size_m] = ros_messages::box_pose(object);
+    Detection detection{};
+    detection.header = {ros_time(stamp_ns), frame_id.data()};
+    detection.bbox = {{{at_m[0], at_m[1], at_m[2]}, {turned[0], turned[1], turned[2], turned[3]}},
+                      {size_m[0], size_m[1], size_m[2]}};
+    ids_.push_back(std::to_string(id));
+    detections_.push_back(detection);
+  }
+  [[nodiscard]] Status write(TopicWriter& writer, std::int64_t stamp_ns, std::string& frame_id) {
+    for (std::size_t i = 0; i < ids_.size(); ++i) detections_[i].id = ids_[i].data();
+    const vision_msgs_msg_dds__Detection3DArray_ message{
+        {ros_time(stamp_ns), frame_id.data()},
+        sequence_of<dds_sequence_vision_msgs_msg_dds__Detection3D_>(detections_)};
+    return writer.write(&message);
+  }
+
+ private:
+  std::vector<std::string> ids_;
+  std::vector<Detection> detections_;
+};
+
 }  // namespace
 
-Expected<ObjectWriter> ObjectWriter::open(const Participant& participant, const std::string& boxes,
-                                          const std::string& markers, const Quality& quality) {
-  auto of_boxes = TopicWriter::open(participant, boxes, kDetection3DArray, quality);
-  if (!of_boxes) return tl::unexpected(of_boxes.error());
-  auto of_markers = TopicWriter::open(participant, markers, kMarkerArray, quality);
-  if (!of_markers) return tl::unexpected(of_markers.error());
-  return ObjectWriter(*std::move(of_boxes), *std::move(of_markers));
+Expected<ObjectWriter> ObjectWriter::open(const Participant& participant, const Topics& topics,
+                                          const Quality& quality) {
+  auto boxes = TopicWriter::open(participant, topics.boxes, kDetection3DArray, quality);
+  if (!boxes) return tl::unexpected(boxes.error());
+  auto markers = TopicWriter::open(participant, topics.markers, kMarkerArray, quality);
+  if (!markers) return tl::unexpected(markers.error());
+  ObjectWriter writer(*std::move(boxes), *std::move(markers));
+  if (topics.sector_boxes.empty()) return writer;
+  Quality of_sectors = quality;
+  of_sectors.depth = std::max(quality.depth, 32);  // a turn has no more of these messages
+  auto sector_boxes =
+      TopicWriter::open(participant, topics.sector_boxes, kDetection3DArray, of_sectors);
+  if (!sector_boxes) return tl::unexpected(sector_boxes.error());
+  writer.sector_boxes_.emplace(*std::move(sector_boxes));
+  return writer;
 }
 
 Status ObjectWriter::write(const publish::LabelledFrame& frame, std::string& frame_id) {
   if (boxes_.readers() > 0) {
-    if (Status written = write_boxes(frame, frame_id); !written) return written;
+    const std::int64_t stamp_ns = ros_messages::stamp_ns_of(frame.record);
+    Boxes boxes;
+    for (std::uint32_t i = 0; i < frame.objects.size(); ++i) {
+      boxes.add(frame.objects[i], i + 1, stamp_ns, frame_id);
+    }
+    if (Status written = boxes.write(boxes_, stamp_ns, frame_id); !written) return written;
   }
   return markers_.readers() > 0 ? write_markers(frame, frame_id) : Status();
 }
 
-Status ObjectWriter::write_boxes(const publish::LabelledFrame& frame, std::string& frame_id) {
-  const std_msgs_msg_dds__Header_ header{ros_time(ros_messages::stamp_ns_of(frame.record)),
-                                         frame_id.data()};
-  std::vector<std::string> ids(frame.objects.size());
-  std::vector<Detection> detections;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    ids[i] = std::to_string(i + 1);
-    const auto [at_m, turned, size_m] = ros_messages::box_pose(frame.objects[i]);
-    Detection detection{};
-    detection.header = header;
-    detection.bbox = {{{at_m[0], at_m[1], at_m[2]}, {turned[0], turned[1], turned[2], turned[3]}},
-                      {size_m[0], size_m[1], size_m[2]}};
-    detection.id = ids[i].data();
-    detections.push_back(detection);
+Status ObjectWriter::write(const publish::LabelledSector& sector, std::string& frame_id) {
+  if (!sector_boxes_ || sector.objects.empty() || sector_boxes_->readers() == 0) return {};
+  Boxes boxes;
+  for (const CompleteObject& of : sector.objects) {
+    boxes.add(of.object, of.object.first_return, of.last_packet_ns, frame_id);
   }
-  const vision_msgs_msg_dds__Detection3DArray_ message{
-      header, sequence_of<dds_sequence_vision_msgs_msg_dds__Detection3D_>(detections)};
-  return boxes_.write(&message);
+  return boxes.write(*sector_boxes_, sector.record.first_packet_ns, frame_id);
 }
 
 Status ObjectWriter::write_markers(const publish::LabelledFrame& frame, std::string& frame_id) {

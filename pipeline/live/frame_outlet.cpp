@@ -6,20 +6,18 @@
 #include <utility>
 
 #include "rt/caught.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
 
 namespace terracut::live {
 
 FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
-                         SectorPool* sectors, const threads::WakeEvent& ready,
-                         std::unique_ptr<points::SceneOfPoints> scene,
-                         std::unique_ptr<points::SceneOfPoints> sight)
+                         SectorPool* sectors, const threads::WakeEvent& ready, Finders finders)
     : stream_(std::move(stream)),
       publisher_(publisher),
       slots_(slots),
       sectors_(sectors),
       ready_(ready),
-      scene_(std::move(scene)),
-      sight_(std::move(sight)),
+      finders_(std::move(finders)),
       // A failure of this thread needs no handler: the slots count the frames that nobody takes.
       thread_([this] { work(); }, [](std::string_view) {}) {}
 
@@ -35,7 +33,7 @@ void FrameOutlet::begin_to_finish() {
 
 void FrameOutlet::work() {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  if (sight_ != nullptr) sight_figures_.publish(sight_->found().sight());
+  if (finders_.sight != nullptr) sight_figures_.publish(finders_.sight->found().sight());
   while (true) {
     const bool last_round = finish_;
     hand_out_sectors();
@@ -70,17 +68,28 @@ bool FrameOutlet::publish(const SectorPool::Frame& sector) {
            shared->record = sector.record;
            shared->points.assign(sector.items.begin(), sector.items.end());
            shared->heights_m.assign(sector.heights_m.begin(), sector.heights_m.end());
+           find_complete_objects(*shared);
            publisher_.put_sector(shared);
            return {};
          })
       .has_value();
 }
 
+void FrameOutlet::find_complete_objects(publish::LabelledSector& sector) {
+  if (finders_.complete == nullptr) return;
+  const auto objects = finders_.complete->take(sector.record, sector.points, sector.heights_m);
+  sector.objects.assign(objects.begin(), objects.end());
+  const std::int64_t now_ns = measure::realtime_ns();
+  for (const CompleteObject& of : objects) waits_.record(now_ns - of.last_packet_ns);
+}
+
 bool FrameOutlet::stream(const Slots::Frame& frame) {
   const status::FrameRecord& record = frame.record;
   const bool late = record.labels_ns - record.info.last_packet_ns > stream_->deadline_ns;
   return stream({stream::header_of(record, stream_->sensor, late, frame.items.size()), frame.items,
-                 frame.heights_m},
+                 frame.heights_m,
+                 stream_->serves_objects ? finders_.scene->found().object_of_return()
+                                         : std::span<const std::uint16_t>()},
                 while_closed_);
 }
 
@@ -88,7 +97,9 @@ bool FrameOutlet::stream(const SectorPool::Frame& sector) {
   const points::SectorRecord& record = sector.record;
   const bool late = record.labels_ns - record.first_packet_ns > stream_->deadline_ns;
   return stream({stream::header_of(record, stream_->sensor, late, sector.items.size()),
-                 sector.items, sector.heights_m},
+                 sector.items,
+                 sector.heights_m,
+                 {}},
                 sectors_while_closed_);
 }
 
@@ -103,23 +114,29 @@ bool FrameOutlet::stream(const stream::LabelledFrame& frame,
 }
 
 void FrameOutlet::look(const Slots::Frame& frame) {
-  if (sight_ == nullptr) return;
-  sight_->find(frame.record.info, frame.items, frame.heights_m);
-  sight_figures_.publish(sight_->found().sight());
+  if (finders_.complete != nullptr) object_waits_.publish(waits_);
+  if (finders_.sight == nullptr) return;
+  finders_.sight->find(frame.record.info, frame.items, frame.heights_m);
+  sight_figures_.publish(finders_.sight->found().sight());
+}
+
+void FrameOutlet::find_scene(const Slots::Frame& frame) {
+  if (finders_.scene == nullptr) return;
+  finders_.scene->find(frame.record.info, frame.items, frame.heights_m);
 }
 
 bool FrameOutlet::hand_out(const Slots::Frame& frame) {
+  const bool has_objects_first = stream_ && stream_->serves_objects;
+  if (has_objects_first) find_scene(frame);
   const bool served = !stream_ || stream(frame);
   if (!publisher_.has_sinks()) return served;
+  if (!has_objects_first) find_scene(frame);
   const Status published = rt::caught([&]() -> Status {
     const auto shared = publisher_.buffer();
     shared->record = frame.record;
     shared->points.assign(frame.items.begin(), frame.items.end());
     shared->heights_m.assign(frame.heights_m.begin(), frame.heights_m.end());
-    if (scene_ != nullptr) {
-      scene_->find(shared->record.info, shared->points, shared->heights_m);
-      publish::set_scene(scene_->found(), *shared);
-    }
+    if (finders_.scene != nullptr) publish::set_scene(finders_.scene->found(), *shared);
     publisher_.put(shared);
     return {};
   });

@@ -13,6 +13,8 @@
 namespace terracut::points {
 namespace {
 
+constexpr std::size_t kBlock = 512;  // points at a time
+
 /// Moves points of a deskewed frame back to where they were measured.
 class WayBack {
  public:
@@ -62,17 +64,23 @@ void place(const LabelledPoint& point, int column, frame::RangeImage& image) noe
 
 }  // namespace
 
-void place_by_azimuth(std::span<const LabelledPoint> points, frame::RangeImage& image) noexcept {
-  constexpr std::size_t kBlock = 512;
+void find_azimuths(std::span<const LabelledPoint> points, std::span<float> azimuths_rad) noexcept {
   std::array<CloudPoint, kBlock> block;
-  std::array<float, kBlock> azimuth_rad;
-  image.clear();
   for (std::size_t first = 0; first < points.size(); first += kBlock) {
     const auto some = points.subspan(first, std::min(kBlock, points.size() - first));
     std::ranges::transform(some, block.begin(), [](const LabelledPoint& point) {
       return CloudPoint{point.x_m, point.y_m, point.z_m, 0};
     });
-    frame::find_azimuths(std::span(block).first(some.size()), azimuth_rad);
+    frame::find_azimuths(std::span(block).first(some.size()), azimuths_rad.subspan(first));
+  }
+}
+
+void place_by_azimuth(std::span<const LabelledPoint> points, frame::RangeImage& image) noexcept {
+  std::array<float, kBlock> azimuth_rad;
+  image.clear();
+  for (std::size_t first = 0; first < points.size(); first += kBlock) {
+    const auto some = points.subspan(first, std::min(kBlock, points.size() - first));
+    find_azimuths(some, azimuth_rad);
     for (std::size_t i = 0; i < some.size(); ++i) {
       place(some[i], column_of(azimuth_rad[i], image.shape().columns), image);
     }

@@ -15,6 +15,10 @@
 
 namespace terracut::points {
 
+/// Finds the azimuths of points as frame::find_azimuths() does. `azimuths_rad` has one element per
+/// point.
+void find_azimuths(std::span<const LabelledPoint> points, std::span<float> azimuths_rad) noexcept;
+
 /// Puts the points of a turn back into an image, by their rows and azimuths. The index of a return
 /// is that of its point. `image` must have room for all points.
 void place_by_azimuth(std::span<const LabelledPoint> points, frame::RangeImage& image) noexcept;

@@ -41,6 +41,7 @@ struct LabelledSector {
   points::SectorRecord record;
   std::vector<points::LabelledPoint> points;  ///< Returns of the sector in order of arrival.
   std::vector<float> heights_m;               ///< As in LabelledFrame.
+  std::vector<CompleteObject> objects;        ///< As in terracut::Sector; empty unless asked for.
 };
 
 /// A frame or a sector that all outputs share and nobody changes.

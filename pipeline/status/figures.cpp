@@ -293,6 +293,14 @@ void add_threads(const MonitorSnapshot& f, Table& table) {
 }
 
 void add_times(const MonitorSnapshot& f, Table& table) {
+  if (f.last_return_to_object.count() > 0) {
+    table.add("ms", {
+      {"last_return_to_object", &f.last_return_to_object,
+       {"terracut_last_return_to_object_seconds",
+        "Wall time from the packet of an object's last return to the object, where it came before "
+        "its frame."},
+       {"times", "return > object"}}});
+  }
   table.add("ms", {
     {"firing_to_label", &f.firing_to_label,
      {"terracut_firing_to_label_seconds",

@@ -46,14 +46,14 @@ struct ThreadStatus {
 
 /// All that can be known of a running process from outside, in one piece without pointers. It is
 /// copied whole into the status page, and all displays (terracut top, /metrics, the final summary)
-/// read nothing else. Counts come with their names, so that another build can read them. About 350
+/// read nothing else. Counts come with their names, so that another build can read them. About 385
 /// KiB, mostly histogram buckets.
 ///
 /// A plain value. If it comes from another process it may have any bytes; the accessors below and
 /// to_string are safe even then.
 struct MonitorSnapshot {
   /// The version of the layout; increase it with every change.
-  static constexpr std::uint32_t kLayout = 12;
+  static constexpr std::uint32_t kLayout = 13;
   static constexpr std::size_t kMaxLosses = 64;
   static constexpr std::size_t kMaxOutcomes = 24;
   static constexpr std::size_t kMaxThreads = 4;
@@ -110,6 +110,9 @@ struct MonitorSnapshot {
   std::uint64_t firing_to_label_count = 0;
   /// Wall time from a return's packet to its label: the longest in each sector of each frame.
   measure::LogLinearHistogram firing_to_label;
+  /// Wall time from the packet of an object's last return to the object, where it was handed out
+  /// before its frame.
+  measure::LogLinearHistogram last_return_to_object;
   measure::LogLinearHistogram latency;      ///< Wall time from the last packet to the labels.
   measure::LogLinearHistogram wall;         ///< Wall time from the hand-over to the labels.
   measure::LogLinearHistogram total_cpu;    ///< Processor time, decoding and segmenting.

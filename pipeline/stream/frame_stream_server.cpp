@@ -45,8 +45,13 @@ void set_tcp_options(int socket) noexcept {
   return sizeof(FrameWireHeader) + std::size_t{header.points} * header.point_bytes;
 }
 
-/// Writes points as they are sent, each with its height if a point has room for one; NaN where
-/// there is no height.
+[[nodiscard]] std::size_t point_bytes_of(const FrameStreamConfig& config) noexcept {
+  if (config.has_objects) return kPointBytesWithObject;
+  return config.has_heights ? kPointBytesWithHeight : sizeof(WirePoint);
+}
+
+/// Writes points as they are sent, each with its height if a point has room for one, NaN where
+/// there is no height, and with the number of its object if there is room for that, too.
 void write_points(const LabelledFrame& message, std::size_t point_bytes,
                   std::span<std::byte> room) noexcept {
   std::byte* to = room.data();
@@ -57,6 +62,9 @@ void write_points(const LabelledFrame& message, std::size_t point_bytes,
     const float height_m = i < message.heights_m.size() ? message.heights_m[i]
                                                         : std::numeric_limits<float>::quiet_NaN();
     std::memcpy(to + sizeof point, &height_m, sizeof height_m);
+    if (point_bytes == kPointBytesWithHeight) continue;
+    const std::uint32_t object = i < message.objects.size() ? message.objects[i] : 0;
+    std::memcpy(to + kPointBytesWithHeight, &object, sizeof object);
   }
 }
 
@@ -98,7 +106,7 @@ Expected<FrameStreamServer> FrameStreamServer::open(const FrameStreamConfig& con
 FrameStreamServer::FrameStreamServer(const FrameStreamConfig& config, ListeningSocket listener,
                                      files::OwnedDescriptor events, memory::FixedMemory& memory)
     : config_(config),
-      point_bytes_(config.has_heights ? kPointBytesWithHeight : sizeof(WirePoint)),
+      point_bytes_(point_bytes_of(config)),
       listener_(std::move(listener)),
       events_(std::move(events)),
       peers_(config.max_peers),

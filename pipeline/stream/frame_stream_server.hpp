@@ -30,6 +30,7 @@ struct FrameStreamConfig {
   std::size_t send_buffer_bytes = 0;  ///< The kernel's buffer per reader; 0: enough for a frame.
   bool serves_sectors = false;        ///< Readers that ask for sectors get them.
   bool has_heights = false;           ///< Points come with their heights above the ground.
+  bool has_objects = false;  ///< Points come with heights and the numbers of their objects.
 };
 
 /// A frame, or a sector of one, to be sent to the stream's readers.
@@ -37,6 +38,8 @@ struct LabelledFrame {
   FrameWireHeader header;  ///< From header_of().
   std::span<const points::LabelledPoint> points{};
   std::span<const float> heights_m{};  ///< One per point; sent with FrameStreamConfig::has_heights.
+  /// One per point, 0: none; sent with FrameStreamConfig::has_objects. Empty of sectors.
+  std::span<const std::uint16_t> objects{};
 };
 
 /// Counts since the start. A message is a frame or, for readers by sectors, a sector or the header

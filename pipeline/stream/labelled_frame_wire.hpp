@@ -48,6 +48,10 @@ static_assert(offsetof(WirePoint, intensity) == 12 && offsetof(WirePoint, label)
 /// How many bytes a point has if it comes with its height above the ground: WirePoint, then a
 /// float.
 inline constexpr std::uint16_t kPointBytesWithHeight = sizeof(WirePoint) + sizeof(float);
+/// How many bytes it has if it comes with its height and the number of its object (0: none), a
+/// uint32.
+inline constexpr std::uint16_t kPointBytesWithObject =
+    kPointBytesWithHeight + sizeof(std::uint32_t);
 
 /// Bits of FrameWireHeader::flags. Readers ignore bits they do not know.
 inline constexpr std::uint32_t kFrameComplete = 1U << 0;  ///< Every firing was seen, seam to seam.

@@ -44,7 +44,8 @@ class LiveRun {
     bool lock_memory = true;
     std::optional<double> patience_s;  ///< Time to wait for the sensor; empty: no limit.
     bool heights = false;              ///< Frames and sectors come with height_above_ground_m.
-    /// Frames come with their objects, found on the thread of run(), and with heights.
+    /// Frames come with their objects, found on the thread of run(), and with heights; sectors with
+    /// those that are complete.
     bool objects = false;
     bool free_way = false;  ///< The same of their free way.
     /// If set, run() also calls this for each sector, before on_frame for its frame. A sector is

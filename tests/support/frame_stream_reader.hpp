@@ -22,7 +22,8 @@ namespace terracut::test {
 struct ReceivedFrame {
   stream::FrameWireHeader header;
   std::vector<stream::WirePoint> points;
-  std::vector<float> heights_m;  ///< Of points that have one.
+  std::vector<float> heights_m;        ///< Of points that have one.
+  std::vector<std::uint32_t> objects;  ///< Of points that have one.
 };
 
 /// The other end of a FrameStreamServer, as a C++ program downstream may have it: senders with
@@ -67,12 +68,16 @@ class FrameStreamReader {
     if (*got < rest_.size()) return fail(ErrorCode::kMalformed, "the stream ended within a frame");
     const bool has_heights = header.point_bytes >= stream::kPointBytesWithHeight;
     frame.points.resize(header.points);
+    const bool has_objects = header.point_bytes >= stream::kPointBytesWithObject;
     frame.heights_m.resize(has_heights ? header.points : 0);
+    frame.objects.resize(has_objects ? header.points : 0);
     for (std::size_t n = 0; n < frame.points.size(); ++n) {
       const std::byte* const at = rest_.data() + more_header + n * header.point_bytes;
       std::memcpy(&frame.points[n], at, sizeof(stream::WirePoint));
       if (!has_heights) continue;
       std::memcpy(&frame.heights_m[n], at + sizeof(stream::WirePoint), sizeof(float));
+      if (!has_objects) continue;
+      std::memcpy(&frame.objects[n], at + stream::kPointBytesWithHeight, sizeof(std::uint32_t));
     }
     return true;
   }

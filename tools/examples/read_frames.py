@@ -5,7 +5,7 @@
 
 Prints a line a frame; with --pcd also writes each as a binary PCD file. With --sectors, of a run with --stream-sectors, frames come in
 parts of some four degrees, each as soon as it is labelled. Needs nothing but Python 3.8: copy decode_header() and receive_frames() into a program of your own. With numpy, the points are
-numpy.frombuffer(points, POINT_DTYPE); of a run with --heights, POINT_DTYPE + HEIGHT_DTYPE.
+numpy.frombuffer(points, POINT_DTYPE); of a run with --heights, POINT_DTYPE + HEIGHT_DTYPE; with --objects that + OBJECT_DTYPE.
 """
 import argparse
 import os
@@ -19,6 +19,8 @@ POINT_DTYPE = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"),
                ("intensity", "u1"), ("label", "u1"), ("row", "<u2"), ("time", "<f4")]
 HEIGHT = struct.Struct("<f")
 HEIGHT_DTYPE = [("height_above_ground", "<f4")]
+OBJECT = struct.Struct("<I")
+OBJECT_DTYPE = [("object", "<u4")]
 HEADER_FIELDS = ("magic", "version", "header_bytes", "number", "points", "first_packet_ns",
                  "last_packet_ns", "labels_ns", "point_bytes", "sensor", "level", "flags",
                  "missed", "first_return")
@@ -78,9 +80,13 @@ def decode_header(data):
 
 
 def point_size(header):
-    """Returns how many bytes a point of receive_frames() has: a height follows it where the sender has heights."""
+    """Returns how many bytes a point of receive_frames() has: a height, and then the number of its object, follow it
+    where the sender has them."""
     with_height = POINT.size + HEIGHT.size
-    return with_height if header["point_bytes"] >= with_height else POINT.size
+    for size in (with_height + OBJECT.size, with_height):
+        if header["point_bytes"] >= size:
+            return size
+    return POINT.size
 
 
 def receive_frames(connection):
@@ -134,14 +140,18 @@ def describe(header, points):
 
 
 def write_pcd(path, points, size=POINT.size):
-    """Writes binary PCD v0.7 with the fields x y z intensity label ring time, and height_above_ground where points of
-    `size` bytes have it; whole or not at all."""
+    """Writes binary PCD v0.7 with the fields x y z intensity label ring time, height_above_ground and object where
+    points of `size` bytes have them; whole or not at all."""
     count = len(points) // size
-    height = (" height_above_ground", " 4", " F", " 1") if size > POINT.size else ("",) * 4
+    more = ("",) * 4
+    if size > POINT.size:
+        more = (" height_above_ground", " 4", " F", " 1")
+    if size > POINT.size + HEIGHT.size:
+        more = tuple(map("".join, zip(more, (" object", " 4", " U", " 1"))))
     header = ("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
               "FIELDS x y z intensity label ring time%s\nSIZE 4 4 4 1 1 2 4%s\nTYPE F F F U U U F%s\n"
               "COUNT 1 1 1 1 1 1 1%s\nWIDTH %d\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n"
-              "POINTS %d\nDATA binary\n" % (*height, count, count))
+              "POINTS %d\nDATA binary\n" % (*more, count, count))
     with open(path + ".part", "wb") as file:
         file.write(header.encode("ascii"))
         file.write(points)

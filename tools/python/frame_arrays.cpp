@@ -91,6 +91,9 @@ void bind_frame(py::module_& module) {
       .def_property_readonly("objects",
                              [](const py::object& self) -> py::object {
                                const auto& frame = self.cast<const FrameData&>();
+                               if (frame.complete_objects) {
+                                 return array_of_objects(*frame.complete_objects, self);
+                               }
                                if (!frame.objects) return py::none();
                                return array_of_objects(*frame.objects, self);
                              })

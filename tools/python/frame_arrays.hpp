@@ -11,8 +11,7 @@
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/stream/labelled_frame_wire.hpp"
 #include "rt/memory/used_again.hpp"
-#include "terracut/free_way.hpp"
-#include "terracut/object.hpp"
+#include "terracut/frame.hpp"
 
 namespace terracut::python {
 
@@ -27,7 +26,8 @@ struct FrameData {
   /// Objects, and the number of each point's object; none unless asked for.
   std::optional<std::vector<Object>> objects;
   std::vector<std::uint16_t> object_of_point;
-  std::optional<std::vector<FreeWaySector>> free_way;  ///< None unless asked for.
+  std::optional<std::vector<CompleteObject>> complete_objects;  ///< Of a sector; as `objects`.
+  std::optional<std::vector<FreeWaySector>> free_way;           ///< None unless asked for.
 
   void set_objects(std::span<const Object> found, std::span<const std::uint16_t> numbers) {
     objects.emplace(found.begin(), found.end());

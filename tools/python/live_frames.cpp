@@ -141,6 +141,9 @@ void LiveFrames::keep(const Frame& frame) {
 void LiveFrames::keep(const Sector& sector) {
   std::shared_ptr<FrameData> data = copied(sector, sector.frame);
   data->first_return = static_cast<std::uint32_t>(sector.first_return);
+  if (gives_objects_) {
+    data->complete_objects.emplace(sector.objects.begin(), sector.objects.end());
+  }
   keep(std::move(data));
 }
 

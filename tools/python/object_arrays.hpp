@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "terracut/object.hpp"
+#include "terracut/frame.hpp"
 
 namespace terracut::python {
 
@@ -14,6 +14,9 @@ namespace terracut::python {
 /// ground_z_m x_m y_m along_x along_y length_m width_m corner_count corners, the last (16, 2). With
 /// a `base`, which must keep the objects, it is a view of them, else a copy.
 [[nodiscard]] pybind11::array array_of_objects(std::span<const Object> objects,
+                                               const pybind11::object& base);
+/// The same of objects found while the sensor turns, each with its frame and last_packet_ns.
+[[nodiscard]] pybind11::array array_of_objects(std::span<const CompleteObject> objects,
                                                const pybind11::object& base);
 
 }  // namespace terracut::python

@@ -90,6 +90,25 @@ TEST_P(FrameStream, PointsComeWithTheirHeightsWhereTheStreamHasThem) {
   EXPECT_EQ(figures().bytes, sizeof(FrameWireHeader) + 1000 * 24);
 }
 
+TEST_P(FrameStream, PointsComeWithTheirObjectsWhereTheStreamHasThem) {
+  open({.max_points = 1000, .has_objects = true});
+  FrameStreamReader only = reader();
+  const auto points = points_of_frame(7, 1000);
+  const std::vector<float> heights_m(points.size(), 0.5F);
+  std::vector<std::uint16_t> objects(points.size());
+  for (std::size_t n = 0; n < objects.size(); ++n) objects[n] = static_cast<std::uint16_t>(n % 9);
+  LabelledFrame given = frame_of(7, points);
+  given.heights_m = heights_m;
+  given.objects = objects;
+  ASSERT_TRUE(server().serve(given));
+  ReceivedFrame frame;
+  ASSERT_TRUE(receive(only, frame).value_or(false));
+  EXPECT_EQ(frame.header.point_bytes, 28);
+  EXPECT_EQ(frame.points, on_wire(points));
+  EXPECT_EQ(frame.heights_m, heights_m);
+  EXPECT_EQ(frame.objects, std::vector<std::uint32_t>(objects.begin(), objects.end()));
+}
+
 TEST_P(FrameStream, EveryReaderGetsTheWholeFrame) {
   open({.max_points = kManyPoints});
   std::vector<FrameStreamReader> readers;

@@ -127,6 +127,24 @@ TEST_P(ReadFramesScript, WritesTheHeightsOfPointsThatHaveThem) {
   EXPECT_THAT(content, testing::EndsWith(std::string(last)));
 }
 
+TEST_P(ReadFramesScript, WritesTheObjectsOfPointsThatHaveThem) {
+  server_.reset();
+  open({.max_points = 1000, .has_objects = true});
+  auto script = run("--count 1 --pcd " + folder_.string());
+  ASSERT_TRUE(reader_came());
+  const auto points = points_of_frame(3, 1000);
+  const std::vector<std::uint16_t> objects(points.size(), 0x102);
+  LabelledFrame given = frame_of(3, points);
+  given.objects = objects;
+  ASSERT_TRUE(server().serve(given));
+  const Outcome outcome = end_of(script);
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  const std::string content = test::content_of(folder_ / "000003.pcd");
+  EXPECT_THAT(content, testing::HasSubstr(" time height_above_ground object\n"
+                                          "SIZE 4 4 4 1 1 2 4 4 4\nTYPE F F F U U U F F U\n"));
+  EXPECT_THAT(content, testing::EndsWith(std::string("\x02\x01\0\0", 4)));
+}
+
 TEST_P(ReadFramesScript, EndsWithoutComplaintWhenTheServerEnds) {
   auto script = run("");
   ASSERT_TRUE(reader_came());

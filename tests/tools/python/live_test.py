@@ -76,6 +76,18 @@ class Live(unittest.TestCase):
             self.assertTrue(np.isfinite(sector.height_above_ground_m).all())
         self.assertGreaterEqual(sectors.figures()["sectors"], 300)
 
+    def test_sectors_have_the_objects_that_are_complete(self):
+        self.be_the_sensor()
+        with terracut.live(self.address, CALIBRATION, deadline=1000, lock_memory=False, sectors=True, objects=True) as sectors:
+            taken = [sector for sector, _ in zip(sectors, range(400))]
+        found = [(found["frame"], found["last_return"]) for sector in taken for found in sector.objects]
+        self.assertGreater(len(found), 30)
+        self.assertEqual(len(found), len(set(found)))
+        for sector in taken:
+            self.assertIsNone(sector.object_numbers)
+            self.assertLessEqual({*sector.objects["frame"]}, {sector.number - 1, sector.number})
+            self.assertTrue((sector.objects["last_packet_ns"] < sector.last_packet_ns).all())
+
     def test_frames_have_objects_where_these_are_asked_for(self):
         self.be_the_sensor()
         with terracut.live(self.address, CALIBRATION, deadline=1000, lock_memory=False, objects=True) as frames:

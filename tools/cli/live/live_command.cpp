@@ -203,7 +203,7 @@ class Writers {
       std::optional<live::FrameOutlet::Stream> stream;
       if (!options.stream.empty()) {
         stream = {publish::Reopened<stream::FrameStreamServer>(stream_at(options, parts)),
-                  sensor.model, deadline_ns, options.stream_sectors};
+                  sensor.model, deadline_ns, options.stream_sectors, options.method.scene.objects};
       }
       const decode::Decoder& decoder = parts.turns.decoder();
       const auto finder_of = [&](scene::Wanted wanted) -> std::unique_ptr<points::SceneOfPoints> {
@@ -212,9 +212,14 @@ class Writers {
             wanted, profile, decoder.shape(), decoder.return_capacity(), decoder.beam_turns());
       };
       const scene::Wanted wanted = options.method.scene;
+      live::FrameOutlet::Finders finders{.scene = finder_of(wanted.without_sight()),
+                                         .sight = finder_of({.sight = wanted.sight})};
+      if (wanted.objects && publisher_->wants_sectors()) {
+        finders.complete = std::make_unique<points::CompleteObjects>(profile, decoder.shape(),
+                                                                     decoder.return_capacity());
+      }
       outlet_.emplace(std::move(stream), *publisher_, *parts.thread.points(),
-                      parts.thread.sectors(), parts.thread.points_ready(),
-                      finder_of(wanted.without_sight()), finder_of({.sight = wanted.sight}));
+                      parts.thread.sectors(), parts.thread.points_ready(), std::move(finders));
     }
     if (parts.thread.labels()) labels_.emplace(options.output, *parts.thread.labels());
     if (parts.recorder) {
@@ -256,7 +261,8 @@ class Writers {
         .unix_mode = options.stream_mode,
         .max_points = parts.turns.decoder().return_capacity(),
         .serves_sectors = options.stream_sectors,
-        .has_heights = options.method.gives_heights()};
+        .has_heights = options.method.gives_heights(),
+        .has_objects = options.method.scene.objects};
     const auto open = [this, config]() -> Expected<stream::FrameStreamServer> {
       auto server = stream::FrameStreamServer::open(config, stream_memory_);
       if (!server) return server;

@@ -102,6 +102,7 @@ void LiveWatch::refresh() {
   if (const ground::NearGround* ground = parts_.thread.near_ground()) mount_->add_frame(*ground);
   figures.mount = mount_->figures();
   refresh_sight(figures);
+  if (outlet_ != nullptr) figures.last_return_to_object = outlet_->object_waits();
   if (parts_.motion) parts_.motion->show(figures.motion);
   if (health_) {
     health_->work_round(figures, parts_.monitor.newest(), measure::monotonic_ns());

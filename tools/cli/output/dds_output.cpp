@@ -82,6 +82,9 @@ Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& op
                                   .raw = topic(topics.raw),
                                   .objects = facts.found.objects ? topic(topics.objects) : "",
                                   .object_markers = topic(topics.objects + "/markers"),
+                                  .sector_objects = topics.sectors.empty() || topics.objects.empty()
+                                                        ? ""
+                                                        : topic(topics.sectors + "/objects"),
                                   .free_way = facts.found.free_way ? topic(topics.free_way) : "",
                                   .diagnostics = topic(topics.diagnostics),
                                   .tf_static = topic("/tf_static"),

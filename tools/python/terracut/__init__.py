@@ -133,7 +133,7 @@ def live(
     With `sectors`, they come in pieces of some four degrees, each as soon as its labels are known, some milliseconds
     after it was measured; `first_return` is a piece's place in its frame. 256 of them wait for the loop.
     With `heights`, they have `height_above_ground_m`; with `objects`, whole frames have `objects` and `object_numbers`,
-    with `free_way` the `free_way`.
+    sectors the `objects` that are complete since the one before; with `free_way` whole frames have that.
     """
     return Live(_words("live", [], {
         "listen": listen, "calibration": calibration, "deadline": deadline, "duration": duration, "patience": patience,

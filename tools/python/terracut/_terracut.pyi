@@ -47,10 +47,11 @@ class Frame:
     @property
     def objects(self) -> Optional[npt.NDArray[np.void]]:
         """Objects as records: returns first_return last_return bottom_m top_m ground_z_m; the box's x_m y_m along_x
-        along_y length_m width_m; the footprint's corner_count and corners (16, 2). None without `objects`."""
+        along_y length_m width_m; the footprint's corner_count and corners (16, 2). Of a sector those that are complete since it, with
+        returns numbered as in their `frame`, and the last_packet_ns of their last return. None without `objects`."""
     @property
     def object_numbers(self) -> Optional[npt.NDArray[np.uint16]]:
-        """The number of each return's object: i + 1 of objects[i], 0 is none. None without `objects`."""
+        """The number of each return's object: i + 1 of objects[i], 0 is none. None of sectors and without `objects`."""
     @property
     def free_way(self) -> Optional[npt.NDArray[np.void]]:
         """The free way, a record a sector of about half a degree, clockwise from straight ahead: azimuth_rad of its

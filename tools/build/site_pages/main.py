@@ -61,8 +61,11 @@ def build(site):
 
 def main(given):
     parser = argparse.ArgumentParser(prog="site", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-o", type=Path, default=REPOSITORY / "build/site", metavar="FOLDER", help="default: build/site")
-    site = parser.parse_args(given).o.resolve()
+    parser.add_argument("-o", type=Path, metavar="FOLDER", help="a new folder instead of build/site, which is written anew")
+    asked = parser.parse_args(given).o
+    site = (asked or REPOSITORY / "build/site").resolve()
+    if asked and site.exists():
+        return f"error: {asked} exists"
     if needed := missing():
         print(f"error: not installed: {', '.join(needed)}; ./tools/setup --site installs them", file=sys.stderr)
         return NOT_INSTALLED

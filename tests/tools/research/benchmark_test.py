@@ -15,6 +15,8 @@ sys.path.insert(0, str(REPOSITORY / "tools/research"))
 from benchmark import parts  # noqa: E402
 from benchmark.main import RESULTS  # noqa: E402
 from benchmark.page import DOCUMENTS, blocks  # noqa: E402
+from benchmark.plot import FILE as PLOT  # noqa: E402
+from benchmark.plot import plot  # noqa: E402
 from benchmark.results import Results  # noqa: E402
 from tables import filled  # noqa: E402
 
@@ -117,6 +119,21 @@ class Printed(unittest.TestCase):
                           "| terracut | 90.0 / 100.0 | 90.0 / 100.0 | 2.00 |", "| peer | 80.0 / - | 70.0 / 50.0 | 6.00 |", "",
                           "Not built for this measurement: other."])  # fmt: skip
 
+    def test_the_plot_has_every_program_on_drives_that_nothing_was_tuned_on_and_names_the_worst(self):
+        def told(*qualities):
+            return {key: {"ms": [ms, ms], "quality": quality}
+                    for key, ms, quality in zip(("terracut, from packets", "a & b"), (2.5, 61), qualities)} | {"at": "", "load": 0}  # fmt: skip
+
+        results = results_of(peers={"recorded": [told((0.5, 0.5), (0.5, 0.5))], "street": [told((0.97, 0.99), (0.9, None))],
+                                    "hill": [told((0.96, 1), (0.91, None))]})  # fmt: skip
+        drawn = plot(results)
+        for shown in ("96.0 hill", "99.0 street", "90.0 street", "a &amp; b", ">2.5<", ">61.0<", "(street, hill)", ">100<", ">80<"):
+            self.assertIn(shown, drawn)
+        for hidden in ("recorded", "50.0"):
+            self.assertNotIn(hidden, drawn)
+        self.assertLess(drawn.index("terracut</text>"), drawn.index("a &amp; b</text>"))
+        self.assertEqual(plot(results_of()), "")
+
     def test_a_part_says_what_it_is_of_and_what_was_left_out(self):
         results = results_of(sensors={"hdl64e, street": [round_of(2), round_of(2, load=3.5)]})
         results["sensors"].measured["note"] = "others at work"
@@ -138,10 +155,12 @@ class Printed(unittest.TestCase):
         self.assertIn("in turn; another; 2026", printed(results, "sensors"))
 
     def test_the_documents_show_what_was_measured(self):
-        shown = blocks({part.name: Results(RESULTS / f"{part.name}.json") for part in parts.PARTS})
+        results = {part.name: Results(RESULTS / f"{part.name}.json") for part in parts.PARTS}
+        shown = blocks(results)
         for document in (REPOSITORY / name for name in DOCUMENTS):
             text = document.read_text(encoding="utf-8")
             self.assertEqual(filled(text, "benchmark", shown), text, f"{document} is not what ./tools/benchmark --only '' prints")
+        self.assertEqual((REPOSITORY / PLOT).read_text(encoding="utf-8"), plot(results), f"{PLOT} is not what ./tools/benchmark --only '' draws")
 
 
 class Beside(unittest.TestCase):

@@ -186,21 +186,25 @@ def peers_table(results):
                  [(name, [cell(told, name) for told in cases.values()]) for name in names])  # fmt: skip
 
 
+def segmenters(cases):
+    """{name: its key in the figures} of every program that makes labels, terracut first."""
+    keys = dict.fromkeys(key for told in cases.values() for key in told if key not in (*STAMPED, SEGMENTING, AFTER_FRAME))
+    return {"terracut" if key == FROM_PACKETS else key: key for key in sorted(keys, key=lambda key: key != FROM_PACKETS)}
+
+
 def qualities_table(results):
     """README's and evaluation.md's: how good each program is on each drive, and what a frame of the simulated street costs it."""
     cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items()}
     if TIMED not in cases:
         return []
-    names = dict.fromkeys(name for told in cases.values() for name in told if name not in (*STAMPED, SEGMENTING, AFTER_FRAME))
     # Drives that nothing was tuned on come first.
     titles = {name: f"{name}, tuned on" if name == TUNED else name for name in sorted(cases, key=lambda name: name == TUNED)}
 
     def quality(told):
         return " / ".join("-" if share is None else f"{100 * share:.1f}" for share in told["quality"]) if told else ""
 
-    rows = [("terracut" if name == FROM_PACKETS else name,
-             [*(quality(cases[case].get(name)) for case in titles), f"{cases[TIMED][name]['ms'][0]:.2f}" if name in cases[TIMED] else ""])
-            for name in names]  # fmt: skip
+    rows = [(name, [*(quality(cases[case].get(key)) for case in titles), f"{cases[TIMED][key]['ms'][0]:.2f}" if key in cases[TIMED] else ""])
+            for name, key in segmenters(cases).items()]  # fmt: skip
     left_out = ", ".join(results["peers"].left_out)
     return [*table("IoU_g / Recall_o, %", [*titles.values(), f"ms a frame, {TIMED}"], rows),
             *(["", f"Not built for this measurement: {left_out}."] if left_out else [])]  # fmt: skip

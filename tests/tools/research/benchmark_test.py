@@ -139,7 +139,7 @@ class Printed(unittest.TestCase):
         results["sensors"].measured["note"] = "others at work"
         results["sensors"].left_out |= {"hdl64e, recorded": "there is no data", "vlp16": "no such sensor", "ruby128": "there is no data"}
         said = printed(results, "sensors")
-        self.assertIn("terracut 1.2.3 (abcdef01, program 12), beside 1.0 (old) in turn; 2026-11-27 10:00 UTC; 2 rounds; load average "
+        self.assertIn("terracut 1.2.3 (program 12), beside 1.0 (old) in turn; 2026-11-27 10:00 UTC; 2 rounds; load average "
                       "0.5 to 3.5; others at work.",
                       said)  # fmt: skip
         self.assertIn("Left out: hdl64e, recorded, ruby128 (there is no data); vlp16 (no such sensor).", said)

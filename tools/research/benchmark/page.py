@@ -9,7 +9,7 @@ from tables import table
 
 from .parts import CASES, MODELS
 
-DOCUMENTS = ("README.md", *(f"docs/reference/{page}.md" for page in ("benchmark", "evaluation", "sensors")))
+DOCUMENTS = ("README.md", *(f"docs/reference/{page}.md" for page in ("benchmark", "sensors")))
 STAGE_ROWS = {
     "total": "**total**",
     "after_frame": "of it after the turn's last packet",
@@ -69,7 +69,7 @@ def stamp(results, known=""):
     beside = f", beside {of['beside']} in turn" if of.get("beside") else ""
     machine = "" if of["machine"] == known else f"{of['machine']}; "
     note = f"; {of['note']}" if of.get("note") else ""
-    text = (f"terracut {of['version']} ({of['commit']}, program {of['program']}){beside}; {machine}"
+    text = (f"terracut {of['version']} (program {of['program']}){beside}; {machine}"
             f"{min(figures['at'] for figures in rounds)} UTC; {of['way']}; load average {min(loads)} to {max(loads)}{note}.")  # fmt: skip
     left_out = {}
     for what, reason in results.left_out.items():
@@ -193,7 +193,7 @@ def segmenters(cases):
 
 
 def qualities_table(results):
-    """README's and evaluation.md's: how good each program is on each drive, and what a frame of the simulated street costs it."""
+    """README's: how good each program is on each drive, and what a frame of the simulated street costs it."""
     cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items()}
     if TIMED not in cases:
         return []

@@ -117,7 +117,7 @@ class Printed(unittest.TestCase):
         self.assertEqual(printed(results, "qualities").splitlines(),
                          ["| IoU_g / Recall_o, % | street | recorded, tuned on | ms a frame, street |", "|---|---|---|---|",
                           "| terracut | 90.0 / 100.0 | 90.0 / 100.0 | 2.00 |", "| peer | 80.0 / - | 70.0 / 50.0 | 6.00 |", "",
-                          "Not built for this measurement: other."])  # fmt: skip
+                          "What others find of hazards is not measured. Not built for this measurement: other."])  # fmt: skip
 
     def test_the_plot_has_every_program_on_drives_that_nothing_was_tuned_on_and_names_the_worst(self):
         def told(*qualities):
@@ -132,7 +132,20 @@ class Printed(unittest.TestCase):
         for hidden in ("recorded", "50.0"):
             self.assertNotIn(hidden, drawn)
         self.assertLess(drawn.index("terracut</text>"), drawn.index("a &amp; b</text>"))
+        self.assertNotIn("hazards", drawn)
         self.assertEqual(plot(results_of()), "")
+
+    def test_hazards_have_a_column_and_a_panel_where_they_were_measured(self):
+        figures = {name: {"ms": [2, 2], "quality": (0.9, 1)} for name in ("terracut, from packets", "peer", "late")}
+        trials = [{"ground": ground, "of": {"terracut": {"found": 3, "trials": 4}, "peer": {"found": found, "trials": 4}}}
+                  for ground, found in (("road", 1), ("road", 0), ("grass", 4))]  # fmt: skip
+        results = results_of(peers={"street": [{"at": "", "load": 0} | figures]}, hazards={"road": [{"at": "", "load": 0} | parts.on_road(trials)]})
+        self.assertEqual(printed(results, "qualities").splitlines(),
+                         ["| IoU_g / Recall_o, % | street | hazards on the road found, % | ms a frame, street |", "|---|---|---|---|",
+                          "| terracut | 90.0 / 100.0 | 75 | 2.00 |", "| peer | 90.0 / 100.0 | 12 | 2.00 |",
+                          "| late | 90.0 / 100.0 |  | 2.00 |"])  # fmt: skip
+        self.assertIn(">75.0<", plot(results))
+        self.assertIn(">12.5<", plot(results))
 
     def test_a_part_says_what_it_is_of_and_what_was_left_out(self):
         results = results_of(sensors={"hdl64e, street": [round_of(2), round_of(2, load=3.5)]})

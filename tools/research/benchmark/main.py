@@ -8,7 +8,7 @@
     ./tools/benchmark --only ''         # the documents anew, from what was measured
 
 Parts: sensors (`terracut bench` and `plan`), models (a row for every sensor, in docs/reference/sensors.md), instructions (./tools/instructions), live and outputs (./tools/live_trial), peers
-(./tools/beside_peer; README's plot, too). Every figure goes into RESULTS/PART.json as soon as it is measured, so that a run which breaks off goes on
+and hazards (./tools/beside_peer; README's plot, too). Every figure goes into RESULTS/PART.json as soon as it is measured, so that a run which breaks off goes on
 where it was. Another program, machine, --beside or --quick begins a part anew, as does --anew. What there is no data, peer or
 package for is left out, and the page says why. With --results the tables are printed and no document changes. The program is
 build/release/terracut or $TERRACUT.

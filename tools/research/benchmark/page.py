@@ -192,6 +192,13 @@ def segmenters(cases):
     return {"terracut" if key == FROM_PACKETS else key: key for key in sorted(keys, key=lambda key: key != FROM_PACKETS)}
 
 
+def hazards_found(results):
+    """{name: share of the hazards on the road that it finds}; empty if that was not measured."""
+    for told in results["hazards"].cases.get("road", [])[-1:]:
+        return {name: of["found"] / of["trials"] for name, of in told.items() if name not in STAMPED}
+    return {}
+
+
 def qualities_table(results):
     """README's: how good each program is on each drive, and what a frame of the simulated street costs it."""
     cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items()}
@@ -203,11 +210,19 @@ def qualities_table(results):
     def quality(told):
         return " / ".join("-" if share is None else f"{100 * share:.1f}" for share in told["quality"]) if told else ""
 
-    rows = [(name, [*(quality(cases[case].get(key)) for case in titles), f"{cases[TIMED][key]['ms'][0]:.2f}" if key in cases[TIMED] else ""])
-            for name, key in segmenters(cases).items()]  # fmt: skip
-    left_out = ", ".join(results["peers"].left_out)
-    return [*table("IoU_g / Recall_o, %", [*titles.values(), f"ms a frame, {TIMED}"], rows),
-            *(["", f"Not built for this measurement: {left_out}."] if left_out else [])]  # fmt: skip
+    found = hazards_found(results)
+
+    def rest(name, key):
+        if found:
+            yield f"{100 * found[name]:.0f}" if name in found else ""
+        yield f"{cases[TIMED][key]['ms'][0]:.2f}" if key in cases[TIMED] else ""
+
+    rows = [(name, [*(quality(cases[case].get(key)) for case in titles), *rest(name, key)]) for name, key in segmenters(cases).items()]
+    missing = [] if found else ["What others find of hazards is not measured."]
+    if left_out := ", ".join(results["peers"].left_out):
+        missing.append(f"Not built for this measurement: {left_out}.")
+    return [*table("IoU_g / Recall_o, %", [*titles.values(), *(["hazards on the road found, %"] if found else []), f"ms a frame, {TIMED}"], rows),
+            *(["", " ".join(missing)] if missing else [])]  # fmt: skip
 
 
 def frame_text(results):

@@ -5,7 +5,7 @@
 import math
 from html import escape
 
-from .page import TIMED, TUNED, segmenters
+from .page import TIMED, TUNED, hazards_found, segmenters
 
 FILE = "docs/images/peers.svg"
 WIDTH, TOP, ROW, NAMES, GAP = 780, 64, 44, 104, 36  # pixels
@@ -28,7 +28,8 @@ class Axis:
     def __init__(self, title, left, width, least, most):
         self.title, self.left, self.width = title, left, width
         self.step = next(step for step in STEPS if most - least <= 5 * step)
-        self.least, self.most = self.step * math.floor(least / self.step), self.step * math.ceil(most / self.step)
+        self.most = self.step * math.ceil(most / self.step)
+        self.least = min(self.step * math.floor(least / self.step), self.most - self.step)
 
     def x(self, value):
         return round(self.left + self.width * (value - self.least) / (self.most - self.least), 1)
@@ -49,34 +50,44 @@ def share(axis, of_drives, y):
     yield f'<text class="middle" x="{axis.x(of_drives[worst])}" y="{y + 18}">{of_drives[worst]:.1f} {worst}</text>'
 
 
+def bar(axis, value, y):
+    end = axis.x(value)
+    yield f'<rect class="bar" x="{axis.left}" y="{y - 6}" width="{end - axis.left:.1f}" height="12"/>'
+    yield f'<text class="end" x="{end}" y="{y + 18}">{value:.1f}</text>'
+
+
 def plot(results):
-    """Returns the SVG, empty without measures: for every program IoU_g and Recall_o on each drive, and the time of a frame."""
+    """Returns the SVG, empty without measures: for every program IoU_g and Recall_o on each drive, the hazards that it finds, if
+    that was measured, and the time of a frame."""
     cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items() if name != TUNED}
     if TIMED not in cases:
         return ""
     programs = segmenters(cases)
-    measures = [{program: {drive: 100 * told[key]["quality"][measure] for drive, told in cases.items()
-                           if key in told and told[key]["quality"][measure] is not None}
-                 for program, key in programs.items()} for measure in (0, 1)]  # fmt: skip
+
+    def of_drives(measure):
+        return {program: {drive: 100 * told[key]["quality"][measure] for drive, told in cases.items()
+                          if key in told and told[key]["quality"][measure] is not None}
+                for program, key in programs.items()}  # fmt: skip
+
+    found = {program: 100 * share for program, share in hazards_found(results).items()}
     times = {program: cases[TIMED][key]["ms"][0] for program, key in programs.items() if key in cases[TIMED]}
-    bottom = TOP + ROW * len(programs)
-    width = (WIDTH - NAMES - 3 * GAP) // 3
-    worst = [min(value for of in measure.values() for value in of.values()) for measure in measures]
-    axes = [Axis("IoU_g of ground, %", NAMES, width, worst[0], 100),
-            Axis("Recall_o of obstacles, %", NAMES + width + GAP, width, worst[1], 100),
-            Axis(f"ms a frame, {TIMED}", NAMES + 2 * (width + GAP), width, 0, max(times.values()))]  # fmt: skip
+    panels = [("IoU_g of ground, %", share, of_drives(0)), ("Recall_o of obstacles, %", share, of_drives(1)),
+              *([("hazards found, %", bar, found)] if found else []), (f"ms a frame, {TIMED}", bar, times)]  # fmt: skip
+    bottom, width = TOP + ROW * len(programs), (WIDTH - NAMES - len(panels) * GAP) // len(panels)
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {bottom + 28}" role="img">',
              "<!-- SPDX-License-Identifier: Apache-2.0; Copyright 2026 The terracut authors; by ./tools/benchmark -->",
              f"<style>{STYLE}</style>", '<rect class="paper" width="100%" height="100%"/>']  # fmt: skip
-    lines += [line for axis in axes for line in axis.drawn(bottom)]
+    axes = []
+    for number, (title, drawn, of) in enumerate(panels):
+        least = min(min(drives.values()) for drives in of.values() if drives) if drawn is share else 0
+        most = max(of.values()) if of is times else 100
+        axes.append(Axis(title, NAMES + number * (width + GAP), width, least, most))
+        lines += axes[-1].drawn(bottom)
     for number, program in enumerate(programs):
         y = TOP + ROW * number + 10
         lines += [f'<g class="{"ours" if number == 0 else "theirs"}">', f'<text class="name" x="8" y="{y + 4}">{escape(program)}</text>']
-        for axis, measure in zip(axes, measures):
-            lines += share(axis, measure[program], y) if measure[program] else []
-        if program in times:
-            lines += [f'<rect class="bar" x="{axes[2].left}" y="{y - 6}" width="{axes[2].x(times[program]) - axes[2].left:.1f}" height="12"/>',
-                      f'<text class="end" x="{axes[2].x(times[program])}" y="{y + 18}">{times[program]:.1f}</text>']  # fmt: skip
+        for axis, (_, drawn, of) in zip(axes, panels):
+            lines += drawn(axis, of[program], y) if of.get(program) else []
         lines.append("</g>")
     lines += [f'<text x="8" y="{bottom + 14}">A dot is a simulated drive ({", ".join(cases)}) that nothing was tuned on; the worst is named.</text>',
               "</svg>", ""]  # fmt: skip

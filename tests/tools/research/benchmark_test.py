@@ -78,7 +78,7 @@ class Printed(unittest.TestCase):
         quality = {"quality": [0.5, 0.75]}
         table = printed(results_of(models={"hdl64e": [round_of(2, **quality), round_of(4, **quality)],
                                            "vlp16": [round_of(1, **quality), round_of(1, **quality)]}), "models")  # fmt: skip
-        self.assertIn("| VLP-16 (`vlp16`) | two real captures, single and dual return | 0.38 (0.25-0.50) | 1.00 / 2.00 | 1.00 / 2.00 "
+        self.assertIn("| VLP-16 (`vlp16`) | two real, single and dual return | 0.38 (0.25-0.50) | 1.00 / 2.00 | 1.00 / 2.00 "
                       "| 12.0 | 128,000 | 50.00 / 75.00 |", table)  # fmt: skip
         self.assertNotIn("ruby128", table)
 

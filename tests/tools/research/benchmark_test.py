@@ -15,6 +15,8 @@ sys.path.insert(0, str(REPOSITORY / "tools/research"))
 from benchmark import parts  # noqa: E402
 from benchmark.main import RESULTS  # noqa: E402
 from benchmark.page import DOCUMENTS, blocks  # noqa: E402
+from benchmark.plot import FILE as PLOT  # noqa: E402
+from benchmark.plot import plot  # noqa: E402
 from benchmark.results import Results  # noqa: E402
 from tables import filled  # noqa: E402
 
@@ -76,7 +78,7 @@ class Printed(unittest.TestCase):
         quality = {"quality": [0.5, 0.75]}
         table = printed(results_of(models={"hdl64e": [round_of(2, **quality), round_of(4, **quality)],
                                            "vlp16": [round_of(1, **quality), round_of(1, **quality)]}), "models")  # fmt: skip
-        self.assertIn("| VLP-16 (`vlp16`) | two real captures, single and dual return | 0.38 (0.25-0.50) | 1.00 / 2.00 | 1.00 / 2.00 "
+        self.assertIn("| VLP-16 (`vlp16`) | two real, single and dual return | 0.38 (0.25-0.50) | 1.00 / 2.00 | 1.00 / 2.00 "
                       "| 12.0 | 128,000 | 50.00 / 75.00 |", table)  # fmt: skip
         self.assertNotIn("ruby128", table)
 
@@ -115,14 +117,42 @@ class Printed(unittest.TestCase):
         self.assertEqual(printed(results, "qualities").splitlines(),
                          ["| IoU_g / Recall_o, % | street | recorded, tuned on | ms a frame, street |", "|---|---|---|---|",
                           "| terracut | 90.0 / 100.0 | 90.0 / 100.0 | 2.00 |", "| peer | 80.0 / - | 70.0 / 50.0 | 6.00 |", "",
-                          "Not built for this measurement: other."])  # fmt: skip
+                          "What others find of hazards is not measured. Not built for this measurement: other."])  # fmt: skip
+
+    def test_the_plot_has_every_program_on_drives_that_nothing_was_tuned_on_and_names_the_worst(self):
+        def told(*qualities):
+            return {key: {"ms": [ms, ms], "quality": quality}
+                    for key, ms, quality in zip(("terracut, from packets", "a & b"), (2.5, 61), qualities)} | {"at": "", "load": 0}  # fmt: skip
+
+        results = results_of(peers={"recorded": [told((0.5, 0.5), (0.5, 0.5))], "street": [told((0.97, 0.99), (0.9, None))],
+                                    "hill": [told((0.96, 1), (0.91, None))]})  # fmt: skip
+        drawn = plot(results)
+        for shown in ("96.0 hill", "99.0 street", "90.0 street", "a &amp; b", ">2.5<", ">61.0<", "(street, hill)", ">100<", ">80<"):
+            self.assertIn(shown, drawn)
+        for hidden in ("recorded", "50.0"):
+            self.assertNotIn(hidden, drawn)
+        self.assertLess(drawn.index("terracut</text>"), drawn.index("a &amp; b</text>"))
+        self.assertNotIn("hazards", drawn)
+        self.assertEqual(plot(results_of()), "")
+
+    def test_hazards_have_a_column_and_a_panel_where_they_were_measured(self):
+        figures = {name: {"ms": [2, 2], "quality": (0.9, 1)} for name in ("terracut, from packets", "peer", "late")}
+        trials = [{"ground": ground, "of": {"terracut": {"found": 3, "trials": 4}, "peer": {"found": found, "trials": 4}}}
+                  for ground, found in (("road", 1), ("road", 0), ("grass", 4))]  # fmt: skip
+        results = results_of(peers={"street": [{"at": "", "load": 0} | figures]}, hazards={"road": [{"at": "", "load": 0} | parts.on_road(trials)]})
+        self.assertEqual(printed(results, "qualities").splitlines(),
+                         ["| IoU_g / Recall_o, % | street | hazards on the road found, % | ms a frame, street |", "|---|---|---|---|",
+                          "| terracut | 90.0 / 100.0 | 75 | 2.00 |", "| peer | 90.0 / 100.0 | 12 | 2.00 |",
+                          "| late | 90.0 / 100.0 |  | 2.00 |"])  # fmt: skip
+        self.assertIn(">75.0<", plot(results))
+        self.assertIn(">12.5<", plot(results))
 
     def test_a_part_says_what_it_is_of_and_what_was_left_out(self):
         results = results_of(sensors={"hdl64e, street": [round_of(2), round_of(2, load=3.5)]})
         results["sensors"].measured["note"] = "others at work"
         results["sensors"].left_out |= {"hdl64e, recorded": "there is no data", "vlp16": "no such sensor", "ruby128": "there is no data"}
         said = printed(results, "sensors")
-        self.assertIn("terracut 1.2.3 (abcdef01, program 12), beside 1.0 (old) in turn; 2026-11-27 10:00 UTC; 2 rounds; load average "
+        self.assertIn("terracut 1.2.3 (program 12), beside 1.0 (old) in turn; 2026-11-27 10:00 UTC; 2 rounds; load average "
                       "0.5 to 3.5; others at work.",
                       said)  # fmt: skip
         self.assertIn("Left out: hdl64e, recorded, ruby128 (there is no data); vlp16 (no such sensor).", said)
@@ -138,10 +168,12 @@ class Printed(unittest.TestCase):
         self.assertIn("in turn; another; 2026", printed(results, "sensors"))
 
     def test_the_documents_show_what_was_measured(self):
-        shown = blocks({part.name: Results(RESULTS / f"{part.name}.json") for part in parts.PARTS})
+        results = {part.name: Results(RESULTS / f"{part.name}.json") for part in parts.PARTS}
+        shown = blocks(results)
         for document in (REPOSITORY / name for name in DOCUMENTS):
             text = document.read_text(encoding="utf-8")
             self.assertEqual(filled(text, "benchmark", shown), text, f"{document} is not what ./tools/benchmark --only '' prints")
+        self.assertEqual((REPOSITORY / PLOT).read_text(encoding="utf-8"), plot(results), f"{PLOT} is not what ./tools/benchmark --only '' draws")
 
 
 class Beside(unittest.TestCase):

@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tools/research"))
 
 from peers import main as tool  # noqa: E402
 from peers.drives import Drive, kitti_scan, roles  # noqa: E402
-from peers.hazards import Found, Scans, disturbance_rows, hazard_rows  # noqa: E402
+from peers.hazards import Found, Scans, counted, disturbance_rows, hazard_rows  # noqa: E402
 from peers.objects import NAMES, beside, rows  # noqa: E402
 from peers.programs import FROM_PACKETS, PASSES, Peer  # noqa: E402
 from peers.sources import PeerSource, Source, Unavailable, build, fetch  # noqa: E402
@@ -122,6 +122,7 @@ class Hazards(InAFolder):
         found = self.found((child, [40, 40] + 4 * [self.HAZARD]), (child, [self.HAZARD, 40]), (child, [40, self.HAZARD]))
         self.assertEqual(found.trials["child", "road", 5, 10], {"trials": 3, "found": 1, "unseen": 1})
         self.assertEqual(dict(hazard_rows([found])), {"child, road, 5 to 10 m (3)": ["33 / 33"]})
+        self.assertEqual(counted(["p"], [found]), [child | {"of": {"p": {"trials": 3, "found": 1, "unseen": 1}}}])
 
     def test_a_disturbance_is_scored_where_nothing_moved(self):
         found = self.found(({"what": "ghosts_1"}, [40, 40, 0, 10]), ({"what": ""}, [40, 10]))

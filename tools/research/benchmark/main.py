@@ -8,7 +8,7 @@
     ./tools/benchmark --only ''         # the documents anew, from what was measured
 
 Parts: sensors (`terracut bench` and `plan`), models (a row for every sensor, in docs/reference/sensors.md), instructions (./tools/instructions), live and outputs (./tools/live_trial), peers
-(./tools/beside_peer). Every figure goes into RESULTS/PART.json as soon as it is measured, so that a run which breaks off goes on
+and hazards (./tools/beside_peer; README's plot, too). Every figure goes into RESULTS/PART.json as soon as it is measured, so that a run which breaks off goes on
 where it was. Another program, machine, --beside or --quick begins a part anew, as does --anew. What there is no data, peer or
 package for is left out, and the page says why. With --results the tables are printed and no document changes. The program is
 build/release/terracut or $TERRACUT.
@@ -29,6 +29,8 @@ from whole_file import write_whole_file
 
 from .page import DOCUMENTS, blocks
 from .parts import PARTS, Failed, Setting, told
+from .plot import FILE as PLOT
+from .plot import plot
 from .results import Results
 
 REPOSITORY = Path(__file__).resolve().parents[3]
@@ -71,12 +73,14 @@ def measured_of(part, setting, note):
 
 
 def show(folder):
-    found = blocks({part.name: Results(folder / f"{part.name}.json") for part in PARTS})
+    results = {part.name: Results(folder / f"{part.name}.json") for part in PARTS}
+    found = blocks(results)
     if folder.resolve() != RESULTS.resolve():
         print("\n\n".join(f"{name}:\n" + "\n".join(lines) for name, lines in found.items()))
         return
     for document in (REPOSITORY / name for name in DOCUMENTS):
         write_whole_file(document, filled(document.read_text(encoding="utf-8"), "benchmark", found))
+    write_whole_file(REPOSITORY / PLOT, plot(results))
 
 
 def main(given):

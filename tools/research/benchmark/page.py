@@ -9,7 +9,7 @@ from tables import table
 
 from .parts import CASES, MODELS
 
-DOCUMENTS = ("README.md", *(f"docs/reference/{page}.md" for page in ("benchmark", "evaluation", "sensors")))
+DOCUMENTS = ("README.md", *(f"docs/reference/{page}.md" for page in ("benchmark", "sensors")))
 STAGE_ROWS = {
     "total": "**total**",
     "after_frame": "of it after the turn's last packet",
@@ -69,7 +69,7 @@ def stamp(results, known=""):
     beside = f", beside {of['beside']} in turn" if of.get("beside") else ""
     machine = "" if of["machine"] == known else f"{of['machine']}; "
     note = f"; {of['note']}" if of.get("note") else ""
-    text = (f"terracut {of['version']} ({of['commit']}, program {of['program']}){beside}; {machine}"
+    text = (f"terracut {of['version']} (program {of['program']}){beside}; {machine}"
             f"{min(figures['at'] for figures in rounds)} UTC; {of['way']}; load average {min(loads)} to {max(loads)}{note}.")  # fmt: skip
     left_out = {}
     for what, reason in results.left_out.items():
@@ -186,24 +186,43 @@ def peers_table(results):
                  [(name, [cell(told, name) for told in cases.values()]) for name in names])  # fmt: skip
 
 
+def segmenters(cases):
+    """{name: its key in the figures} of every program that makes labels, terracut first."""
+    keys = dict.fromkeys(key for told in cases.values() for key in told if key not in (*STAMPED, SEGMENTING, AFTER_FRAME))
+    return {"terracut" if key == FROM_PACKETS else key: key for key in sorted(keys, key=lambda key: key != FROM_PACKETS)}
+
+
+def hazards_found(results):
+    """{name: share of the hazards on the road that it finds}; empty if that was not measured."""
+    for told in results["hazards"].cases.get("road", [])[-1:]:
+        return {name: of["found"] / of["trials"] for name, of in told.items() if name not in STAMPED}
+    return {}
+
+
 def qualities_table(results):
-    """README's and evaluation.md's: how good each program is on each drive, and what a frame of the simulated street costs it."""
+    """README's: how good each program is on each drive, and what a frame of the simulated street costs it."""
     cases = {name: rounds[-1] for name, rounds in results["peers"].cases.items()}
     if TIMED not in cases:
         return []
-    names = dict.fromkeys(name for told in cases.values() for name in told if name not in (*STAMPED, SEGMENTING, AFTER_FRAME))
     # Drives that nothing was tuned on come first.
     titles = {name: f"{name}, tuned on" if name == TUNED else name for name in sorted(cases, key=lambda name: name == TUNED)}
 
     def quality(told):
         return " / ".join("-" if share is None else f"{100 * share:.1f}" for share in told["quality"]) if told else ""
 
-    rows = [("terracut" if name == FROM_PACKETS else name,
-             [*(quality(cases[case].get(name)) for case in titles), f"{cases[TIMED][name]['ms'][0]:.2f}" if name in cases[TIMED] else ""])
-            for name in names]  # fmt: skip
-    left_out = ", ".join(results["peers"].left_out)
-    return [*table("IoU_g / Recall_o, %", [*titles.values(), f"ms a frame, {TIMED}"], rows),
-            *(["", f"Not built for this measurement: {left_out}."] if left_out else [])]  # fmt: skip
+    found = hazards_found(results)
+
+    def rest(name, key):
+        if found:
+            yield f"{100 * found[name]:.0f}" if name in found else ""
+        yield f"{cases[TIMED][key]['ms'][0]:.2f}" if key in cases[TIMED] else ""
+
+    rows = [(name, [*(quality(cases[case].get(key)) for case in titles), *rest(name, key)]) for name, key in segmenters(cases).items()]
+    missing = [] if found else ["What others find of hazards is not measured."]
+    if left_out := ", ".join(results["peers"].left_out):
+        missing.append(f"Not built for this measurement: {left_out}.")
+    return [*table("IoU_g / Recall_o, %", [*titles.values(), *(["hazards on the road found, %"] if found else []), f"ms a frame, {TIMED}"], rows),
+            *(["", " ".join(missing)] if missing else [])]  # fmt: skip
 
 
 def frame_text(results):

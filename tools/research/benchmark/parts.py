@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from measures.columns import HAZARD_SEED
 from peers.main import SCENES, percentile
 from tables import mean
 from trial.program import MOUNT, Program
@@ -20,6 +21,9 @@ TOOLS = Path(__file__).resolve().parents[2]
 STAGES = ("decode", "elevation_map", "adjacent_points", "seeds", "min_cut", "labels", "total", "after_frame")
 LIVE_SENSORS = ("hdl64e", "ruby128", "vlp16")
 RECORDED = ("semantickitti", "semantickitti_more")
+# What is put before the peers: bodies, at places that nothing was chosen on.
+HAZARDS = ("lying_person", "sitting_person", "child", "animal", "box_20cm", "box_30cm", "tyre", "bollard", "pallet", "branch",
+           "tail_lift", "manhole", "kerb_stone")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -69,23 +73,23 @@ CASES = (
 DRIVE_S, COUNTED_S = 2, 0.3  # of a simulated drive; of one whose instructions are counted
 # Every sensor that is decoded, by its word: how it is called, and what its packets are proved on beside made ones.
 MODELS = {
-    "hdl64e": ("HDL-64E", "the S1: a real capture; S2 and S3: made ones"),
-    "ruby128": ("RS-Ruby128", "made ones"),
-    "vlp16": ("VLP-16", "two real captures, single and dual return"),
-    "hdl32e": ("HDL-32E", "a real capture"),
-    "vlp32c": ("VLP-32C", "a real capture of half its view"),
-    "vls128": ("VLS-128", "a real capture"),
-    "pandar40p": ("Pandar40P", "a real capture, dual return"),
-    "pandar64": ("Pandar64", "a real capture, dual return"),
-    "pandarqt64": ("PandarQT64", "a real capture, dual return"),
-    "pandarqt128": ("PandarQT128", "a real capture, dual return"),
-    "pandarxt16": ("PandarXT-16", "made ones"),
-    "pandarxt32": ("PandarXT-32", "a real capture, dual return"),
-    "pandarxt32m": ("PandarXT-32M", "made ones"),
-    "ot128": ("OT128", "made ones"),
-    "ouster32": ("Ouster, 32 rows", "made ones"),
-    "ouster64": ("Ouster, 64 rows", "a real capture, legacy profile"),
-    "ouster128": ("Ouster, 128 rows", "four real captures, RNG19, RNG15 and FUSA dual profiles"),
+    "hdl64e": ("HDL-64E", "S1: real; S2 and S3: made"),
+    "ruby128": ("RS-Ruby128", "made"),
+    "vlp16": ("VLP-16", "two real, single and dual return"),
+    "hdl32e": ("HDL-32E", "real"),
+    "vlp32c": ("VLP-32C", "real, half its view"),
+    "vls128": ("VLS-128", "real"),
+    "pandar40p": ("Pandar40P", "real, dual return"),
+    "pandar64": ("Pandar64", "real, dual return"),
+    "pandarqt64": ("PandarQT64", "real, dual return"),
+    "pandarqt128": ("PandarQT128", "real, dual return"),
+    "pandarxt16": ("PandarXT-16", "made"),
+    "pandarxt32": ("PandarXT-32", "real, dual return"),
+    "pandarxt32m": ("PandarXT-32M", "made"),
+    "ot128": ("OT128", "made"),
+    "ouster32": ("Ouster, 32 rows", "made"),
+    "ouster64": ("Ouster, 64 rows", "real, legacy profile"),
+    "ouster128": ("Ouster, 128 rows", "four real, RNG19, RNG15 and FUSA dual profiles"),
 }
 MODEL_S = 1  # of a drive of each of them
 
@@ -243,25 +247,35 @@ def outputs(setting, results):
         results.add("outputs", {"each": tables[0], "stalled": tables[1], "failed": failed})
 
 
-def peers(setting, results):
-    """./tools/beside_peer, a run for all recorded scans and one for each scene."""
+def recorded_roots(setting, results):
     roots = [setting.data / name for name in RECORDED if (setting.data / name).is_dir()]
-    cases = {"recorded": [*roots, "--scenes", ""]} if roots else {}
     if not roots:
         results.leave_out("recorded", f"there is no {setting.data / RECORDED[0]}")
+    return roots
+
+
+def beside_peer(setting, results, arguments):
+    """The report of ./tools/beside_peer. Peers that it leaves out are told to the results."""
+    report = setting.scratch / "peers.json"
+    ran = subprocess.run([str(part) for part in (
+        "env", f"TERRACUT={setting.program}", TOOLS / "beside_peer", *arguments, "--peers", setting.peers, "--json", report)],
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)  # fmt: skip
+    if ran.returncode != 0:
+        raise Failed(f"beside_peer: exit code {ran.returncode}\n{ran.stderr}")
+    for peer, reason in re.findall(r"^left out: (.*?): (.*)$", ran.stderr, re.MULTILINE):
+        results.leave_out(peer, reason.split(": ")[0])
+    return json.loads(report.read_text(encoding="utf-8"))
+
+
+def peers(setting, results):
+    """./tools/beside_peer, a run for all recorded scans and one for each scene."""
+    roots = recorded_roots(setting, results)
+    cases = {"recorded": [*roots, "--scenes", ""]} if roots else {}
     cases |= {scene: ["--scenes", scene, "--duration", 0.3 if setting.quick else 1] for scene in SCENES}
     for name, arguments in cases.items():
         if results.rounds(name):
             continue
-        report = setting.scratch / "peers.json"
-        ran = subprocess.run([str(part) for part in (
-            "env", f"TERRACUT={setting.program}", TOOLS / "beside_peer", *arguments, "--peers", setting.peers,
-            "--rounds", setting.rounds, "--json", report)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)  # fmt: skip
-        if ran.returncode != 0:
-            raise Failed(f"beside_peer: exit code {ran.returncode}\n{ran.stderr}")
-        for peer, reason in re.findall(r"^left out: (.*?): (.*)$", ran.stderr, re.MULTILINE):
-            results.leave_out(peer, reason.split(": ")[0])
-        results.add(name, of_peers(json.loads(report.read_text(encoding="utf-8"))))
+        results.add(name, of_peers(beside_peer(setting, results, [*arguments, "--rounds", setting.rounds])))
         print(f"peers: {name}", file=sys.stderr)
 
 
@@ -274,6 +288,20 @@ def of_peers(report):
         figures[name] = {"ms": [round(statistics.median(ms), 3), round(percentile(ms, 99), 3)],
                          "quality": [None if share is None else round(share, 4) for share in quality]}  # fmt: skip
     return figures
+
+
+def hazards(setting, results):
+    """./tools/beside_peer --hazards, on all recorded scans."""
+    roots = recorded_roots(setting, results)
+    if roots and not results.rounds("road"):
+        kinds = HAZARDS[:1] if setting.quick else HAZARDS
+        results.add("road", on_road(beside_peer(setting, results, [*roots, "--hazards", ",".join(kinds), "--seed", HAZARD_SEED])))
+
+
+def on_road(report):
+    """{program: how many of the hazards on the road it found, of how many}."""
+    trials = [trial["of"] for trial in report if trial["ground"] == "road"]
+    return {name: {key: sum(of[name].get(key, 0) for of in trials) for key in ("found", "trials")} for name in (trials[0] if trials else ())}
 
 
 @dataclass(frozen=True)
@@ -290,4 +318,5 @@ PARTS = (
     Part("live", live, lambda quick: "half a minute a sensor (--quick)" if quick else "3 minutes a sensor"),
     Part("outputs", outputs, lambda quick: "4 s a run, 1 round (--quick)" if quick else "20 s a run, 3 rounds"),
     Part("peers", peers, lambda quick: "1 round, scenes of 0.3 s (--quick)" if quick else "5 rounds, scenes of 1 s"),
+    Part("hazards", hazards, lambda quick: f"{HAZARDS[0]} alone (--quick)" if quick else "a trial of each kind for each ground, range and frame"),
 )

@@ -25,14 +25,14 @@ class Scans:
         return self.folder / "sequences" / scan["sequence"] / kind / f"{scan['scan']}.{ending}"
 
 
-def written(program, root, kinds, trials, scratch):
+def written(program, root, kinds, trials, seed, scratch):
     """Yields the scans of a SemanticKITTI root, frame after frame; the files of a frame are removed
     when the next one is asked for."""
     folder = scratch / "hazards"
     for sequence in sorted((root / "sequences").glob("*")):
         for number in range(len(list((sequence / "labels").glob("*.label")))):
             program.run("eval", "hazards", root, "--sequences", sequence.name, "--frames", number, "--trials", trials,
-                        "--jobs", 1, "--write", folder, *(["--kinds", kinds] if kinds else []), *MOUNT)  # fmt: skip
+                        "--seed", seed, "--jobs", 1, "--write", folder, *(["--kinds", kinds] if kinds else []), *MOUNT)  # fmt: skip
             yield Scans(folder)
             shutil.rmtree(folder)
 
@@ -68,10 +68,21 @@ class Found:
         shutil.rmtree(labels)
 
 
+def trials_of(founds):
+    """Yields (what, ground, from_m, to_m) of the trials, in order."""
+    yield from sorted({key for found in founds for key in found.trials})
+
+
+def counted(names, founds):
+    """Returns the trials and what each program found in them, for a file."""
+    return [dict(zip(("what", "ground", "from_m", "to_m"), key)) | {"of": {name: found.trials[key] for name, found in zip(names, founds)}}
+            for key in trials_of(founds)]  # fmt: skip
+
+
 def hazard_rows(founds):
     """Returns a row for each program, "found / no return called obstacle" in percent; the title has
     the number of trials."""
-    for key in sorted({key for found in founds for key in found.trials}):
+    for key in trials_of(founds):
         what, ground, from_m, to_m = key
         counts = [found.trials[key] for found in founds]
         title = f"{what}, {ground}, {from_m:.0f} to {to_m:.0f} m ({counts[0]['trials']})"

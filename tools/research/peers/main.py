@@ -40,7 +40,7 @@ from pathlib import Path
 
 from chosen_names import names_of
 from peers.drives import recorded, roles, simulated
-from peers.hazards import Found, disturbance_rows, hazard_rows, written
+from peers.hazards import Found, counted, disturbance_rows, hazard_rows, written
 from peers.objects import NAMES, beside, rows
 from peers.programs import FROM_PACKETS, Peer, Terracut
 from peers.sources import JUDGE, OBJECT_PEERS, PEERS, Unavailable, build
@@ -117,12 +117,13 @@ def arguments(given):
     parser.add_argument("--duration", type=float, default=1.0, metavar="S", help="of a simulated drive (default: 1)")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)))
-    parser.add_argument("--json", type=Path, help="file for every single time")
+    parser.add_argument("--json", type=Path, help="file for every single time, or for what was found of each hazard")
     parser.add_argument("--hazards", nargs="?", const="", metavar="KIND,...", help="what `terracut eval hazards` puts into "
                         "the scans of the roots (default: all kinds), found by each program")  # fmt: skip
     parser.add_argument("--objects", action="store_true", help="objects in the scans of the roots, found by each program")
     parser.add_argument("--judge", type=Path, metavar="PROGRAM", help="counts the entropies, beside our own count")
     parser.add_argument("--trials", type=int, default=1, help="of a kind for each ground, range and frame (default: 1)")
+    parser.add_argument("--seed", type=int, default=1, help="of the hazards' places (default: 1)")
     return parser.parse_args(given)
 
 
@@ -133,9 +134,12 @@ def beside_on_hazards(options):
     founds, role_of = [Found() for _ in programs], roles()
     with tempfile.TemporaryDirectory() as folder:
         for root in options.roots:
-            for scans in written(Terracut(options.core), root, options.hazards, options.trials, Path(folder)):
+            for scans in written(Terracut(options.core), root, options.hazards, options.trials, options.seed, Path(folder)):
                 for program, found in zip(programs, founds):
                     found.label(program, scans, Path(folder) / "labels", role_of)
+
+    if options.json:
+        write_whole_file(options.json, json.dumps(counted(names, founds), indent=1) + "\n")
 
     def cell(scores):
         return " / ".join(percent(mean(measures)) for measures in zip(*scores))

@@ -19,6 +19,8 @@ terracut_install(live terracut_pipeline)
 install(TARGETS terracut_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/pipeline/health/terracut_health.dbc
   DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/presets ${PROJECT_SOURCE_DIR}/tools/ros2
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut)
 
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/terracut-config.cmake.in

@@ -37,6 +37,7 @@ foreach(path
     ./usr/share/doc/terracut/examples/read_frames.py
     ./usr/share/doc/terracut/copyright
     ./usr/share/terracut/terracut_health.dbc
+    ./usr/share/terracut/grafana.json
     ./usr/share/terracut/presets/car.yaml
     ./usr/share/terracut/ros2/terracut_ros/package.xml
     ./usr/include/terracut/segmenter.hpp

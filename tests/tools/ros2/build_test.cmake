@@ -3,11 +3,6 @@
 # Builds and installs the ROS 2 package by itself, as colcon does, where ament_cmake is installed:
 # cmake -DPACKAGE=... -DPROGRAM=... -DFOLDER=... -P build_test.cmake
 cmake_minimum_required(VERSION 3.22)
-find_package(ament_cmake QUIET)
-if(NOT ament_cmake_FOUND)
-  message("skipped: ament_cmake is not installed")
-  return()
-endif()
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
 
@@ -17,8 +12,15 @@ function(run)
     message(FATAL_ERROR "${ARGN}: ${result}\n${text}")
   endif()
 endfunction()
-run(${CMAKE_COMMAND} -S ${PACKAGE} -B ${FOLDER}/build -DTERRACUT_PROGRAM=${PROGRAM}
-    -DCMAKE_INSTALL_PREFIX=${FOLDER}/install)
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${PACKAGE} -B ${FOLDER}/build
+    -DTERRACUT_PROGRAM=${PROGRAM} -DCMAKE_INSTALL_PREFIX=${FOLDER}/install
+  RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+if(text MATCHES "Could not find a package configuration file provided by \"ament_cmake\"")
+  message("skipped: ament_cmake is not installed")
+  return()
+elseif(NOT result EQUAL 0)
+  message(FATAL_ERROR "the package is not configured: ${text}")
+endif()
 run(${CMAKE_COMMAND} --build ${FOLDER}/build)
 run(${CMAKE_COMMAND} --install ${FOLDER}/build)
 

@@ -39,16 +39,19 @@ def manifest_faults(repository: Path, package: Path):
                 for what, (found, wanted) in expected.items() if found != wanted)
     if not re.fullmatch(r"[a-z][a-z0-9_]*", text["name"]):
         yield "package.xml: the name is not one of lower-case letters, digits and '_'"
-    if not text["description"].strip() or not manifest.find("maintainer").get("email"):
+    if not text["description"].strip() or not re.fullmatch(r"[\w.+-]+@[\w-]+(\.[\w-]+)+", manifest.find("maintainer").get("email")):
         yield "package.xml: no description, or no address of a maintainer"
     imported = set(re.findall(r"^(?:from|import) (launch\w*|ament_\w+)", launch_file(package).read_text(), re.MULTILINE))
     needed = {depend.text for depend in manifest.findall("exec_depend")}
     yield from (f"package.xml does not depend on {module}, which the launch file imports" for module in imported - needed)
     if importlib.util.find_spec("catkin_pkg"):
-        from catkin_pkg.package import parse_package
-        warnings = []
-        parse_package(str(package), warnings=warnings)
-        yield from (f"catkin_pkg says of package.xml: {warning}" for warning in warnings)
+        from catkin_pkg.package import InvalidPackage, parse_package
+        said = []
+        try:
+            parse_package(str(package), warnings=said)
+        except InvalidPackage as error:
+            said.append(error)
+        yield from (f"catkin_pkg says of package.xml: {what}" for what in said)
 
 
 def launch_file(package: Path) -> Path:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""The ROS 2 package holds together without ROS: manifest, launch file, layouts and topics.
+"""The ROS 2 package holds together without ROS: manifest, launch file, layouts and topics, and the guide beside it.
 
 package_test.py REPOSITORY
 
@@ -130,6 +130,27 @@ def topic_faults(repository: Path, package: Path):
         yield f"nav2/costmap.yaml reads {sorted(read)}, the preset writes {sorted(preset_topics(repository, 'kNav2'))}"
 
 
+def guide_faults(repository: Path):
+    """The guide for users of scan_ground_filter names parameters and keys that there are, with their defaults."""
+    page = (repository / "docs/guide/scan_ground_filter.md").read_text()
+    reference = (repository / "docs/reference/parameters.md").read_text()
+    defaults = {row[0]: row[3] for row in rows_of(reference)} | {row[0]: row[3] for row in rows_of(
+        (repository / "docs/reference/configuration.md").read_text())}
+    sections = {key.split(".")[0] for key in defaults}
+    named = set(re.findall(r"`(\w+\.\w+)`", page)) | set(re.findall(r"--set (\S+)=", page))
+    yield from (f"scan_ground_filter.md names {key}, which there is not" for key in named
+                if key.split(".")[0] in sections and key not in defaults)
+    for row in rows_of(page):
+        for key, default in zip(re.findall(r"`(\w+\.\w+)`", row[2]), re.findall(r"[\d.]+", row[3])):
+            if defaults.get(key) != default:
+                yield f"scan_ground_filter.md says {default} of {key}, whose default is {defaults.get(key)}"
+
+
+def rows_of(text: str) -> list[list[str]]:
+    rows = [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in text.splitlines() if line.startswith("|")]
+    return [[row[0].strip("`"), *row[1:]] for row in rows if len(row) >= 4]
+
+
 def yaml_faults(package: Path):
     if not importlib.util.find_spec("yaml"):
         return
@@ -145,7 +166,7 @@ def main() -> int:
     repository = Path(sys.argv[1])
     package = repository / "tools/ros2/terracut_ros"
     faults = [*manifest_faults(repository, package), *launch_faults(package), *topic_faults(repository, package),
-              *yaml_faults(package)]
+              *guide_faults(repository), *yaml_faults(package)]
     print("\n".join(faults) or "the package holds together")
     return 1 if faults else 0
 

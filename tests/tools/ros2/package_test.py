@@ -18,7 +18,7 @@ import xml.etree.ElementTree as xml
 from pathlib import Path
 from unittest import mock
 
-LAUNCH = ("launch", "launch.actions", "launch.conditions", "launch.substitutions", "launch_ros", "launch_ros.actions",
+LAUNCH = ("ament_index_python", "launch", "launch.actions", "launch.conditions", "launch.substitutions", "launch_ros", "launch_ros.actions",
           "launch_ros.substitutions")
 
 
@@ -73,6 +73,8 @@ def description_of(package: Path):
     for name in LAUNCH:
         modules[name] = types.ModuleType(name)
         modules[name].__getattr__ = lambda kind: lambda *parts, **named: Part(kind, *parts, **named)
+    modules["ament_index_python.packages"] = types.SimpleNamespace(
+        get_package_prefix=lambda name: str(package), get_package_share_directory=lambda name: str(package))
     with mock.patch.dict(sys.modules, modules):
         spec = importlib.util.spec_from_file_location("launch_file", launch_file(package))
         module = importlib.util.module_from_spec(spec)
@@ -85,12 +87,16 @@ def launch_faults(package: Path):
     arguments = {part.parts[0]: part.named for part in entities if part.kind == "DeclareLaunchArgument"}
     starts = next(part for part in entities if part.kind == "OpaqueFunction").named["function"]
     for command in arguments["command"]["choices"]:
-        context = {"program": "terracut", "config": "/a b/node.yaml", "command": command,
-                   "options": "--in '/points raw' --heights"}
-        started = [part.named["cmd"] for part in starts(context)]
-        expected = [["terracut", "--config", "/a b/node.yaml", command, "--in", "/points raw", "--heights"]]
-        if started != expected:
-            yield f"the launch file starts {started}, expected is {expected}"
+        own = package / "config" / f"{command}.yaml"
+        if not own.is_file():
+            yield f"the package has no {own.name}, which the launch file takes by itself"
+        for config, taken in (("/a b/my.yaml", "/a b/my.yaml"), ("", str(own))):
+            context = {"program": "", "config": config, "command": command,
+                       "options": "--in '/points raw' --heights"}
+            started = [part.named["cmd"] for part in starts(context)]
+            expected = [["terracut", "--config", taken, command, "--in", "/points raw", "--heights"]]
+            if started != expected:
+                yield f"the launch file starts {started}, expected is {expected}"
     words = [argument["default_value"] for argument in arguments.values()]
     words += [word for part in entities if part.kind == "Node" for word in part.named["arguments"]]
     for word in words:

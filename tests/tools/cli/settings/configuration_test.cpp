@@ -69,7 +69,7 @@ TEST(ConfigurationFile, EveryPresetIsAcceptedAndChangesSomething) {
       ++presets;
     }
   }
-  EXPECT_GE(presets, 5);
+  EXPECT_GE(presets, 8);
 }
 
 TEST(ConfigurationFile, DefaultFileChangesNothing) {

@@ -3,7 +3,6 @@
 #include "transform_reader.hpp"
 
 #include <array>
-#include <memory>
 #include <span>
 
 #include "ros_types.h"
@@ -24,18 +23,9 @@ void add(const tf2_msgs_msg_dds__TFMessage_& message, bag::TransformTree& tree) 
 Expected<TransformReader> TransformReader::open(const Participant& participant,
                                                 const std::string& topic) {
   constexpr int kKept = 100;  // as tf2's own listener keeps
-  Entity named(dds_create_topic(participant.id(), &tf2_msgs_msg_dds__TFMessage__desc, topic.c_str(),
-                                nullptr, nullptr));
-  if (named.id() < 0) return refused(ErrorCode::kInvalidArgument, "topic " + topic, named.id());
-  const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), dds_delete_qos);
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
-  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kKept);
-  Entity reader(dds_create_reader(participant.id(), named.id(), qos.get(), nullptr));
-  if (reader.id() < 0) {
-    return refused(ErrorCode::kInvalidArgument, "a reader of " + topic, reader.id());
-  }
-  return TransformReader(std::move(named), std::move(reader));
+  return TopicReader::open(participant, topic, kTfMessage,
+                           {.reliable = true, .depth = kKept, .latched = true})
+      .map([](TopicReader&& reader) { return TransformReader(std::move(reader)); });
 }
 
 const bag::TransformTree& TransformReader::tree() {

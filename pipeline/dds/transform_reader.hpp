@@ -3,10 +3,12 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "firmware_io/bag/transform_tree.hpp"
 #include "participant.hpp"
 #include "rt/error.hpp"
+#include "topic_reader.hpp"
 
 namespace terracut::dds {
 
@@ -21,11 +23,9 @@ class TransformReader {
   [[nodiscard]] const bag::TransformTree& tree();
 
  private:
-  TransformReader(Entity topic, Entity reader) noexcept
-      : topic_(std::move(topic)), reader_(std::move(reader)) {}
+  explicit TransformReader(TopicReader reader) noexcept : reader_(std::move(reader)) {}
 
-  Entity topic_;
-  Entity reader_;  ///< Declared after its topic, so that it is deleted first.
+  TopicReader reader_;
   bag::TransformTree tree_;
 };
 

@@ -28,7 +28,7 @@ constexpr std::chrono::seconds kPatience{1};
 CloudNode::CloudNode(const Options& options, dds::CloudReader reader,
                      dds::TransformReader transforms, NodeAnswers answers, NodeNews& news)
     : news_(news),
-      base_frame_(options.mount.base_frame),
+      base_frame_(bag::frame_name(options.mount.base_frame)),
       answer_frame_(bag::frame_name(options.output.dds.frame)),
       transforms_(std::move(transforms)),
       reader_(std::move(reader)),

@@ -16,7 +16,7 @@ namespace {
 
 using mount::RigidTransform;
 
-/// A hostile bag names no more frames than this.
+/// A hostile bag or node names no more frames than this.
 constexpr std::size_t kMostFrames = 1000;
 constexpr RigidTransform kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
@@ -71,6 +71,14 @@ void TransformTree::add(std::span<const std::byte> message) {
       known->second.is_certain = false;
     }
   }
+}
+
+void TransformTree::set(std::string_view parent, std::string_view child,
+                        const std::array<double, 3>& translation,
+                        const std::array<double, 4>& rotation_xyzw) {
+  const auto T = transform_of(translation, rotation_xyzw);
+  if (!T || parents_.size() == kMostFrames) return;
+  parents_.insert_or_assign(frame_name(child), Parent{frame_name(parent), *T});
 }
 
 std::vector<std::string> TransformTree::frames() const {

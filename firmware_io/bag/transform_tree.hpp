@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -23,6 +24,9 @@ class TransformTree {
   /// Adds the transforms of a message, up to a fault in it. Transforms that are none (not finite)
   /// are left out; those of a frame that had another one count no more, neither of the two.
   void add(std::span<const std::byte> message);
+  /// Sets the pose of `child` in `parent`, in place of an earlier one; nothing if it is not finite.
+  void set(std::string_view parent, std::string_view child,
+           const std::array<double, 3>& translation, const std::array<double, 4>& rotation_xyzw);
 
   [[nodiscard]] bool is_empty() const noexcept { return parents_.empty(); }
   /// Returns the names of all frames, sorted.

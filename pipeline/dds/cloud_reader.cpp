@@ -3,7 +3,6 @@
 #include "cloud_reader.hpp"
 
 #include <array>
-#include <memory>
 
 namespace terracut::dds {
 namespace {
@@ -11,30 +10,20 @@ namespace {
 /// The number of clouds kept for the taking thread; fewer arrive while it does not run.
 constexpr int kKeptClouds = 16;
 
-using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
-
 }  // namespace
 
 Expected<CloudReader> CloudReader::open(const Participant& participant, const std::string& topic,
                                         bool reliable) {
-  Entity named(dds_create_topic(participant.id(), &sensor_msgs_msg_dds__PointCloud2__desc,
-                                topic.c_str(), nullptr, nullptr));
-  if (named.id() < 0) return refused(ErrorCode::kInvalidArgument, "topic " + topic, named.id());
-  const Qos qos(dds_create_qos(), dds_delete_qos);
-  dds_qset_reliability(qos.get(), reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
-                       0);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kKeptClouds);
-  Entity reader(dds_create_reader(participant.id(), named.id(), qos.get(), nullptr));
-  if (reader.id() < 0) {
-    return refused(ErrorCode::kInvalidArgument, "a reader of " + topic, reader.id());
-  }
+  auto reader = TopicReader::open(participant, topic, kPointCloud2,
+                                  {.reliable = reliable, .depth = kKeptClouds});
+  if (!reader) return tl::unexpected(reader.error());
   // The condition belongs to the reader and is deleted with it.
-  const dds_entity_t has_clouds = dds_create_readcondition(reader.id(), DDS_ANY_STATE);
+  const dds_entity_t has_clouds = dds_create_readcondition(reader->id(), DDS_ANY_STATE);
   Entity waiting(dds_create_waitset(participant.id()));
   if (const dds_return_t added = dds_waitset_attach(waiting.id(), has_clouds, 0); added < 0) {
     return refused(ErrorCode::kInvalidArgument, "waiting for " + topic, added);
   }
-  return CloudReader(std::move(named), std::move(reader), std::move(waiting));
+  return CloudReader(*std::move(reader), std::move(waiting));
 }
 
 void CloudReader::wait(std::int64_t timeout_ns) {

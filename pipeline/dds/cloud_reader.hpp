@@ -10,6 +10,7 @@
 #include "participant.hpp"
 #include "ros_types.h"
 #include "rt/error.hpp"
+#include "topic_reader.hpp"
 
 namespace terracut::dds {
 
@@ -35,11 +36,10 @@ class CloudReader {
   [[nodiscard]] std::uint32_t writers() const;
 
  private:
-  CloudReader(Entity topic, Entity reader, Entity waiting) noexcept
-      : topic_(std::move(topic)), reader_(std::move(reader)), waiting_(std::move(waiting)) {}
+  CloudReader(TopicReader reader, Entity waiting) noexcept
+      : reader_(std::move(reader)), waiting_(std::move(waiting)) {}
 
-  Entity topic_;
-  Entity reader_;   ///< Declared after its topic, so that it is deleted first.
+  TopicReader reader_;
   Entity waiting_;  ///< Wakes wait() when the reader has a cloud.
 };
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -27,6 +28,14 @@ Expected<int> domain_of(const Participant::Config& config) {
   if (number && *number >= 0 && *number <= kMostDomain) return *number;
   return fail(ErrorCode::kInvalidArgument,
               fmt::format("ROS_DOMAIN_ID is '{}'; expected 0 to {}", named, kMostDomain));
+}
+
+/// Writes what Cyclone says to stderr, as Cyclone does itself; leaves out its remark about
+/// loopback, on which the machine's participants find each other without multicast.
+void pass_on(void* /*unused*/, const dds_log_data_t* said) {
+  constexpr std::string_view kRemark = "selected interface \"lo\" is not multicast-capable";
+  if (std::string_view(said->message, said->size).starts_with(kRemark)) return;
+  (void)std::fwrite(said->message - said->hdrsize, 1, said->hdrsize + said->size + 1, stderr);
 }
 
 /// Returns the configuration for Cyclone: our part, a comma, then the user's part, which overrides
@@ -65,6 +74,7 @@ Expected<Participant> Participant::open(const Config& config) {
   const auto number = domain_of(config);
   if (!number) return tl::unexpected(number.error());
   const auto domain_id = static_cast<dds_domainid_t>(*number);
+  dds_set_log_sink(pass_on, nullptr);
   Entity domain(dds_create_domain(domain_id, configuration(config).c_str()));
   if (domain.id() < 0) {
     return refused(ErrorCode::kInvalidArgument,

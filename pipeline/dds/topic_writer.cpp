@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "ros_types.h"
 
 namespace terracut::dds {
@@ -38,10 +36,6 @@ const MessageType kFloat64Stamped{
     &autoware_internal_debug_msgs_msg_dds__Float64Stamped__desc,
     "RIHS01_588b194ed7eddc089b6ca098eb093e92f29bdad96ebd906fc9282816335942eb"};
 
-namespace {
-
-using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
-
 Qos qos_of(const MessageType& type, const Quality& quality) {
   Qos qos(dds_create_qos(), dds_delete_qos);
   dds_qset_reliability(qos.get(),
@@ -56,8 +50,6 @@ Qos qos_of(const MessageType& type, const Quality& quality) {
   }
   return qos;
 }
-
-}  // namespace
 
 Expected<TopicWriter> TopicWriter::open(const Participant& participant, const std::string& topic,
                                         const MessageType& type, const Quality& quality) {

@@ -5,6 +5,7 @@
 #include <dds/dds.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "participant.hpp"
@@ -21,13 +22,16 @@ struct MessageType {
 extern const MessageType kPointCloud2, kDiagnosticArray, kTfMessage, kDetection3DArray,
     kMarkerArray, kLaserScan, kPolygonStamped, kOccupancyGrid, kFloat64Stamped;
 
-/// The quality of service that a writer offers. Reliable and volatile suits ROS 2 readers with
-/// either usual profile, SensorDataQoS or the default.
+/// The quality of service that a writer offers, or a reader asks for. Of writers reliable and
+/// volatile suits ROS 2 readers with either usual profile, SensorDataQoS or the default.
 struct Quality {
   bool reliable = true;
-  int depth = 5;         ///< Messages kept for readers that have not acknowledged them.
+  int depth = 5;         ///< Messages kept for readers that have not acknowledged or taken them.
   bool latched = false;  ///< TRANSIENT_LOCAL: later readers get the last `depth` messages.
 };
+
+using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+[[nodiscard]] Qos qos_of(const MessageType& type, const Quality& quality);
 
 /// Writes messages of one topic. Only one thread may use it at a time.
 class TopicWriter {

@@ -54,6 +54,9 @@ struct MountOptions {
   std::filesystem::path setup;
   std::optional<double> height_m, roll_deg, pitch_deg;  ///< Override the setup's figures.
   bool may_guess = false;  ///< Assume a level mount at 1.73 m if the ground shows nothing better.
+  /// Frame on the ground, above which /tf_static states the mount; empty: any of
+  /// input/tree_mount.hpp; "off": none.
+  std::string base_frame;
 };
 
 enum class Profile : std::uint8_t { kPaper, kTerracut };
@@ -88,6 +91,7 @@ struct DdsOptions {
   std::string node = "terracut";
   std::string in = "/points_raw";  ///< Clouds to be labelled.
   bool in_reliable = false;
+  std::string frame;  ///< Frame of the answers; empty: that of their clouds.
   DdsPreset preset = DdsPreset::kRos;
   std::string points, ground, obstacles, road;  ///< Topics; empty: the preset's; "off": none.
   std::string diagnostics = "/diagnostics";     ///< Topic; "off": none.

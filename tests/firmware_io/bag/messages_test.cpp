@@ -106,6 +106,16 @@ TEST(TransformTree, TakesNoTransformThatContradictsAnother) {
   EXPECT_FALSE(tree.transform("b", "a"));
 }
 
+TEST(TransformTree, KeepsTheNewestThatIsSetAndNoneThatIsNotFinite) {
+  TransformTree tree;
+  tree.set("a", "/b", {0, 0, 1}, {0, 0, 0, 1});
+  tree.set("a", "b", {0, 0, 2}, {0, 0, 0, 2});
+  tree.set("a", "b", {0, 0, 3}, {0, 0, 0, 0});
+  const auto T = tree.transform("b", "a");
+  ASSERT_TRUE(T);
+  EXPECT_EQ((*T)[11], 2);
+}
+
 TEST(TransformTree, FollowsNoCircle) {
   TransformTree tree;
   tree.add(transform('a', 'b', {1, 0, 2, 0, 0, 0, 1}));

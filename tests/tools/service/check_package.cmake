@@ -37,6 +37,9 @@ foreach(path
     ./usr/share/doc/terracut/examples/read_frames.py
     ./usr/share/doc/terracut/copyright
     ./usr/share/terracut/terracut_health.dbc
+    ./usr/share/terracut/grafana.json
+    ./usr/share/terracut/presets/car.yaml
+    ./usr/share/terracut/ros2/terracut_ros/package.xml
     ./usr/include/terracut/segmenter.hpp
     libterracut_pipeline.a
     terracut/terracut-config.cmake)

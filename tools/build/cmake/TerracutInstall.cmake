@@ -18,6 +18,9 @@ terracut_install(live terracut_pipeline)
 
 install(TARGETS terracut_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/pipeline/health/terracut_health.dbc
+  ${PROJECT_SOURCE_DIR}/tools/build/service/grafana.json
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/presets ${PROJECT_SOURCE_DIR}/tools/ros2
   DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut)
 
 configure_package_config_file(

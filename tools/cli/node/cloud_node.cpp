@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "cloud_node.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -23,9 +25,12 @@ constexpr std::chrono::seconds kPatience{1};
 
 }  // namespace
 
-CloudNode::CloudNode(const Options& options, dds::CloudReader reader, NodeAnswers answers,
-                     NodeNews& news)
+CloudNode::CloudNode(const Options& options, dds::CloudReader reader,
+                     dds::TransformReader transforms, NodeAnswers answers, NodeNews& news)
     : news_(news),
+      base_frame_(bag::frame_name(options.mount.base_frame)),
+      answer_frame_(bag::frame_name(options.output.dds.frame)),
+      transforms_(std::move(transforms)),
       reader_(std::move(reader)),
       answers_(std::move(answers)),
       labeller_(options),
@@ -91,7 +96,7 @@ void CloudNode::label_clouds() {
       news_.add(job->record);
       continue;
     }
-    if (!read(*job->cloud)) continue;
+    if (!read(*job->cloud) || !place(*job)) continue;
     if (labeller_.is_ready()) {
       label(*std::move(job));
     } else {
@@ -113,7 +118,32 @@ bool CloudNode::read(const dds::RosCloud& cloud) {
   return false;
 }
 
+bool CloudNode::place(Job& job) {
+  if (answer_frame_.empty()) return true;
+  const std::string frame = bag::frame_name(job.cloud->header.frame_id);
+  if (dds::MovedCloud::can_move(*job.cloud)) {
+    job.T_answer_cloud = transforms_.tree().transform(frame, answer_frame_);
+  }
+  if (job.T_answer_cloud) return true;
+  news_.count(NoAnswer::kNoTransform);
+  say_once(
+      fmt::format("clouds are refused: /tf_static does not join their frame '{:.100}' with '{}'",
+                  frame, answer_frame_));
+  return false;
+}
+
+void CloudNode::look_for_mount(const dds::RosCloud& cloud) {
+  if (base_frame_ == "off" || !labeller_.is_mount_open()) return;
+  const std::string frame = bag::frame_name(cloud.header.frame_id);
+  if (is_vehicle_frame(frame)) return;
+  const auto found = mount_in(transforms_.tree(), frame, base_frame_, "/tf_static");
+  if (!found) return;
+  if (is_new(found->note)) say(found->note);
+  if (found->mount) labeller_.state_mount(*found->mount);
+}
+
 void CloudNode::learn_from(Job job) {
+  look_for_mount(*job.cloud);
   first_clouds_.push_back(std::move(job));
   if (labeller_.learn_from_cloud()) set_up();
 }
@@ -153,11 +183,15 @@ void CloudNode::refuse_rows(const Error& error) {
 }
 
 void CloudNode::say_once(const std::string& what) {
+  if (is_new(what)) warn(what + " (counted from now on, as losses)");
+}
+
+bool CloudNode::is_new(const std::string& text) {
   // Messages contain numbers, so there is no limit to their kinds.
   constexpr std::size_t kMostKinds = 16;
-  if (said_.size() >= kMostKinds || std::ranges::count(said_, what) > 0) return;
-  said_.push_back(what);
-  warn(what + " (counted from now on, as losses)");
+  if (said_.size() >= kMostKinds || std::ranges::count(said_, text) > 0) return false;
+  said_.push_back(text);
+  return true;
 }
 
 void CloudNode::write_answers() {
@@ -170,7 +204,10 @@ void CloudNode::write_answers() {
     const auto since = [&](std::int64_t then_ns) {
       return then_ns == 0 ? 0.0 : measure::milliseconds(record.labels_ns - then_ns);
     };
-    const Status written = answers_.write(*job->cloud, job->labels, job->heights_m,
+    const dds::RosCloud& cloud = job->T_answer_cloud
+                                     ? moved_.move(*job->cloud, *job->T_answer_cloud, answer_frame_)
+                                     : *job->cloud;
+    const Status written = answers_.write(cloud, job->labels, job->heights_m,
                                           {since(record.closing_packet_ns), since(before_ns)});
     before_ns = record.labels_ns;
     if (written) continue;

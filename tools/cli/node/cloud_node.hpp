@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "node_labeller.hpp"
 #include "node_news.hpp"
 #include "node_topics.hpp"
+#include "pipeline/dds/moved_cloud.hpp"
+#include "pipeline/dds/transform_reader.hpp"
 #include "rt/queues/bounded_queue.hpp"
 #include "stamp_gaps.hpp"
 
@@ -25,7 +28,8 @@ namespace terracut::cli {
 /// the newest answer is left out. Both are counted.
 class CloudNode {
  public:
-  CloudNode(const Options& options, dds::CloudReader reader, NodeAnswers answers, NodeNews& news);
+  CloudNode(const Options& options, dds::CloudReader reader, dds::TransformReader transforms,
+            NodeAnswers answers, NodeNews& news);
   ~CloudNode();
 
   /// Returns how many clouds are lost: as reported by DDS or as gaps in stamps show, whichever is
@@ -39,7 +43,8 @@ class CloudNode {
     dds::TakenCloud cloud;
     status::FrameRecord record;
     std::vector<frame::Label> labels;
-    std::vector<float> heights_m{};  ///< Empty unless asked for.
+    std::vector<float> heights_m{};                         ///< Empty unless asked for.
+    std::optional<mount::RigidTransform> T_answer_cloud{};  ///< Empty: answers stay in its frame.
   };
 
   void end();
@@ -50,6 +55,10 @@ class CloudNode {
 
   /// Returns false if the cloud is refused, which is then counted.
   [[nodiscard]] bool read(const dds::RosCloud& cloud);
+  /// Looks up where the answers to a cloud lie. Returns false if it is refused, as read() does.
+  [[nodiscard]] bool place(Job& job);
+  /// Takes figures of the mount that are not stated from transforms.
+  void look_for_mount(const dds::RosCloud& cloud);
   /// Keeps a first cloud for learning. It is answered, without deadline, once rows and mount are
   /// known.
   void learn_from(Job job);
@@ -57,10 +66,15 @@ class CloudNode {
   void label(Job job);
   void refuse_rows(const Error& error);
   void say_once(const std::string& what);
+  /// True if it was not asked of this text before.
+  [[nodiscard]] bool is_new(const std::string& text);
 
   NodeNews& news_;
-  dds::CloudReader reader_;  ///< Declared before queues of clouds in its memory.
+  std::string base_frame_, answer_frame_;
+  dds::TransformReader transforms_;  ///< For the labelling thread.
+  dds::CloudReader reader_;          ///< Declared before queues of clouds in its memory.
   NodeAnswers answers_;
+  dds::MovedCloud moved_;  ///< For the writing thread.
   NodeLabeller labeller_;
   std::vector<PointField> fields_;
   std::vector<Job> first_clouds_;

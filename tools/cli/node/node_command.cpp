@@ -32,6 +32,8 @@ ExitCode run_node(const Options& options) {
   auto reader =
       dds::CloudReader::open(*participant, dds_topic_of(topics.in, topics), topics.in_reliable);
   if (!reader) return refuse(reader.error());
+  auto transforms = dds::TransformReader::open(*participant, dds_topic_of("/tf_static", topics));
+  if (!transforms) return refuse(transforms.error());
   auto answers = NodeAnswers::open(*participant, options);
   if (!answers) return refuse(answers.error());
   auto diagnostics =
@@ -44,7 +46,8 @@ ExitCode run_node(const Options& options) {
   NodeWatch watch(options, fmt::format("{} (DDS domain {})", topics.in, participant->domain()),
                   news);
   {
-    const CloudNode node(options, *std::move(reader), *std::move(answers), news);
+    const CloudNode node(options, *std::move(reader), *std::move(transforms), *std::move(answers),
+                         news);
     const auto started = std::chrono::steady_clock::now();
     const auto is_over = [&] {
       return options.capture.duration_s &&

@@ -23,6 +23,7 @@ using measure::SystemClock;
 
 NodeLabeller::NodeLabeller(const Options& options)
     : options_(options),
+      stated_(options.mount),
       deadline_ns_(static_cast<std::int64_t>(options.deadline_ms * 1e6)),
       degradation_(deadline_ns_) {}
 
@@ -32,7 +33,7 @@ bool NodeLabeller::has_places() const noexcept {
 
 bool NodeLabeller::learn_from_cloud() {
   kept_.push_back(cloud_);
-  return kept_.size() >= (is_mount_open(options_.mount) ? mount::kFramesToFind : 1);
+  return kept_.size() >= (is_mount_open() ? mount::kFramesToFind : 1);
 }
 
 Status NodeLabeller::set_up() {
@@ -46,9 +47,9 @@ Status NodeLabeller::set_up() {
                   beams::rad_to_deg(table.back().elevation_rad),
                   beams::rad_to_deg(table.front().elevation_rad), rows->columns));
   if (const std::string doubt = cloud::doubt_of(*rows); !doubt.empty()) warn(doubt);
-  MountChoice choice{.options = options_.mount};
-  if (is_mount_open(options_.mount)) {
-    choice = *choose_mount(guessing(options_.mount), mount_search(clouds, *rows).finder());
+  MountChoice choice{.options = stated_};
+  if (is_mount_open()) {
+    choice = *choose_mount(guessing(stated_), mount_search(clouds, *rows).finder());
   }
   const auto profile = ring_profile_of(table, choice.options);
   if (!profile) return tl::unexpected(profile.error());

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "degradation_policy.hpp"
@@ -16,6 +17,7 @@
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/mount_watch.hpp"
+#include "tools/cli/input/tree_mount.hpp"
 #include "tools/cli/options.hpp"
 
 namespace terracut::cli {
@@ -32,6 +34,11 @@ class NodeLabeller {
   }
   /// True if the cloud read last has a point with valid coordinates.
   [[nodiscard]] bool has_places() const noexcept;
+
+  /// True if a figure of the mount is not stated, so that set_up() will look for it.
+  [[nodiscard]] bool is_mount_open() const noexcept { return cli::is_mount_open(stated_); }
+  /// States the figures that are not stated yet, in time for set_up().
+  void state_mount(const mount::Mount& mount) { stated_ = filled_in(std::move(stated_), mount); }
 
   /// True if rows and mount are known, which label() requires.
   [[nodiscard]] bool is_ready() const noexcept { return pipeline_.has_value(); }
@@ -71,6 +78,7 @@ class NodeLabeller {
                                                         const cloud::SensorRows& rows);
 
   const Options& options_;
+  MountOptions stated_;
   std::int64_t deadline_ns_;
   cloud::Cloud cloud_;
   std::vector<cloud::Cloud> kept_;

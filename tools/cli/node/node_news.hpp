@@ -11,20 +11,21 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/api/point_buffer.hpp"
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/mount_figures.hpp"
 #include "pipeline/status/named_count.hpp"
-#include "pipeline/api/point_buffer.hpp"
 
 namespace terracut::cli {
 
 /// Why a cloud has no answer, beyond the reasons of BufferFault.
 enum class NoAnswer : std::uint8_t {
-  kNoPlace,     ///< No point has a valid position: NaN, null, beyond 10 km.
-  kNoRows,      ///< No field tells lasers apart as in the first clouds.
-  kPushedOut,   ///< Newer clouds came before this one was processed.
-  kUnanswered,  ///< Labelled, but earlier answers were still being written.
-  kUnwritten,   ///< DDS refused an answer.
+  kNoPlace,      ///< No point has a valid position: NaN, null, beyond 10 km.
+  kNoRows,       ///< No field tells lasers apart as in the first clouds.
+  kNoTransform,  ///< Transforms do not join its frame with that of the answers.
+  kPushedOut,    ///< Newer clouds came before this one was processed.
+  kUnanswered,   ///< Labelled, but earlier answers were still being written.
+  kUnwritten,    ///< DDS refused an answer.
   kCount,
 };
 
@@ -62,8 +63,8 @@ class NodeNews {
   };
   [[nodiscard]] State look() {
     constexpr std::array<std::string_view, static_cast<std::size_t>(NoAnswer::kCount)> kNames{
-        "refused_clouds_no_place", "refused_clouds_no_rows", "pushed_out_clouds",
-        "unanswered_clouds", "unwritten_answers"};
+        "refused_clouds_no_place", "refused_clouds_no_rows", "refused_clouds_no_transform",
+        "pushed_out_clouds",       "unanswered_clouds",      "unwritten_answers"};
     const std::scoped_lock lock(mutex_);
     State state{clouds_, last_cloud_ns_, sensor_, mount_, std::exchange(records_, {}), {}};
     for (std::size_t i = 0; i < counts_.size(); ++i) {

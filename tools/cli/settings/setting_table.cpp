@@ -173,6 +173,8 @@ constexpr std::array kSettings{
             .least = -90, .most = 90, .field = [](O& o) -> F { return &o.mount.pitch_deg; }},
     Setting{.key = "mount.guess", .option = "--mount-guess", .commands = kGuessing, .help = "Go on as if the sensor stood level at 1.73 m where the ground does not show its mount, instead of ending with exit code 10",
             .bare = "yes", .field = [](O& o) -> F { return &o.mount.may_guess; }},
+    Setting{.key = "mount.base_frame", .option = "--base-frame", .commands = C::kNode, .help = "Frame on the ground, above which /tf_static states figures of the mount that are not stated here; off: none (default: base_footprint, else base_link)",
+            .field = [](O& o) -> F { return &o.mount.base_frame; }},
 
     Setting{.key = "method.profile", .option = "--profile", .commands = kMethods | C::kEval | C::kDetection, .help = "paper: the method as printed; terracut: what measured better",
             .excludes = "--method", .field = [](O& o) -> F { return choice(o.method.profile, kProfileWords); }},
@@ -295,6 +297,8 @@ constexpr std::array kSettings{
             .form = TextForm::kTopic, .field = [](O& o) -> F { return &o.output.dds.in; }},
     Setting{.key = "dds.in_reliable", .option = "--in-reliable", .commands = C::kNode, .help = "Ask for lost parts of them again; only writers that are reliable are heard then",
             .bare = "yes", .field = [](O& o) -> F { return &o.output.dds.in_reliable; }},
+    Setting{.key = "dds.frame", .option = "--frame", .commands = C::kNode, .help = "Frame that answers are moved to, by /tf_static, like base_link (default: that of their cloud)",
+            .field = [](O& o) -> F { return &o.output.dds.frame; }},
     Setting{.key = "dds.node", .option = "--dds-node", .commands = kDds, .help = "Name of the ROS 2 node, under which its topics \"~/...\" lie",
             .form = TextForm::kTopic, .field = [](O& o) -> F { return &o.output.dds.node; }},
     Setting{.key = "dds.preset", .option = "--dds-preset", .commands = kDds, .help = "Topics: ros, ~/points ~/ground ~/obstacles ~/road; autoware, /perception/obstacle_segmentation/pointcloud; nav2, /ground_points /nonground_points",

@@ -113,6 +113,16 @@ class Peer {
     return answer;
   }
 
+  /// Waits for any answer on a topic.
+  [[nodiscard]] Answer next_answer(const std::string& name) const {
+    Answer answer = take(readers_.at(name));
+    while (answer.data.empty()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      answer = take(readers_.at(name));
+    }
+    return answer;
+  }
+
  private:
   [[nodiscard]] static Answer take(dds_entity_t reader) {
     void* sample = nullptr;
@@ -337,7 +347,8 @@ TEST_F(NodeInterop, CloudsThatNeverCameAreCountedByTheGapsInTheirStamps) {
 TEST_F(NodeInterop, CapturesAreReplayedAsADriverWouldSendThem) {
   BackgroundProgram node(folder_, "node",
                          fmt::format("node --dds-domain {} --dds-interface lo --deadline 10000 "
-                                     "--metrics off --name raw_{} --json report.json",
+                                     "--base-frame off --metrics off --name raw_{} "
+                                     "--json report.json",
                                      domain_, ::getpid()));
   ASSERT_TRUE(node.says("are answered on"));
   BackgroundProgram driver(
@@ -362,6 +373,51 @@ TEST_F(NodeInterop, CapturesAreReplayedAsADriverWouldSendThem) {
       EXPECT_EQ(count, 0) << cause;
     }
   }
+}
+
+TEST_F(NodeInterop, TransformsSayHowTheSensorStandsAndWhereAnswersLie) {
+  BackgroundProgram node(
+      folder_, "node",
+      fmt::format("node --dds-domain {} --dds-interface lo --deadline 10000 --metrics off "
+                  "--frame terracut_ground --name frame_{} --json report.json",
+                  domain_, ::getpid()));
+  const Peer peer(domain_);
+  peer.await_node();
+  // 0.04 m more than it is, so that the ground would say something else.
+  BackgroundProgram driver(
+      folder_, "driver",
+      fmt::format("replay {} --calibration {} --mount-height 1.77 --mount-roll 0 --mount-pitch 0 "
+                  "--rate 1 --loop --dds --raw --dds-domain {} --dds-interface lo",
+                  quoted(kDrive), quoted(kDriveCalibration), domain_));
+  const Peer::Answer ground = peer.next_answer("ground");
+  driver.interrupt();
+  (void)driver.end();
+  node.interrupt();
+  const Outcome ended = node.end();
+  EXPECT_THAT(ended.err, testing::HasSubstr("terracut_lidar stands 1.770 m above terracut_ground"));
+  EXPECT_NEAR(json("report.json")["mount"]["height_m"], 1.77, 1e-6);
+  EXPECT_EQ(ground.frame_id, "terracut_ground");
+  std::vector<float> heights_m;
+  for (std::size_t at = 0; at < ground.data.size(); at += ground.point_step) {
+    float z_m = 0;
+    std::memcpy(&z_m, &ground.data[at + 8], sizeof z_m);
+    heights_m.push_back(z_m);
+  }
+  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
+  std::ranges::nth_element(heights_m, middle);
+  EXPECT_NEAR(*middle, 0.04, 0.1) << "not 1.73 m below the sensor";
+}
+
+TEST_F(NodeInterop, ACloudWhoseFrameNothingJoinsWithThatOfTheAnswersIsRefused) {
+  const OwnCloud cloud = cloud_of(plain_scan(), 16, "ring", 12);
+  BackgroundProgram node(folder_, "node", node_arguments() + " --frame base_link");
+  const Peer peer(domain_);
+  peer.await_node();
+  peer.write(cloud, 1);
+  EXPECT_TRUE(node.says("does not join their frame 'lidar_top' with 'base_link'"));
+  node.interrupt();
+  (void)node.end();
+  EXPECT_EQ(json("report.json")["losses"]["refused_clouds_no_transform"], 1);
 }
 
 TEST_F(NodeInterop, CloudsThatAreNotWhatTheySayAreRefusedByNameAndGoodOnesAnsweredAllTheSame) {

@@ -59,6 +59,19 @@ TEST(ConfigurationFile, ServicesFileHasEveryKeyAndSaysOnlyWhereDumpsGo) {
   EXPECT_EQ(content_of(path), defaults);
 }
 
+TEST(ConfigurationFile, EveryPresetIsAcceptedAndChangesSomething) {
+  int presets = 0;
+  for (const char* folder : {"tools/presets", "tools/ros2/terracut_ros/config"}) {
+    for (const auto& entry : fs::directory_iterator(test::source_folder() / folder)) {
+      const auto options = read_configuration(entry.path());
+      ASSERT_TRUE(options) << options.error().message;
+      EXPECT_NE(configuration_yaml(*options), configuration_yaml({})) << entry.path();
+      ++presets;
+    }
+  }
+  EXPECT_GE(presets, 8);
+}
+
 TEST(ConfigurationFile, DefaultFileChangesNothing) {
   const std::string printed = configuration_yaml({});
   EXPECT_EQ(printed_again(printed), printed);

@@ -1,24 +1,26 @@
-# cmake --install: the libraries with their public headers as <terracut/x.hpp>, the program, and what
-# find_package(terracut) reads. What is heavier is in an export of its own, so that segmentation alone asks for no
-# libpcap and no libpng.
+# cmake --install: the component `program`, and the component `development`, which is the libraries with their public
+# headers as <terracut/x.hpp> and what find_package(terracut) reads. What is heavier is in an export of its own, so that
+# segmentation alone asks for no libpcap and no libpng.
 include(CMakePackageConfigHelpers)
 set(terracut_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/terracut)
 
 # terracut_install(EXPORT targets...): as terracut-<export>-targets.cmake.
 function(terracut_install export)
   install(TARGETS ${ARGN} EXPORT terracut_${export}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
   install(EXPORT terracut_${export} FILE terracut-${export}-targets.cmake NAMESPACE terracut::
-    DESTINATION ${terracut_package_dir})
+    DESTINATION ${terracut_package_dir} COMPONENT development)
 endfunction()
 terracut_install(segmentation terracut_rt terracut_calib terracut_frame terracut_ground)
 terracut_install(drivers terracut_firmware_io)
 terracut_install(live terracut_pipeline)
 
-install(TARGETS terracut_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS terracut_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(FILES ${PROJECT_SOURCE_DIR}/pipeline/health/terracut_health.dbc
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut)
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/tools/build/completion/terracut
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
 
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/terracut-config.cmake.in
@@ -32,4 +34,4 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutLz4.cmake
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutPcap.cmake
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutZstd.cmake
-  DESTINATION ${terracut_package_dir})
+  DESTINATION ${terracut_package_dir} COMPONENT development)

@@ -30,6 +30,24 @@ foreach(only OFF ON)
   run(${CMAKE_COMMAND} --build ${work}/build_${only} --parallel)
 endforeach()
 
+# By pkg-config, without CMake.
+find_program(pkg_config NAMES pkg-config)
+if(pkg_config)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${work}/stage/lib/pkgconfig
+    ${pkg_config} --cflags --libs terracut OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  run(${CXX} -std=c++20 ${SOURCE_DIR}/packets_to_labels.cpp ${flags} -o ${work}/by_pkg_config)
+  execute_process(COMMAND ${work}/by_pkg_config RESULT_VARIABLE result)
+  if(NOT result EQUAL 2)  # it wants a capture and a folder
+    message(FATAL_ERROR "the program built by pkg-config ended with ${result}")
+  endif()
+endif()
+
+# As a part of a user's project; of it one file is compiled, since the library's are the same as here.
+run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/fetched -B ${work}/fetched -G Ninja -DCMAKE_CXX_COMPILER=${CXX}
+    -DFETCHCONTENT_SOURCE_DIR_TERRACUT=${SOURCE_DIR}/../..)
+run(${CMAKE_COMMAND} --build ${work}/fetched --target ${SOURCE_DIR}/cloud_to_labels.cpp^)
+
 # Packets to labels.
 set(terracut ${work}/stage/bin/terracut)
 file(MAKE_DIRECTORY ${work}/frames)

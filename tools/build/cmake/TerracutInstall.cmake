@@ -35,3 +35,17 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutPcap.cmake
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutZstd.cmake
   DESTINATION ${terracut_package_dir} COMPONENT development)
+
+# For builds without CMake: all of the libraries, which are static, and what they need of others.
+set(terracut_requires fmt libpcap libpng libzstd pugixml yaml-cpp zlib)
+if(LZ4_FOUND)
+  list(APPEND terracut_requires liblz4)
+endif()
+if(SQLite3_FOUND)
+  list(APPEND terracut_requires sqlite3)
+endif()
+list(JOIN terracut_requires " " terracut_requires)
+file(RELATIVE_PATH terracut_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(${PROJECT_SOURCE_DIR}/tools/build/cmake/terracut.pc.in ${PROJECT_BINARY_DIR}/terracut.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/terracut.pc
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

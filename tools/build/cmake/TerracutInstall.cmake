@@ -2,6 +2,7 @@
 # headers as <terracut/x.hpp> and what find_package(terracut) reads. What is heavier is in an export of its own, so that
 # segmentation alone asks for no libpcap and no libpng.
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(terracut_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/terracut)
 
 # terracut_install(EXPORT targets...): as terracut-<export>-targets.cmake.
@@ -16,11 +17,9 @@ terracut_install(segmentation terracut_rt terracut_calib terracut_frame terracut
 terracut_install(drivers terracut_firmware_io)
 terracut_install(live terracut_pipeline)
 
-install(TARGETS terracut_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(TARGETS terracut_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/pipeline/health/terracut_health.dbc
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut COMPONENT program)
-install(FILES ${PROJECT_SOURCE_DIR}/tools/build/completion/terracut
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut)
 
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/terracut-config.cmake.in
@@ -49,3 +48,6 @@ file(RELATIVE_PATH terracut_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(${PROJECT_SOURCE_DIR}/tools/build/cmake/terracut.pc.in ${PROJECT_BINARY_DIR}/terracut.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/terracut.pc
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+
+install(FILES ${PROJECT_SOURCE_DIR}/tools/build/completion/terracut
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

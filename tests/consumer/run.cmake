@@ -44,9 +44,11 @@ if(pkg_config)
 endif()
 
 # As a part of a user's project; of it one file is compiled, since the library's are the same as here.
-run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/fetched -B ${work}/fetched -G Ninja -DCMAKE_CXX_COMPILER=${CXX}
+file(COPY ${SOURCE_DIR}/fetched DESTINATION ${work})
+configure_file(${SOURCE_DIR}/cloud_to_labels.cpp ${work}/fetched/my_program.cpp COPYONLY)
+run(${CMAKE_COMMAND} -S ${work}/fetched -B ${work}/fetched/build -G Ninja -DCMAKE_CXX_COMPILER=${CXX}
     -DFETCHCONTENT_SOURCE_DIR_TERRACUT=${SOURCE_DIR}/../..)
-run(${CMAKE_COMMAND} --build ${work}/fetched --target ${SOURCE_DIR}/cloud_to_labels.cpp^)
+run(${CMAKE_COMMAND} --build ${work}/fetched/build --target ${work}/fetched/my_program.cpp^)
 
 # Packets to labels.
 set(terracut ${work}/stage/bin/terracut)
@@ -86,13 +88,17 @@ if(NOT result EQUAL 0 OR NOT lines MATCHES "stands 1.7.*frame [0-9]+: [0-9]+ lab
   message(FATAL_ERROR "live failed (${result}): ${lines} ${errors}")
 endif()
 
-# The guide shows these very programs.
-file(READ ${SOURCE_DIR}/../../docs/guide/embedding.md guide)
-foreach(program packets_to_labels cloud_to_labels live)
-  file(READ ${SOURCE_DIR}/${program}.cpp text)
-  string(REGEX REPLACE "^//[^\n]*\n//[^\n]*\n" "" text "${text}")
+# The guide shows these very programs, and this project.
+function(check_guide page file heading)
+  file(READ ${SOURCE_DIR}/../../docs/guide/${page} guide)
+  file(READ ${SOURCE_DIR}/${file} text)
+  string(REGEX REPLACE "^${heading}" "" text "${text}")
   string(FIND "${guide}" "${text}" at)
   if(at EQUAL -1)
-    message(FATAL_ERROR "docs/guide/embedding.md shows another ${program}.cpp")
+    message(FATAL_ERROR "docs/guide/${page} shows another ${file}")
   endif()
+endfunction()
+foreach(program packets_to_labels cloud_to_labels live)
+  check_guide(embedding.md ${program}.cpp "//[^\n]*\n//[^\n]*\n")
 endforeach()
+check_guide(install.md fetched/CMakeLists.txt ".*LANGUAGES CXX\\)\n")

@@ -43,7 +43,7 @@ if(pkg_config)
   endif()
 endif()
 
-# As a part of a user's project; of it one file is compiled, since the library's are the same as here.
+# As a part of a user's project. Only the program's own file is compiled: those of the library are the same as here.
 file(COPY ${SOURCE_DIR}/fetched DESTINATION ${work})
 configure_file(${SOURCE_DIR}/cloud_to_labels.cpp ${work}/fetched/my_program.cpp COPYONLY)
 run(${CMAKE_COMMAND} -S ${work}/fetched -B ${work}/fetched/build -G Ninja -DCMAKE_CXX_COMPILER=${CXX}

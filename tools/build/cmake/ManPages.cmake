@@ -15,7 +15,7 @@ function(terracut_man_page name about)
   string(TOUPPER ${name} title)
   # Its own title is the program's, and its name of a command has a blank.
   execute_process(COMMAND ${HELP2MAN} --no-info --version-string=${VERSION} --name=${about} ${command}
-    COMMAND sed "2s/TERRACUT/${title}/; 4s/^terracut.* .-/${name} \\\\-/" COMMAND ${GZIP} -9n
+    COMMAND sed "2s/TERRACUT/${title}/; 4s/^terracut[ a-z]* .-/${name} \\\\-/" COMMAND ${GZIP} -9n
     OUTPUT_FILE ${folder}/${name}.1.gz COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 

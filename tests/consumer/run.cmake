@@ -30,6 +30,26 @@ foreach(only OFF ON)
   run(${CMAKE_COMMAND} --build ${work}/build_${only} --parallel)
 endforeach()
 
+# By pkg-config, without CMake.
+find_program(pkg_config NAMES pkg-config)
+if(pkg_config)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${work}/stage/lib/pkgconfig
+    ${pkg_config} --cflags --libs terracut OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  run(${CXX} -std=c++20 ${SOURCE_DIR}/packets_to_labels.cpp ${flags} -o ${work}/by_pkg_config)
+  execute_process(COMMAND ${work}/by_pkg_config RESULT_VARIABLE result)
+  if(NOT result EQUAL 2)  # it wants a capture and a folder
+    message(FATAL_ERROR "the program built by pkg-config ended with ${result}")
+  endif()
+endif()
+
+# As a part of a user's project. Only the program's own file is compiled: those of the library are the same as here.
+file(COPY ${SOURCE_DIR}/fetched DESTINATION ${work})
+configure_file(${SOURCE_DIR}/cloud_to_labels.cpp ${work}/fetched/my_program.cpp COPYONLY)
+run(${CMAKE_COMMAND} -S ${work}/fetched -B ${work}/fetched/build -G Ninja -DCMAKE_CXX_COMPILER=${CXX}
+    -DFETCHCONTENT_SOURCE_DIR_TERRACUT=${SOURCE_DIR}/../..)
+run(${CMAKE_COMMAND} --build ${work}/fetched/build --target ${work}/fetched/my_program.cpp^)
+
 # Packets to labels.
 set(terracut ${work}/stage/bin/terracut)
 file(MAKE_DIRECTORY ${work}/frames)
@@ -68,13 +88,17 @@ if(NOT result EQUAL 0 OR NOT lines MATCHES "stands 1.7.*frame [0-9]+: [0-9]+ lab
   message(FATAL_ERROR "live failed (${result}): ${lines} ${errors}")
 endif()
 
-# The guide shows these very programs.
-file(READ ${SOURCE_DIR}/../../docs/guide/embedding.md guide)
-foreach(program packets_to_labels cloud_to_labels live)
-  file(READ ${SOURCE_DIR}/${program}.cpp text)
-  string(REGEX REPLACE "^//[^\n]*\n//[^\n]*\n" "" text "${text}")
+# The guide shows these very programs, and this project.
+function(check_guide page file heading)
+  file(READ ${SOURCE_DIR}/../../docs/guide/${page} guide)
+  file(READ ${SOURCE_DIR}/${file} text)
+  string(REGEX REPLACE "^${heading}" "" text "${text}")
   string(FIND "${guide}" "${text}" at)
   if(at EQUAL -1)
-    message(FATAL_ERROR "docs/guide/embedding.md shows another ${program}.cpp")
+    message(FATAL_ERROR "docs/guide/${page} shows another ${file}")
   endif()
+endfunction()
+foreach(program packets_to_labels cloud_to_labels live)
+  check_guide(embedding.md ${program}.cpp "//[^\n]*\n//[^\n]*\n")
 endforeach()
+check_guide(install.md fetched/CMakeLists.txt ".*LANGUAGES CXX\\)\n")

@@ -26,20 +26,11 @@ endif()
 find_package(fmt QUIET)
 terracut_require(fmt_FOUND "fmt" libfmt-dev)
 
-find_package(nlohmann_json QUIET)
-terracut_require(nlohmann_json_FOUND "nlohmann::json" nlohmann-json3-dev)
-
-find_package(CLI11 QUIET)
-terracut_require(CLI11_FOUND "CLI11" libcli11-dev)
-
 find_package(PNG QUIET)
 terracut_require(PNG_FOUND "libpng" libpng-dev)
 
 include(TerracutPcap)
 terracut_require(PCAP_FOUND "libpcap" libpcap-dev)
-
-find_package(OpenSSL COMPONENTS Crypto QUIET)
-terracut_require(OPENSSL_FOUND "OpenSSL" libssl-dev)
 
 find_package(ZLIB QUIET)
 terracut_require(ZLIB_FOUND "zlib" zlib1g-dev)
@@ -54,6 +45,20 @@ if(NOT LZ4_FOUND OR NOT SQLite3_FOUND)
   message(STATUS "Without liblz4 or SQLite, so some bags cannot be read. "
                  "Install them with: apt-get install liblz4-dev libsqlite3-dev (or run ./tools/setup)")
 endif()
+
+# The libraries need no more.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
+
+find_package(nlohmann_json QUIET)
+terracut_require(nlohmann_json_FOUND "nlohmann::json" nlohmann-json3-dev)
+
+find_package(CLI11 QUIET)
+terracut_require(CLI11_FOUND "CLI11" libcli11-dev)
+
+find_package(OpenSSL COMPONENTS Crypto QUIET)
+terracut_require(OPENSSL_FOUND "OpenSSL" libssl-dev)
 
 # Optional: without it the program says what to install where it is asked for DDS.
 find_package(CycloneDDS 0.10 QUIET)

@@ -1,16 +1,17 @@
-# cmake --install: the libraries with their public headers as <terracut/x.hpp>, the program, and what
-# find_package(terracut) reads. What is heavier is in an export of its own, so that segmentation alone asks for no
-# libpcap and no libpng.
+# cmake --install: the component `program`, and the component `development`, which is the libraries with their public
+# headers as <terracut/x.hpp> and what find_package(terracut) reads. What is heavier is in an export of its own, so that
+# segmentation alone asks for no libpcap and no libpng.
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(terracut_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/terracut)
 
 # terracut_install(EXPORT targets...): as terracut-<export>-targets.cmake.
 function(terracut_install export)
   install(TARGETS ${ARGN} EXPORT terracut_${export}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
   install(EXPORT terracut_${export} FILE terracut-${export}-targets.cmake NAMESPACE terracut::
-    DESTINATION ${terracut_package_dir})
+    DESTINATION ${terracut_package_dir} COMPONENT development)
 endfunction()
 terracut_install(segmentation terracut_rt terracut_calib terracut_frame terracut_ground)
 terracut_install(drivers terracut_firmware_io)
@@ -35,4 +36,21 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutLz4.cmake
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutPcap.cmake
   ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutZstd.cmake
-  DESTINATION ${terracut_package_dir})
+  DESTINATION ${terracut_package_dir} COMPONENT development)
+
+# For builds without CMake: all of the libraries, which are static, and what they need of others.
+set(terracut_requires fmt libpcap libpng libzstd pugixml yaml-cpp zlib)
+if(LZ4_FOUND)
+  list(APPEND terracut_requires liblz4)
+endif()
+if(SQLite3_FOUND)
+  list(APPEND terracut_requires sqlite3)
+endif()
+list(JOIN terracut_requires " " terracut_requires)
+file(RELATIVE_PATH terracut_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(${PROJECT_SOURCE_DIR}/tools/build/cmake/terracut.pc.in ${PROJECT_BINARY_DIR}/terracut.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/terracut.pc
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+
+install(FILES ${PROJECT_SOURCE_DIR}/tools/build/completion/terracut
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

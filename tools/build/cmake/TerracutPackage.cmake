@@ -1,20 +1,22 @@
-# cpack -G DEB in a Release build: what `cmake --install` gives, and the service with its
-# configuration, which belong below / and /etc and so only into a package.
+# cpack -G DEB in a Release build: the packages terracut (the component `program`, with the service, its configuration,
+# manual pages and documents), libterracut-dev (`development`) and, where the Python module is built, python3-terracut
+# (`python`). What belongs below / and /etc is installed by no `cmake --install`.
 set(terracut_service ${PROJECT_SOURCE_DIR}/tools/build/service)
-install(FILES ${terracut_service}/terracut.service
-  DESTINATION lib/systemd/system COMPONENT service EXCLUDE_FROM_ALL)
-install(FILES ${terracut_service}/terracut.yaml
-  DESTINATION /etc/terracut COMPONENT service EXCLUDE_FROM_ALL)
+set(in_package COMPONENT program EXCLUDE_FROM_ALL)
+install(FILES ${terracut_service}/terracut.service DESTINATION lib/systemd/system ${in_package})
+install(FILES ${terracut_service}/terracut.yaml DESTINATION /etc/terracut ${in_package})
+install(CODE "set(PROGRAM $<TARGET_FILE:terracut_cli>)
+set(VERSION ${PROJECT_VERSION})
+include(${CMAKE_CURRENT_LIST_DIR}/ManPages.cmake)" ${in_package})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION share/doc/terracut
-  COMPONENT service EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
+  ${in_package} FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/examples/read_frames.py
   ${PROJECT_SOURCE_DIR}/tools/examples/labels_in_numpy.py
-  DESTINATION share/doc/terracut/examples COMPONENT service EXCLUDE_FROM_ALL)
+  DESTINATION share/doc/terracut/examples ${in_package})
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/fleet/parallel ${PROJECT_SOURCE_DIR}/tools/fleet/relabel.sbatch
   ${PROJECT_SOURCE_DIR}/tools/fleet/submit ${PROJECT_SOURCE_DIR}/tools/fleet/throughput
-  DESTINATION share/doc/terracut/fleet COMPONENT service EXCLUDE_FROM_ALL)
-install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION share/doc/terracut
-  COMPONENT service EXCLUDE_FROM_ALL)
+  DESTINATION share/doc/terracut/fleet ${in_package})
+install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION share/doc/terracut ${in_package})
 
 # Debian wants the licence and the changes under names of its own, the latter compressed.
 file(WRITE ${PROJECT_BINARY_DIR}/package/copyright
@@ -27,41 +29,67 @@ License: Apache-2.0
  On Debian systems the full text of the Apache License, Version 2.0, is in
  /usr/share/common-licenses/Apache-2.0.
 ")
-install(FILES ${PROJECT_BINARY_DIR}/package/copyright DESTINATION share/doc/terracut
-  COMPONENT service EXCLUDE_FROM_ALL)
+set(notes ${PROJECT_BINARY_DIR}/package/copyright)
 find_program(TERRACUT_GZIP gzip)
 mark_as_advanced(TERRACUT_GZIP)
 if(TERRACUT_GZIP)
   execute_process(COMMAND ${TERRACUT_GZIP} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md
     OUTPUT_FILE ${PROJECT_BINARY_DIR}/package/changelog.gz)
-  install(FILES ${PROJECT_BINARY_DIR}/package/changelog.gz DESTINATION share/doc/terracut
-    COMPONENT service EXCLUDE_FROM_ALL)
+  list(APPEND notes ${PROJECT_BINARY_DIR}/package/changelog.gz)
 endif()
 
-set(CPACK_PACKAGE_NAME terracut)
 set(CPACK_PACKAGE_VENDOR "The terracut authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_PACKAGE_CONTACT "The terracut authors <terracut@localhost>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "real-time LiDAR ground segmentation")
-set(CPACK_PACKAGE_DESCRIPTION
-"Labels every return of a Velodyne HDL-64E or RoboSense RS-Ruby128 ground or
-obstacle, from packets of the network or of captures, before a deadline and in
-fixed memory. With the service terracut.service, which is not enabled at
-installation, and the C++ libraries.")
 set(CPACK_SET_DESTDIR ON)  # of absolute places, as /etc is
 set(CPACK_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL Unspecified service)
-set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
-
+set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "chrony, linuxptp, libeigen3-dev, libexpected-dev, libpugixml-dev, libyaml-cpp-dev, libfmt-dev, libpng-dev, libpcap-dev, libzstd-dev, zlib1g-dev, liblz4-dev, libsqlite3-dev")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
+
+# terracut_deb(COMPONENT PACKAGE SECTION TITLE TEXT)
+macro(terracut_deb component package section title text)
+  string(TOUPPER ${component} upper)
+  install(FILES ${notes} DESTINATION share/doc/${package} COMPONENT ${component} EXCLUDE_FROM_ALL)
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
+  set(CPACK_DEBIAN_${upper}_DESCRIPTION "${title}\n${text}")
+endmacro()
+
+terracut_deb(program terracut science "real-time LiDAR ground segmentation"
+"Labels every return of a spinning LiDAR ground or obstacle, from packets of
+the network or of captures, before a deadline and in fixed memory. With the
+service terracut.service, which is not enabled at installation.")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "chrony, linuxptp")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
   ${terracut_service}/debian/conffiles ${terracut_service}/debian/postinst
   ${terracut_service}/debian/prerm ${terracut_service}/debian/postrm)
+
+terracut_deb(development libterracut-dev libdevel "real-time LiDAR ground segmentation, C++ libraries"
+"Static libraries and headers, with what find_package(terracut) of CMake and
+pkg-config read.")
+set(needs libeigen3-dev libexpected-dev libfmt-dev libpcap-dev libpng-dev libpugixml-dev libyaml-cpp-dev libzstd-dev
+  zlib1g-dev)
+if(LZ4_FOUND)
+  list(APPEND needs liblz4-dev)
+endif()
+if(SQLite3_FOUND)
+  list(APPEND needs libsqlite3-dev)
+endif()
+list(JOIN needs ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_REPLACES "terracut (<< 0.3)")  # which had these files
+
+if(TERRACUT_PYTHON)
+  terracut_deb(python python3-terracut python "real-time LiDAR ground segmentation, Python module"
+"Labelled frames of captures and live sensors, and labels of clouds, in numpy
+arrays.")
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+endif()
 include(CPack)

@@ -7,15 +7,17 @@ endfunction()
 # terracut_add_room(NAME SOURCES... [APART sources...] [HEADERS headers...] [EXPORTED_AS name] [PUBLIC libs...]
 #                   [PRIVATE libs...])
 #   a static library: terracut_<name>, alias terracut::<name>. HEADERS are its public ones, below terracut/ of the
-#   room: all that is installed of it. EXPORTED_AS: what find_package(terracut) calls it, else <name>.
+#   room: all that is installed of it. EXPORTED_AS: what users call it, by find_package(terracut) or FetchContent, else <name>.
 function(terracut_add_room name)
   cmake_parse_arguments(arg "" "EXPORTED_AS" "SOURCES;APART;HEADERS;PUBLIC;PRIVATE" ${ARGN})
   terracut_compile_apart(${arg_APART})
-  if(NOT arg_EXPORTED_AS)
-    set(arg_EXPORTED_AS ${name})
-  endif()
   add_library(terracut_${name} STATIC ${arg_SOURCES})
   add_library(terracut::${name} ALIAS terracut_${name})
+  if(arg_EXPORTED_AS)
+    add_library(terracut::${arg_EXPORTED_AS} ALIAS terracut_${name})
+  else()
+    set(arg_EXPORTED_AS ${name})
+  endif()
   set_target_properties(terracut_${name} PROPERTIES
     EXPORT_NAME ${arg_EXPORTED_AS} POSITION_INDEPENDENT_CODE ON)
   target_compile_features(terracut_${name} PUBLIC cxx_std_20)

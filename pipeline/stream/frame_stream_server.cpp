@@ -13,7 +13,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "pipeline/stream/send_buffer.hpp"
@@ -43,21 +42,6 @@ void set_tcp_options(int socket) noexcept {
 
 [[nodiscard]] std::size_t bytes_of(const FrameWireHeader& header) noexcept {
   return sizeof(FrameWireHeader) + std::size_t{header.points} * header.point_bytes;
-}
-
-/// Writes points as they are sent, each with its height if a point has room for one; NaN where
-/// there is no height.
-void write_points(const LabelledFrame& message, std::size_t point_bytes,
-                  std::span<std::byte> room) noexcept {
-  std::byte* to = room.data();
-  for (std::size_t i = 0; i < message.points.size(); ++i, to += point_bytes) {
-    const WirePoint point = wire_point(message.points[i]);
-    std::memcpy(to, &point, sizeof point);
-    if (point_bytes == sizeof point) continue;
-    const float height_m = i < message.heights_m.size() ? message.heights_m[i]
-                                                        : std::numeric_limits<float>::quiet_NaN();
-    std::memcpy(to + sizeof point, &height_m, sizeof height_m);
-  }
 }
 
 Status check(const FrameStreamConfig& config) {
@@ -142,7 +126,7 @@ void FrameStreamServer::hand_out(const LabelledFrame& message, bool by_sectors) 
     }
     if (slot == kNoSlot) {
       slot = free_slot();
-      write_points(message, point_bytes_, slots_[slot].room);
+      write_points(message.points, message.heights_m, point_bytes_, slots_[slot].room);
       ++slots_[slot].holders;  // held here until all readers have been served
     }
     begin(peer, slot, message.header);

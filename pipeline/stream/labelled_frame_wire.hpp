@@ -6,6 +6,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
+#include <span>
 #include <type_traits>
 
 #include "calib/sensor/sensor_model.hpp"
@@ -48,6 +51,22 @@ static_assert(offsetof(WirePoint, intensity) == 12 && offsetof(WirePoint, label)
 /// How many bytes a point has if it comes with its height above the ground: WirePoint, then a
 /// float.
 inline constexpr std::uint16_t kPointBytesWithHeight = sizeof(WirePoint) + sizeof(float);
+
+/// Writes points as they are sent, each with its height if a point has room for one; NaN where
+/// there is no height.
+inline void write_points(std::span<const points::LabelledPoint> points,
+                         std::span<const float> heights_m, std::size_t point_bytes,
+                         std::span<std::byte> room) noexcept {
+  std::byte* to = room.data();
+  for (std::size_t i = 0; i < points.size(); ++i, to += point_bytes) {
+    const WirePoint point = wire_point(points[i]);
+    std::memcpy(to, &point, sizeof point);
+    if (point_bytes == sizeof point) continue;
+    const float height_m =
+        i < heights_m.size() ? heights_m[i] : std::numeric_limits<float>::quiet_NaN();
+    std::memcpy(to + sizeof point, &height_m, sizeof height_m);
+  }
+}
 
 /// Bits of FrameWireHeader::flags. Readers ignore bits they do not know.
 inline constexpr std::uint32_t kFrameComplete = 1U << 0;  ///< Every firing was seen, seam to seam.

@@ -26,6 +26,7 @@ HttpAnswer figures_of(const ViewSource& source) {
   if (source.capture != nullptr) {
     const PlayerState state = source.capture->state();
     json["capture"] = {{"playing", state.playing},
+                       {"loop", state.loop},
                        {"rate", state.rate},
                        {"position_s", state.position_s},
                        {"duration_s", state.duration_s},

@@ -29,7 +29,7 @@ except ImportError:
 PROGRAM, DRIVE = sys.argv[1], Path(sys.argv[2])
 PICTURES = Path(sys.argv[3]) if len(sys.argv) > 3 else None
 HEADER_BYTES = 56
-POINT = np and np.dtype([("xyz", "<f4", 3), ("intensity", "u1"), ("label", "u1"), ("row", "<u2"), ("time", "<f4")])
+POINT = np and np.dtype([("xyz", "<f4", 3), ("intensity", "u1"), ("label", "u1"), ("row", "<u2"), ("time", "<f4"), ("above_ground", "<f4")])
 
 
 class Served:
@@ -75,8 +75,8 @@ class Served:
         """(number, points) of the frame that stands."""
         with urllib.request.urlopen(self.url + "frames", timeout=20) as stream:
             number, count = struct.unpack_from("<II", header := stream.read(HEADER_BYTES), 8)
-            point_bytes = struct.unpack_from("<H", header, 40)[0]
-            return number, np.frombuffer(stream.read(count * point_bytes), POINT)
+            assert struct.unpack_from("<H", header, 40)[0] == POINT.itemsize
+            return number, np.frombuffer(stream.read(count * POINT.itemsize), POINT)
 
     def end(self):
         self.process.terminate()

@@ -208,6 +208,19 @@ TEST_F(Page, SendsFramesAsTheLabelledStreamHasThem) {
   EXPECT_EQ(point.label, 40);
 }
 
+TEST_F(Page, SendsHeightsAboveTheGroundWhereFramesHaveThem) {
+  publish::LabelledFrame frame = frame_of(7, 2);
+  frame.heights_m = {0.25F, -0.5F};
+  ASSERT_TRUE(sink_->put(frame));
+  const auto looking = browser();
+  const stream::FrameWireHeader header = next_header(*looking);
+  ASSERT_EQ(header.point_bytes, stream::kPointBytesWithHeight);
+  const std::string bytes = looking->read(std::size_t{2} * stream::kPointBytesWithHeight);
+  float second_m = 0;
+  std::memcpy(&second_m, bytes.data() + bytes.size() - sizeof second_m, sizeof second_m);
+  EXPECT_EQ(second_m, -0.5F);
+}
+
 TEST_F(Page, ABrowserThatStopsDelaysNoFrameAndMissesThem) {
   const auto stopped = browser(4096);
   const auto other = browser();
@@ -308,6 +321,7 @@ TEST_F(Page, ShowsLatencyAndWhatMissedTheDeadline) {
   const json shown = figures();
   EXPECT_EQ(shown.at("deadline_ms"), 50);
   EXPECT_EQ(shown.at("rows"), 64);
+  EXPECT_EQ(shown.at("sensor_height_m"), 1.73);
   EXPECT_EQ(shown.at("frames"), json::parse("[[4.0, 0, false], [60.0, 1, true]]"));
   EXPECT_EQ(shown.at("capture"), nullptr);
   EXPECT_EQ(shown.at("objects"), false);
@@ -406,7 +420,9 @@ TEST_F(PageOfACapture, TellsItsPlayer) {
   EXPECT_EQ(capture_.told[0].playing, false);
   EXPECT_EQ(capture_.told[0].seek_s, 2.5);
   EXPECT_EQ(capture_.told[0].rate, 0.5);
-  EXPECT_EQ(json::parse(answer.body).at("capture").at("duration_s"), 9);
+  const json state = json::parse(answer.body).at("capture");
+  EXPECT_EQ(state.at("duration_s"), 9);
+  EXPECT_EQ(state.at("loop"), true);
 }
 
 TEST_F(PageOfACapture, RefusesWhatIsNoCommand) {

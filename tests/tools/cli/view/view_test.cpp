@@ -15,6 +15,7 @@
 #include "pipeline/status/loss_causes.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tests/support/http_client.hpp"
+#include "tools/cli/view/view_page.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -131,14 +132,15 @@ TEST_F(Page, IsCompleteInItself) {
   EXPECT_EQ(page.status, 200);
   EXPECT_THAT(page.body, HasSubstr("<canvas id=\"scene\""));
   EXPECT_THAT(page.head, HasSubstr("Content-Security-Policy: default-src 'self'"));
-  for (const char* file :
-       {"/view.js", "/scene.js", "/camera.js", "/colours.js", "/frames.js", "/strip.js"}) {
-    const auto module = get(file);
-    EXPECT_EQ(module.status, 200) << file;
-    EXPECT_THAT(module.head, HasSubstr("Content-Type: text/javascript")) << file;
-    EXPECT_EQ(module.body.find("http://"), std::string::npos) << file << " fetches from elsewhere";
-    EXPECT_EQ(module.body.find("https://"), std::string::npos) << file;
+  for (const PageFile& file : view_page()) {
+    const auto served = get(std::string(file.path).c_str());
+    EXPECT_EQ(served.status, 200) << file.path;
+    EXPECT_THAT(served.head, HasSubstr("Content-Type: " + std::string(file.type))) << file.path;
+    for (const char* elsewhere : {"http://", "https://"}) {
+      EXPECT_EQ(served.body.find(elsewhere), std::string::npos) << file.path;
+    }
   }
+  EXPECT_THAT(get("/view.js").head, HasSubstr("Content-Type: text/javascript"));
   EXPECT_EQ(get("/../../etc/passwd").status, 404);
 }
 

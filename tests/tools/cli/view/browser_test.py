@@ -40,6 +40,10 @@ def newest_frame(served):
         return number, np.frombuffer(stream.read(count * POINT.itemsize), POINT)
 
 
+def two_digits(value):
+    return f"{round(float(value), 2) + 0.0:.2f}"  # no -0.00
+
+
 def picture(browser, name):
     if PICTURES:
         PICTURES.mkdir(parents=True, exist_ok=True)
@@ -177,14 +181,14 @@ class APage(unittest.TestCase):
             self.assertEqual(self.browser.evaluate("document.getElementById('values-title').textContent"), f"return {index}, frame {number}")
             point, values = points[index], self.values()
             x, y, z = point["xyz"].astype(float)
-            self.assertEqual(values["x, y, z"], f"{x:.2f}, {y:.2f}, {z:.2f} m")
+            self.assertEqual(values["x, y, z"], ", ".join(map(two_digits, (x, y, z))) + " m")
             self.assertAlmostEqual(float(values["range"].split()[0]), np.hypot(np.hypot(x, y), z - 1.73), delta=0.02)
-            self.assertEqual(values["above ground"], f"{point['above_ground']:.2f} m")
+            self.assertEqual(values["above ground"], two_digits(point["above_ground"]) + " m")
             self.assertEqual([values["ring"], values["intensity"]], [str(point["row"]), str(point["intensity"])])
             self.assertEqual(values["label"], {40: "ground", 99: "obstacle"}[point["label"]])
         between = np.diff(points["xyz"][chosen].astype(float), axis=0)[0]
-        self.assertEqual(values["distance"], f"{np.linalg.norm(between):.2f} m")
-        self.assertEqual(values["up"], f"{between[2]:.2f} m")
+        self.assertEqual(values["distance"], two_digits(np.linalg.norm(between)) + " m")
+        self.assertEqual(values["up"], two_digits(between[2]) + " m")
         picture(self.browser, "measured")
         self.browser.press("Escape")
         self.assertTrue(self.browser.evaluate("document.getElementById('values').hidden"))

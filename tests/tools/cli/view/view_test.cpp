@@ -49,7 +49,9 @@ publish::LabelledSector sector_of(std::uint32_t frame, std::uint32_t first,
 class NotedCapture : public ViewedCapture {
  public:
   void obey(const PlayerCommand& command) override { told.push_back(command); }
-  [[nodiscard]] PlayerState state() const override { return {.position_s = 2, .duration_s = 9}; }
+  [[nodiscard]] PlayerState state() const override {
+    return {.frame = 20, .position_s = 2, .duration_s = 9};
+  }
   std::vector<PlayerCommand> told;
 };
 
@@ -425,6 +427,7 @@ TEST_F(PageOfACapture, TellsItsPlayer) {
   const json state = json::parse(answer.body).at("capture");
   EXPECT_EQ(state.at("duration_s"), 9);
   EXPECT_EQ(state.at("loop"), true);
+  EXPECT_EQ(state.at("frame"), 20);
 }
 
 TEST_F(PageOfACapture, RefusesWhatIsNoCommand) {

@@ -83,11 +83,12 @@ export class Camera {
   // A function of a place in space: where it is on the canvas, in its pixels, and how far from the eye, in metres; null: behind it.
   projection() {
     const m = this.matrix();
-    const { width, height } = this;
+    const { width, height, isFlat } = this;
     return ([x, y, z]) => {
       const at = (row) => m[row] * x + m[4 + row] * y + m[8 + row] * z + m[12 + row];
       const w = at(3);
-      return w <= 0 ? null : [((at(0) / w + 1) / 2) * width, ((1 - at(1) / w) / 2) * height, w];
+      const depth = isFlat ? ((at(2) + 1) / 2) * FAR : w;
+      return w <= 0 ? null : [((at(0) / w + 1) / 2) * width, ((1 - at(1) / w) / 2) * height, depth];
     };
   }
 

@@ -5,9 +5,10 @@
 
 const at = (id) => document.getElementById(id);
 const REACH_PX = { mouse: 9, finger: 22 };
+const COVERED_PX = 2; // by a point, to each side
 const LABELS = { 40: "ground", 49: "ground beside the road", 99: "obstacle" };
-const minus = (text) => text.replace("-", "−");
-const metres = (value) => `${minus(value.toFixed(2))} m`;
+const fixed = (value) => value.toFixed(2).replace(/^-0.00$/, "0.00").replace("-", "−");
+const metres = (value) => `${fixed(value)} m`;
 
 export class Chosen {
   // `objectOf(chosen)`: the number of its object, 0: none; `changed()`: is to be drawn anew
@@ -17,13 +18,13 @@ export class Chosen {
     at("forget").onclick = () => this.forget();
   }
 
-  // Takes the return that is drawn nearest to a place, of several there the one nearest to the eye, or forgets all.
+  // Takes the return that is seen at a place, which is the one nearest to the eye, or else one near the place, or forgets all.
   // `seen(place, label, row)`: {pixels from there, depth}
   take(points, isFinger, seen) {
     const reach = isFinger ? REACH_PX.finger : REACH_PX.mouse;
     const found = points.best((place, label, row) => {
       const { pixels, depth } = seen(place, label, row);
-      return pixels < reach ? pixels + 2 * Math.log(depth) : Infinity;
+      return pixels < reach ? Math.max(pixels - COVERED_PX, 0) + Math.log(Math.max(depth, 0.1)) : Infinity;
     });
     if (!found) return this.forget();
     this.returns = this.isMeasuring && this.returns.length === 1 ? [this.returns[0], found] : [found];
@@ -62,7 +63,7 @@ export class Chosen {
     const [x, y, z] = chosen.place;
     const rows = [
       ["label", LABELS[chosen.label] ?? "none"],
-      ["x, y, z", `${[x, y, z].map((value) => minus(value.toFixed(2))).join(", ")} m`],
+      ["x, y, z", `${[x, y, z].map(fixed).join(", ")} m`],
       ["range", metres(Math.hypot(x, y, z - this.sensorHeight))],
       ["ring", chosen.row],
       ["intensity", chosen.intensity],

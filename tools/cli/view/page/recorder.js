@@ -6,13 +6,17 @@
 const LONGEST_FILM_S = 60;
 const EVERY_MS = 500; // a part of it comes
 
+// What this browser films; undefined: nothing.
+const FILM_TYPE = ["video/webm", "video/mp4"].find((type) => window.MediaRecorder?.isTypeSupported(type));
+export const canFilm = FILM_TYPE !== undefined;
+
 function save(blob, name) {
   const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-// Call it right after the picture was drawn. `labels`: elements above it whose text belongs to it.
+// Call it right after the picture was drawn. `labels`: elements above it whose text belongs to it; `name`: of the file, without its ending
 export function savePicture(canvas, labels, name) {
   const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
   const paint = copy.getContext("2d");
@@ -28,7 +32,7 @@ export function savePicture(canvas, labels, name) {
     paint.fillStyle = style.color;
     paint.fillText(label.textContent, left, top);
   }
-  copy.toBlob((blob) => save(blob, name), "image/png");
+  copy.toBlob((blob) => save(blob, `${name}.png`), "image/png");
 }
 
 export class Film {
@@ -37,12 +41,12 @@ export class Film {
     Object.assign(this, { canvas, changed, recorder: null });
   }
 
-  // Begins one, or ends it and saves it.
+  // Begins one, or ends it and saves it under this name.
   toggle(name) {
     if (this.recorder) return this.recorder.stop();
     const parts = [];
     const begun = performance.now();
-    const recorder = new MediaRecorder(this.canvas.captureStream(30), { mimeType: "video/webm", videoBitsPerSecond: 8e6 });
+    const recorder = new MediaRecorder(this.canvas.captureStream(30), { mimeType: FILM_TYPE, videoBitsPerSecond: 8e6 });
     recorder.ondataavailable = ({ data }) => {
       parts.push(data);
       const seconds = (performance.now() - begun) / 1000;
@@ -54,7 +58,7 @@ export class Film {
       for (const track of recorder.stream.getTracks()) track.stop();
       this.recorder = null;
       this.changed("");
-      save(new Blob(parts, { type: "video/webm" }), name);
+      save(new Blob(parts, { type: FILM_TYPE }), `${name}.${FILM_TYPE.slice(6)}`);
     };
     recorder.start(EVERY_MS);
     this.recorder = recorder;

@@ -50,20 +50,17 @@ export class Transport {
 
   // Stops at the frame of this number. The run seeks by time, so it is sought again where another came.
   goToFrame(number) {
-    this.wanted = { number, tries: 0, seek_s: undefined, shown: undefined };
+    this.wanted = { number, tries: 0, seek_s: undefined };
   }
   async comeToWanted() {
     const { wanted, state } = this;
-    const shown = Number(at("frame").dataset.number);
-    if (!wanted || Number.isNaN(shown)) return;
-    const stands = !state.playing && shown === wanted.shown && Math.abs(state.position_s - wanted.seek_s) < 1.5 * state.frame_s;
-    wanted.shown = shown;
-    if (wanted.seek_s !== undefined && !stands) return;
-    if (stands && (shown === wanted.number || ++wanted.tries === MOST_TRIES)) {
+    if (!wanted || state.seeking) return;
+    const hasCome = wanted.seek_s !== undefined && state.frame === wanted.number;
+    if (hasCome || wanted.tries++ === MOST_TRIES) {
       this.wanted = null;
       return;
     }
-    const from = stands ? wanted.seek_s - shown * state.frame_s : 0;
+    const from = wanted.seek_s === undefined ? 0 : wanted.seek_s - state.frame * state.frame_s;
     wanted.seek_s = Math.min(Math.max(from + wanted.number * state.frame_s, 0), state.duration_s);
     await this.send({ playing: false, seek_s: wanted.seek_s });
   }

@@ -9,7 +9,7 @@ import { Found } from "./found.js";
 import { readFrames } from "./frames.js";
 import { listenToKeys, listenToPointers } from "./hands.js";
 import { readLink, writeLink } from "./link.js";
-import { Film, savePicture } from "./recorder.js";
+import { Film, canFilm, savePicture } from "./recorder.js";
 import { Scene } from "./scene.js";
 import { Theme } from "./theme.js";
 import { Transport } from "./transport.js";
@@ -202,11 +202,12 @@ function fold() {
   changed();
 }
 
-const fileName = (ending) => `terracut_frame_${at("frame").dataset.number ?? 0}.${ending}`;
+const fileName = () => `terracut_frame_${at("frame").dataset.number ?? 0}`;
 function takePicture() {
   drawNow();
-  savePicture(canvas, at("distances").children, fileName("png"));
+  savePicture(canvas, at("distances").children, fileName());
 }
+const filmOrEnd = () => canFilm && film.toggle(fileName());
 
 // Chooses the return at a place on the page: of the range image, or of the picture in space.
 function tapped(x, y, isFinger) {
@@ -285,7 +286,7 @@ const KEYS = {
   m: () => chosen.measure(),
   Escape: () => chosen.forget(),
   p: takePicture,
-  v: () => film.toggle(fileName("webm")),
+  v: filmOrEnd,
   d: switchTheme,
   h: fold,
   l: () => transport.loop(),
@@ -310,7 +311,8 @@ function listen() {
   at("points-size").oninput = () => size(Math.exp(at("points-size").value));
   at("range-image").onclick = toggleRangeImage;
   at("picture").onclick = takePicture;
-  at("film").onclick = KEYS.v;
+  at("film").onclick = filmOrEnd;
+  at("film").hidden = !canFilm;
   at("light").onclick = switchTheme;
   at("fold").onclick = fold;
 }

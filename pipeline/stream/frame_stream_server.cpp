@@ -13,7 +13,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "pipeline/stream/send_buffer.hpp"
@@ -48,24 +47,6 @@ void set_tcp_options(int socket) noexcept {
 [[nodiscard]] std::size_t point_bytes_of(const FrameStreamConfig& config) noexcept {
   if (config.has_objects) return kPointBytesWithObject;
   return config.has_heights ? kPointBytesWithHeight : sizeof(WirePoint);
-}
-
-/// Writes points as they are sent, each with its height if a point has room for one, NaN where
-/// there is no height, and with the number of its object if there is room for that, too.
-void write_points(const LabelledFrame& message, std::size_t point_bytes,
-                  std::span<std::byte> room) noexcept {
-  std::byte* to = room.data();
-  for (std::size_t i = 0; i < message.points.size(); ++i, to += point_bytes) {
-    const WirePoint point = wire_point(message.points[i]);
-    std::memcpy(to, &point, sizeof point);
-    if (point_bytes == sizeof point) continue;
-    const float height_m = i < message.heights_m.size() ? message.heights_m[i]
-                                                        : std::numeric_limits<float>::quiet_NaN();
-    std::memcpy(to + sizeof point, &height_m, sizeof height_m);
-    if (point_bytes == kPointBytesWithHeight) continue;
-    const std::uint32_t object = i < message.objects.size() ? message.objects[i] : 0;
-    std::memcpy(to + kPointBytesWithHeight, &object, sizeof object);
-  }
 }
 
 Status check(const FrameStreamConfig& config) {
@@ -150,7 +131,8 @@ void FrameStreamServer::hand_out(const LabelledFrame& message, bool by_sectors) 
     }
     if (slot == kNoSlot) {
       slot = free_slot();
-      write_points(message, point_bytes_, slots_[slot].room);
+      write_points(message.points, message.heights_m, message.objects, point_bytes_,
+                   slots_[slot].room);
       ++slots_[slot].holders;  // held here until all readers have been served
     }
     begin(peer, slot, message.header);

@@ -6,6 +6,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
+#include <span>
 #include <type_traits>
 
 #include "calib/sensor/sensor_model.hpp"
@@ -52,6 +55,25 @@ inline constexpr std::uint16_t kPointBytesWithHeight = sizeof(WirePoint) + sizeo
 /// uint32.
 inline constexpr std::uint16_t kPointBytesWithObject =
     kPointBytesWithHeight + sizeof(std::uint32_t);
+
+/// Writes points as they are sent, each with its height if a point has room for one, NaN where
+/// there is no height, and with the number of its object if there is room for that, too.
+inline void write_points(std::span<const points::LabelledPoint> points,
+                         std::span<const float> heights_m, std::span<const std::uint16_t> objects,
+                         std::size_t point_bytes, std::span<std::byte> room) noexcept {
+  std::byte* to = room.data();
+  for (std::size_t i = 0; i < points.size(); ++i, to += point_bytes) {
+    const WirePoint point = wire_point(points[i]);
+    std::memcpy(to, &point, sizeof point);
+    if (point_bytes == sizeof point) continue;
+    const float height_m =
+        i < heights_m.size() ? heights_m[i] : std::numeric_limits<float>::quiet_NaN();
+    std::memcpy(to + sizeof point, &height_m, sizeof height_m);
+    if (point_bytes == kPointBytesWithHeight) continue;
+    const std::uint32_t object = i < objects.size() ? objects[i] : 0;
+    std::memcpy(to + kPointBytesWithHeight, &object, sizeof object);
+  }
+}
 
 /// Bits of FrameWireHeader::flags. Readers ignore bits they do not know.
 inline constexpr std::uint32_t kFrameComplete = 1U << 0;  ///< Every firing was seen, seam to seam.

@@ -42,6 +42,7 @@ ExitCode show(PlayedRecording& recording, const publish::RunFacts& stream, const
 ExitCode run_view(const Options& as_said) {
   Options options = as_said;
   options.mount = guessing(options.mount);
+  options.method.heights = options.method.heights || options.method.method.empty();
   catch_stop_signals();
   const auto is_clouds = holds_clouds(options.capture);
   if (!is_clouds) return refuse(is_clouds.error());

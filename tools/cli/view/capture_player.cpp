@@ -62,6 +62,7 @@ void CapturePlayer::obey(const PlayerCommand& command) {
   if (command.step) state_.playing = false;
   if (command.seek_s) steps_ = state_.playing ? 0 : 1;
   if (command.step) ++steps_;
+  state_.seeking = seek_s_ || steps_ > 0;
   ++commands_;
   told_.notify_all();
 }
@@ -93,7 +94,9 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
     recording_.take(frame);
     if (Status taken = on_frame(frame); !taken) return taken;
     const std::lock_guard lock(mutex_);
+    state_.frame = frame.record.info.number;
     state_.position_s = std::max(0.0, seconds(span->begin_ns));
+    state_.seeking = seek_s_ || steps_ > 0;
   }
   return {};
 }
@@ -139,6 +142,7 @@ void CapturePlayer::end_or_begin_anew() {
     }
   }
   state_.at_end = true;
+  state_.seeking = false;
   steps_ = 0;
   state_.playing = false;
 }

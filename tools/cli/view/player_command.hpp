@@ -31,7 +31,9 @@ struct PlayerState {
   bool loop = true;
   bool at_end = false;  ///< Paused at the end; continues from the beginning.
   double rate = 1;
-  double position_s = 0;
+  bool seeking = false;       ///< A frame that was sought, or stepped to, is still to come.
+  std::uint32_t frame = 0;    ///< Number of the frame shown last.
+  double position_s = 0;      ///< Where it begins.
   double duration_s = 0;      ///< As far as known.
   double frame_s = 0.1;       ///< Interval between frames.
   std::int64_t begin_ns = 0;  ///< Stamp of its first datagram; 0 while unknown.

@@ -23,6 +23,14 @@ double centimetres(float metres) {
   return std::round(static_cast<double>(metres) * 100) / 100;
 }
 
+/// Copies the points, with their heights where there are any, as the wire has them.
+void keep_points(std::span<const points::LabelledPoint> points, std::span<const float> heights_m,
+                 ViewFrames::Kept& kept) {
+  if (!heights_m.empty()) kept.header.point_bytes = stream::kPointBytesWithHeight;
+  kept.points.resize(points.size() * kept.header.point_bytes);
+  stream::write_points(points, heights_m, {}, kept.header.point_bytes, kept.points);
+}
+
 nlohmann::ordered_json sight_json(const visibility::SightFigures& sight) {
   nlohmann::ordered_json json{{"state", sight.has_learnt == 0 ? "learning"
                                                               : to_string(sight.worst().state)},
@@ -43,10 +51,9 @@ ViewFrames::ViewFrames(const publish::RunFacts& facts) : facts_(facts) {}
 void ViewFrames::put(const publish::LabelledFrame& frame) {
   const std::shared_ptr<Kept> room = rooms_.take();
   const Shown of_frame = shown(frame.record);
-  room->points.resize(frame.points.size());
-  std::ranges::transform(frame.points, room->points.begin(), stream::wire_point);
   room->header = stream::header_of(frame.record, sensor::SensorModel::kUnknown, of_frame.missed,
                                    frame.points.size());
+  keep_points(frame.points, frame.heights_m, *room);
   const std::lock_guard lock(mutex_);
   newest_ = room;
   if (gives_sectors()) {
@@ -67,12 +74,11 @@ void ViewFrames::put(const publish::LabelledFrame& frame) {
 
 void ViewFrames::put_sector(const publish::LabelledSector& sector) {
   const std::shared_ptr<Kept> room = sector_rooms_.take();
-  room->points.resize(sector.points.size());
-  std::ranges::transform(sector.points, room->points.begin(), stream::wire_point);
   const points::SectorRecord& record = sector.record;
   room->header = stream::header_of(record, sensor::SensorModel::kUnknown,
                                    record.labels_ns - record.first_packet_ns > facts_.deadline_ns,
                                    sector.points.size());
+  keep_points(sector.points, sector.heights_m, *room);
   const std::lock_guard lock(mutex_);
   keep_sector(room);
 }
@@ -136,6 +142,7 @@ nlohmann::ordered_json ViewFrames::figures() const {
   const std::lock_guard lock(mutex_);
   json["sensor"] = facts_.sensor;
   json["rows"] = facts_.rows;
+  json["sensor_height_m"] = std::round(facts_.mount.height_m * 100) / 100;
   json["objects"] = facts_.found.objects;
   json["free_way"] = facts_.found.free_way;
   json["deadline_ms"] = nullptr;

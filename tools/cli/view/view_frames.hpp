@@ -26,7 +26,7 @@ class ViewFrames {
  public:
   struct Kept {
     stream::FrameWireHeader header;
-    std::vector<stream::WirePoint> points;
+    std::vector<std::byte> points;  ///< As stream::write_points() writes them.
   };
   struct Message {
     std::uint64_t number = 0;          ///< Sequence number, from 1; 0: none yet.
@@ -51,11 +51,11 @@ class ViewFrames {
   /// Returns the sector, or the head of a frame without its points, that follows number `seen`, or
   /// the oldest one if that is not kept any more: a browser then has a whole turn soon.
   [[nodiscard]] Message sector_after(std::uint64_t seen) const;
-  /// Returns the figures for the page: sensor, rows, deadline_ms or null, frames[] as [ms, level,
-  /// missed], losses[] and onlookers[] as [cause, count] (status::is_of_onlookers()); objects and
-  /// free_way, whether there are any; silent_s if the sensor is silent; sight
-  /// if the view is watched: state, text, sectors[] clockwise from straight ahead as [state,
-  /// visible_m].
+  /// Returns the figures for the page: sensor, rows, sensor_height_m, deadline_ms or null, frames[]
+  /// as [ms, level, missed], losses[] and onlookers[] as [cause, count]
+  /// (status::is_of_onlookers()); objects and free_way, whether there are any; silent_s if the
+  /// sensor is silent; sight if the view is watched: state, text, sectors[] clockwise from straight
+  /// ahead as [state, visible_m].
   [[nodiscard]] nlohmann::ordered_json figures() const;
   /// Returns what was found in a frame for the page, in the vehicle frame: boxes[] of objects, of
   /// four corners [x_m, y_m], bottom_m and top_m; free_way[], the corners [x_m, y_m] of the free

@@ -26,7 +26,10 @@ HttpAnswer figures_of(const ViewSource& source) {
   if (source.capture != nullptr) {
     const PlayerState state = source.capture->state();
     json["capture"] = {{"playing", state.playing},
+                       {"loop", state.loop},
                        {"rate", state.rate},
+                       {"seeking", state.seeking},
+                       {"frame", state.frame},
                        {"position_s", state.position_s},
                        {"duration_s", state.duration_s},
                        {"frame_s", state.frame_s}};

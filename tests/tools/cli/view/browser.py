@@ -10,6 +10,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import time
 from pathlib import Path
 
 
@@ -38,6 +39,9 @@ class Browser:
         self.numbers = itertools.count(1)
         self.buffer = b""
         self.session = None
+        self.saved = Path(self.profile) / "saved"
+        self.saved.mkdir()
+        self.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(self.saved))
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         self.call("Page.enable")
@@ -67,6 +71,7 @@ class Browser:
         return json.loads(message)
 
     def resize(self, width, height, phone=False):
+        self.size = (width, height)
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=2 if phone else 1, mobile=phone)
 
     def open(self, url):
@@ -91,8 +96,24 @@ class Browser:
     def press(self, key):
         self.evaluate(f"void dispatchEvent(new KeyboardEvent('keydown', {{key: {json.dumps(key)}, bubbles: true}}))")
 
-    def photograph(self, file: Path):
-        file.write_bytes(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
+    def click(self, x, y):
+        for kind in ("mousePressed", "mouseReleased"):
+            self.call("Input.dispatchMouseEvent", type=kind, x=float(x), y=float(y), button="left", clickCount=1)
+
+    def saved_by(self, action, ending):
+        """The content of the file that the page saves then."""
+        before = set(self.saved.glob(f"*.{ending}"))
+        action()
+        given_up = time.monotonic() + 120
+        while not (new := set(self.saved.glob(f"*.{ending}")) - before):
+            if time.monotonic() > given_up:
+                raise TimeoutError(f"no .{ending} was saved")
+            time.sleep(0.05)
+        return new.pop().read_bytes()
+
+    def photograph(self, file: Path, scale=1):
+        clip = {"x": 0, "y": 0, "width": self.size[0], "height": self.size[1], "scale": scale}
+        file.write_bytes(base64.b64decode(self.call("Page.captureScreenshot", format="png", clip=clip)["data"]))
 
     def stop(self):
         """As if its machine had frozen."""

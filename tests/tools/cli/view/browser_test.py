@@ -13,13 +13,13 @@ import struct
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 import urllib.request
 from pathlib import Path
 
 from browser import Browser, find_chromium
+from served import Served
 
 try:
     import numpy as np
@@ -29,61 +29,19 @@ except ImportError:
 PROGRAM, DRIVE = sys.argv[1], Path(sys.argv[2])
 PICTURES = Path(sys.argv[3]) if len(sys.argv) > 3 else None
 HEADER_BYTES = 56
-POINT = np and np.dtype([("xyz", "<f4", 3), ("intensity", "u1"), ("label", "u1"), ("row", "<u2"), ("time", "<f4")])
+POINT = np and np.dtype([("xyz", "<f4", 3), ("intensity", "u1"), ("label", "u1"), ("row", "<u2"), ("time", "<f4"), ("above_ground", "<f4")])
 
 
-class Served:
-    """A run of the program that shows its page."""
+def newest_frame(served):
+    """(number, points) of the frame that stands."""
+    with urllib.request.urlopen(served.url + "frames", timeout=20) as stream:
+        number, count = struct.unpack_from("<II", header := stream.read(HEADER_BYTES), 8)
+        assert struct.unpack_from("<H", header, 40)[0] == POINT.itemsize
+        return number, np.frombuffer(stream.read(count * POINT.itemsize), POINT)
 
-    def __init__(self, *words):
-        self.process = subprocess.Popen([PROGRAM, *map(str, words)], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
-        for line in self.process.stderr:
-            if found := re.search(r"browser: (http://\S+)", line):
-                self.url = found[1]
-                break
-        else:
-            raise RuntimeError("the program did not say where its page is")
-        self.reading = threading.Thread(target=self.process.stderr.read, daemon=True)
-        self.reading.start()
 
-    def figures(self):
-        with urllib.request.urlopen(self.url + "figures", timeout=20) as answer:
-            return json.load(answer)
-
-    def wait_until(self, holds):
-        """The figures that hold; an error after two minutes."""
-        given_up = time.monotonic() + 120
-        while not holds(figures := self.figures()):
-            if time.monotonic() > given_up:
-                raise TimeoutError(f"waited in vain; at last: {figures['capture']}, {figures['browsers']}")
-            time.sleep(0.1)
-        return figures
-
-    def tell(self, **command):
-        request = urllib.request.Request(self.url + "control", json.dumps(command).encode(), {"Content-Type": "application/json"})
-        with urllib.request.urlopen(request, timeout=20) as answer:
-            return json.load(answer)["capture"]
-
-    def stand_at(self, seconds):
-        # By way of the beginning: a capture that plays comes to the place by itself, before it is sought.
-        self.tell(playing=False, seek_s=0)
-        self.wait_until(lambda figures: figures["capture"]["position_s"] < 0.06)
-        self.tell(seek_s=seconds)
-        self.wait_until(lambda figures: abs(figures["capture"]["position_s"] - seconds) < 0.06)
-
-    def newest_frame(self):
-        """(number, points) of the frame that stands."""
-        with urllib.request.urlopen(self.url + "frames", timeout=20) as stream:
-            number, count = struct.unpack_from("<II", header := stream.read(HEADER_BYTES), 8)
-            point_bytes = struct.unpack_from("<H", header, 40)[0]
-            return number, np.frombuffer(stream.read(count * point_bytes), POINT)
-
-    def end(self):
-        self.process.terminate()
-        code = self.process.wait(60)
-        self.reading.join()
-        self.process.stderr.close()
-        return code
+def two_digits(value):
+    return f"{round(float(value), 2) + 0.0:.2f}"  # no -0.00
 
 
 def picture(browser, name):
@@ -125,7 +83,7 @@ class APage(unittest.TestCase):
         self.addCleanup(self.browser.close)
 
     def served(self, *words):
-        served = Served(*words)
+        served = Served(PROGRAM, *words)
         self.addCleanup(served.end)
         return served
 
@@ -136,10 +94,19 @@ class APage(unittest.TestCase):
         flat = np.frombuffer(base64.b64decode(read["pixels"]), np.uint8)
         return flat.reshape(read["height"], read["width"], 4)[::-1, :, :3].astype(int)
 
-    def colour_of(self, kind):
-        """As the legend shows it."""
-        text = self.browser.evaluate(f"getComputedStyle(document.querySelector('[data-kind={kind}] i')).color")
-        return np.array([int(part) for part in re.findall(r"\d+", text)[:3]])
+    def stops_of(self, kind):
+        """The colours that the legend shows, from one to the next."""
+        text = self.browser.evaluate(f"getComputedStyle(document.querySelector('[data-kind={kind}] i')).backgroundImage")
+        return np.array([[int(part) for part in found] for found in re.findall(r"rgb\((\d+), (\d+), (\d+)\)", text)], float)
+
+    def shows(self, pixels, stops):
+        """True where a pixel has one of these colours, or one between them; `stops`: or the kind that has them."""
+        stops = self.stops_of(stops) if isinstance(stops, str) else stops
+        found = np.zeros(pixels.shape[:-1], bool)
+        for begin, way in zip(stops, np.diff(stops, axis=0)):
+            along = np.clip((pixels - begin) @ way / max(way @ way, 1), 0, 1)
+            found |= (np.abs(pixels - begin - along[..., None] * way) <= 2).all(axis=-1)
+        return found
 
     def places_on_screen(self, xy):
         """From above: where places on the ground are, by the distances that the page marks."""
@@ -164,7 +131,7 @@ class APage(unittest.TestCase):
         served.stand_at(0.5)
         self.browser.wait_for("document.body.dataset.playing === 'false'")
         self.browser.press("t")
-        number, points = served.newest_frame()
+        number, points = newest_frame(served)
         self.browser.wait_for(f"document.getElementById('frame').dataset.number === '{number}'")
         picture(self.browser, "from_above")
         truths = [np.fromfile(file, np.uint32) & 0xFFFF for file in DRIVE.with_suffix(".truth").glob("*.label")]
@@ -187,11 +154,84 @@ class APage(unittest.TestCase):
                 near += np.roll(counts, (dy, dx), (1, 2))
         for kind, name in ((1, "ground"), (0, "obstacle")):
             alone = (counts[kind] > 0) & (near[1 - kind] == 0)
-            found = pixels[alone]
-            right = (np.abs(found - self.colour_of(name)) <= 2).all(axis=1)
-            print(f"{name}: {right.mean():.1%} of {len(found)} pixels have the colour that the truth says")
-            self.assertGreater(len(found), 500)
+            right = self.shows(pixels[alone], name)
+            print(f"{name}: {right.mean():.1%} of {len(right)} pixels have the colour that the truth says")
+            self.assertGreater(len(right), 500)
             self.assertGreater(right.mean(), 0.93)  # labels themselves are not all right
+
+        alone = np.argwhere((counts.sum(axis=0) == 1) & (near.sum(axis=0) == 1))  # y, x
+        self.values_of_a_click(number, points, at, [(x, y) for y, x in alone])
+        self.address_that_leads_back(served, number)
+        self.range_image(points)
+        self.light_and_dark()
+        self.picture_that_is_saved()
+
+    def values(self):
+        """What the page says of the return that was clicked, by name."""
+        names_and_values = self.browser.evaluate("[...document.getElementById('values-rows').children].map(e => e.textContent.replaceAll('−', '-'))")
+        return dict(zip(names_and_values[::2], names_and_values[1::2]))
+
+    def values_of_a_click(self, number, points, at, places):
+        """`at`: where each return is seen; `places`: where one is seen alone."""
+        chosen = [np.flatnonzero((at == place).all(axis=1))[0] for place in (places[0], places[-1])]
+        for press, index in zip((None, "m"), chosen):
+            if press:
+                self.browser.press(press)
+            self.browser.click(*(at[index] + 0.5))
+            self.assertEqual(self.browser.evaluate("document.getElementById('values-title').textContent"), f"return {index}, frame {number}")
+            point, values = points[index], self.values()
+            x, y, z = point["xyz"].astype(float)
+            self.assertEqual(values["x, y, z"], ", ".join(map(two_digits, (x, y, z))) + " m")
+            self.assertAlmostEqual(float(values["range"].split()[0]), np.hypot(np.hypot(x, y), z - 1.73), delta=0.02)
+            self.assertEqual(values["above ground"], two_digits(point["above_ground"]) + " m")
+            self.assertEqual([values["ring"], values["intensity"]], [str(point["row"]), str(point["intensity"])])
+            self.assertEqual(values["label"], {40: "ground", 99: "obstacle"}[point["label"]])
+        between = np.diff(points["xyz"][chosen].astype(float), axis=0)[0]
+        self.assertEqual(values["distance"], two_digits(np.linalg.norm(between)) + " m")
+        self.assertEqual(values["up"], two_digits(between[2]) + " m")
+        picture(self.browser, "measured")
+        self.browser.press("Escape")
+        self.assertTrue(self.browser.evaluate("document.getElementById('values').hidden"))
+
+    def address_that_leads_back(self, served, number):
+        self.browser.press("+")
+        self.browser.press("4")
+        self.browser.wait_for(f"location.hash.startsWith('#frame={number}&view=top&camera=') && location.hash.endsWith('colour=ring')")
+        scale = "document.getElementById('scale').firstElementChild.style.width"
+        link, seen = self.browser.evaluate("[location.href, " + scale + "]")
+        served.tell(playing=True, seek_s=0)
+        self.browser.open("about:blank")
+        self.browser.open(link)
+        self.browser.wait_for(f"document.body.dataset.playing === 'false' && document.getElementById('frame').dataset.number === '{number}'")
+        self.browser.wait_for(f"location.hash === '{link[link.index('#'):]}'")
+        self.assertEqual(self.browser.evaluate(scale), seen)
+        self.browser.press("1")
+
+    def range_image(self, points):
+        self.browser.press("i")
+        left, top, width, height = self.browser.evaluate("(({left, top, width, height}) => [left, top, width, height])(document.getElementById('range').getBoundingClientRect())")
+        image = self.pixels()[int(top) + 1 : int(top + height) - 1, int(left) + 1 : int(left + width) - 1]
+        picture(self.browser, "range_image")
+        x, y, _ = points["xyz"].T
+        columns = np.floor((0.5 - np.arctan2(y, x) / (2 * np.pi)) * width).astype(int) - 1
+        rows = np.floor((63.5 - points["row"]) / 64 * height).astype(int) - 1
+        inside = (columns > 1) & (columns < image.shape[1] - 1) & (rows > 1) & (rows < image.shape[0] - 1)
+        for label, kind in ((40, "ground"), (99, "obstacle")):
+            chosen = inside & (points["label"] == label)
+            self.assertGreater(self.shows(image[rows[chosen], columns[chosen]], kind).mean(), 0.9)
+        self.browser.press("i")
+
+    def light_and_dark(self):
+        is_ground, paper = int(self.shows(self.pixels(), "ground").sum()), self.pixels()[0, 0]
+        self.browser.press("d")
+        other = self.pixels()
+        self.assertGreater(abs(other[0, 0] - paper).sum(), 500)
+        self.assertAlmostEqual(int(self.shows(other, "ground").sum()), is_ground, delta=0.1 * is_ground)
+
+    def picture_that_is_saved(self):
+        saved = self.browser.saved_by(lambda: self.browser.press("p"), "png")
+        width, height = struct.unpack_from(">II", saved, 16)
+        self.assertEqual([saved[:8], width, height], [b"\x89PNG\r\n\x1a\n", 1280, 720])
 
     def test_kinds_are_switched_off(self):
         served = self.served("view", DRIVE, "--at", "127.0.0.1:0")
@@ -199,20 +239,24 @@ class APage(unittest.TestCase):
         served.stand_at(0.5)
         self.browser.wait_for("document.getElementById('frame').dataset.number")
 
-        def count(kind):
-            return int((np.abs(self.pixels() - self.colour_of(kind)) <= 2).all(axis=2).sum())
+        def count(stops):
+            return int(self.shows(self.pixels(), stops).sum())
 
-        ground, obstacle = self.colour_of("ground"), self.colour_of("obstacle")
-        self.assertGreater(count("ground"), 3000)
+        ground, sand = count("ground"), self.stops_of("ground")
+        self.assertGreater(ground, 3000)
         self.assertGreater(count("obstacle"), 1000)
+        self.browser.evaluate("{ const size = document.getElementById('points-size'); size.value = 1; size.dispatchEvent(new Event('input')); }")
+        self.assertGreater(count("ground"), 1.5 * ground)
+        for _ in range(5):
+            self.browser.press("[")
+        self.assertAlmostEqual(count("ground"), ground, delta=0.2 * ground)
         self.browser.press("g")
-        left = self.pixels()
-        self.assertEqual((np.abs(left - ground) <= 2).all(axis=2).sum(), 0)
-        self.assertGreater((np.abs(left - obstacle) <= 2).all(axis=2).sum(), 1000)
+        self.assertEqual(count("ground"), 0)
+        self.assertGreater(count("obstacle"), 1000)
         self.browser.press("g")
         for key, name in (("2", "height"), ("3", "intensity"), ("4", "ring")):
             self.browser.press(key)
-            self.assertLess((np.abs(self.pixels() - ground) <= 2).all(axis=2).sum(), 1000)
+            self.assertLess(count(sand), 1000)
             picture(self.browser, f"by_{name}")
 
     def test_boxes_of_objects_are_drawn_where_there_are_any(self):
@@ -220,18 +264,38 @@ class APage(unittest.TestCase):
         self.browser.open(served.url)
         served.stand_at(0.5)
         self.browser.wait_for("!document.querySelector('[data-kind=box]').hidden")
-        box = self.colour_of("box")
         self.browser.wait_for("document.getElementById('frame').dataset.number")
 
         def drawn():
-            return int((np.abs(self.pixels() - box) <= 2).all(axis=2).sum())
+            return int(self.shows(self.pixels(), "box").sum())
 
         given_up = time.monotonic() + 60
         while drawn() < 500:
             self.assertLess(time.monotonic(), given_up)
         picture(self.browser, "boxes")
+        self.object_of_a_click(served)
         self.browser.press("x")
         self.assertEqual(drawn(), 0)
+
+    def object_of_a_click(self, served):
+        """A return in the middle of the first object is of that object."""
+        number, points = newest_frame(served)
+        with urllib.request.urlopen(f"{served.url}found/{number}", timeout=20) as answer:
+            boxes = json.load(answer)["boxes"]
+        self.browser.press("t")
+        self.browser.press("g")
+        self.pixels()
+        centres = np.array([np.mean(box["corners"], axis=0) for box in boxes])
+        nearest = int(np.argmin(np.linalg.norm(centres, axis=1)))
+        corners = np.array(boxes[nearest]["corners"])
+        xyz = points["xyz"]
+        (low_x, low_y), (high_x, high_y) = corners.min(axis=0), corners.max(axis=0)
+        inside = (points["label"] == 99) & (xyz[:, 0] > low_x) & (xyz[:, 0] < high_x) & (xyz[:, 1] > low_y) & (xyz[:, 1] < high_y)
+        places, _ = self.places_on_screen(xyz[inside][:, :2])
+        self.browser.click(*np.median(places, axis=0))
+        self.assertEqual(self.values()["object"], str(nearest + 1))
+        self.browser.press("g")
+        self.browser.press("b")
 
     def test_the_free_way_is_drawn_where_it_is_found(self):
         served = self.served("view", DRIVE, "--free-way", "--at", "127.0.0.1:0")
@@ -239,11 +303,10 @@ class APage(unittest.TestCase):
         served.stand_at(0.5)
         self.browser.wait_for("!document.querySelector('[data-kind=way]').hidden")
         self.assertTrue(self.browser.evaluate("document.querySelector('[data-kind=box]').hidden"))
-        line = self.colour_of("way")
         self.browser.press("t")
 
         def drawn():
-            return int((np.abs(self.pixels() - line) <= 2).all(axis=2).sum())
+            return int(self.shows(self.pixels(), "way").sum())
 
         given_up = time.monotonic() + 60
         while drawn() < 200:
@@ -285,6 +348,10 @@ class APage(unittest.TestCase):
         self.assertAlmostEqual(self.browser.evaluate(at), before, delta=0.03)
         self.browser.press("Home")
         self.browser.wait_for(f"{at} < 0.05")
+        for is_looped in (False, True):
+            self.browser.press("l")
+            self.browser.wait_for(f"document.getElementById('loop').ariaPressed === '{str(is_looped).lower()}'")
+            self.assertEqual(served.figures()["capture"]["loop"], is_looped)
         self.assertAlmostEqual(served.figures()["capture"]["duration_s"], 1.3, delta=0.2)
 
     def test_it_fits_a_phone(self):
@@ -308,6 +375,12 @@ class APage(unittest.TestCase):
             "[...document.querySelectorAll('.panel button')].filter(b => b.offsetParent && b.getBoundingClientRect().height < 28).length"
         )
         self.assertEqual(small, 0)
+        height = "document.getElementById('scene').clientHeight"
+        whole = self.browser.evaluate(height)
+        self.browser.evaluate("document.getElementById('fold').click()")
+        self.assertGreater(self.browser.evaluate(height), 1.5 * whole)
+        self.assertTrue(self.browser.evaluate("getComputedStyle(document.getElementById('look')).display === 'none'"))
+        picture(self.browser, "phone_folded")
 
     def be_the_sensor(self):
         """The address that it sends to."""
@@ -322,15 +395,14 @@ class APage(unittest.TestCase):
         return address
 
     def live(self, address, *words):
-        return Served("live", "--listen", address, "--calibration", DRIVE.with_suffix(".calibration.xml"), "--view", "127.0.0.1:0",
+        return Served(PROGRAM, "live", "--listen", address, "--calibration", DRIVE.with_suffix(".calibration.xml"), "--view", "127.0.0.1:0",
                       "--metrics", "off", "--no-lock-memory", *words)  # fmt: skip
 
     def coloured(self):
         """How many pixels show points, from above."""
         self.browser.press("t")
         pixels = self.pixels()
-        kinds = [self.colour_of("ground"), self.colour_of("obstacle")]
-        return sum(int((np.abs(pixels - kind) <= 2).all(axis=2).sum()) for kind in kinds)
+        return sum(int(self.shows(pixels, kind).sum()) for kind in ("ground", "obstacle"))
 
     def test_sectors_that_are_drawn_as_they_come_make_a_whole_turn(self):
         capture = self.served("view", DRIVE, "--at", "127.0.0.1:0")
@@ -354,6 +426,11 @@ class APage(unittest.TestCase):
         self.assertGreater(max(by_sectors), 0.85 * whole)
         self.assertLess(max(by_sectors), 1.15 * whole)
 
+    def film_of_a_moment(self):
+        self.browser.press("v")
+        self.browser.wait_for("parseFloat(document.getElementById('film').textContent.split(',')[1]) >= 0.1")
+        self.browser.press("v")
+
     def test_a_live_run_is_drawn_and_not_delayed_by_a_browser_that_stops(self):
         address = self.be_the_sensor()
         with tempfile.TemporaryDirectory() as folder:
@@ -366,6 +443,9 @@ class APage(unittest.TestCase):
                 rate = self.browser.wait_for("document.getElementById('rate').textContent")
                 returns = self.browser.evaluate("document.getElementById('frame').textContent")
                 picture(self.browser, "live")
+                film = self.browser.saved_by(self.film_of_a_moment, "webm")
+                self.assertEqual(film[:4], b"\x1a\x45\xdf\xa3")  # EBML
+                self.assertGreater(len(film), 10_000)
                 drawn = served.figures()
                 self.browser.stop()
                 newest = drawn["frames"][-1]

@@ -108,6 +108,18 @@ TEST_F(CapturePlayerTest, ShowsThePlaceSoughtThoughAFrameIsJustBeingShown) {
   EXPECT_NEAR(shown_s[2], 0.2, 0.6 * kFrame_s);
 }
 
+TEST_F(CapturePlayerTest, TellsWhichFrameStandsAndWhetherASoughtOneIsStillToCome) {
+  CapturePlayer player(*played_);
+  std::vector<PlayerState> states;
+  play(player, {R"({"playing": false, "seek_s": 0.5})", R"({"playing": true})", R"({"rate": 1})"},
+       [&](const frame::FrameInfo&) { states.push_back(player.state()); });
+  ASSERT_EQ(states.size(), 4U);
+  EXPECT_FALSE(states[0].seeking);
+  EXPECT_TRUE(states[1].seeking);
+  EXPECT_FALSE(states[2].seeking);
+  EXPECT_EQ(states[2].frame, 5U);
+}
+
 TEST_F(CapturePlayerTest, PlaysThoughNoThreadIsLeftToFindOutHowLongTheRecordingIs) {
   const test::NoThreads none;
   CapturePlayer player(*played_);

@@ -15,6 +15,7 @@
 #include "pipeline/status/loss_causes.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tests/support/http_client.hpp"
+#include "tools/cli/view/view_page.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -48,7 +49,9 @@ publish::LabelledSector sector_of(std::uint32_t frame, std::uint32_t first,
 class NotedCapture : public ViewedCapture {
  public:
   void obey(const PlayerCommand& command) override { told.push_back(command); }
-  [[nodiscard]] PlayerState state() const override { return {.position_s = 2, .duration_s = 9}; }
+  [[nodiscard]] PlayerState state() const override {
+    return {.frame = 20, .position_s = 2, .duration_s = 9};
+  }
   std::vector<PlayerCommand> told;
 };
 
@@ -131,14 +134,15 @@ TEST_F(Page, IsCompleteInItself) {
   EXPECT_EQ(page.status, 200);
   EXPECT_THAT(page.body, HasSubstr("<canvas id=\"scene\""));
   EXPECT_THAT(page.head, HasSubstr("Content-Security-Policy: default-src 'self'"));
-  for (const char* file :
-       {"/view.js", "/scene.js", "/camera.js", "/colours.js", "/frames.js", "/strip.js"}) {
-    const auto module = get(file);
-    EXPECT_EQ(module.status, 200) << file;
-    EXPECT_THAT(module.head, HasSubstr("Content-Type: text/javascript")) << file;
-    EXPECT_EQ(module.body.find("http://"), std::string::npos) << file << " fetches from elsewhere";
-    EXPECT_EQ(module.body.find("https://"), std::string::npos) << file;
+  for (const PageFile& file : view_page()) {
+    const auto served = get(std::string(file.path).c_str());
+    EXPECT_EQ(served.status, 200) << file.path;
+    EXPECT_THAT(served.head, HasSubstr("Content-Type: " + std::string(file.type))) << file.path;
+    for (const char* elsewhere : {"http://", "https://"}) {
+      EXPECT_EQ(served.body.find(elsewhere), std::string::npos) << file.path;
+    }
   }
+  EXPECT_THAT(get("/view.js").head, HasSubstr("Content-Type: text/javascript"));
   EXPECT_EQ(get("/../../etc/passwd").status, 404);
 }
 
@@ -206,6 +210,19 @@ TEST_F(Page, SendsFramesAsTheLabelledStreamHasThem) {
   std::memcpy(&point, bytes.data() + 999 * sizeof(point), sizeof(point));
   EXPECT_EQ(point.x_m, 1);
   EXPECT_EQ(point.label, 40);
+}
+
+TEST_F(Page, SendsHeightsAboveTheGroundWhereFramesHaveThem) {
+  publish::LabelledFrame frame = frame_of(7, 2);
+  frame.heights_m = {0.25F, -0.5F};
+  ASSERT_TRUE(sink_->put(frame));
+  const auto looking = browser();
+  const stream::FrameWireHeader header = next_header(*looking);
+  ASSERT_EQ(header.point_bytes, stream::kPointBytesWithHeight);
+  const std::string bytes = looking->read(std::size_t{2} * stream::kPointBytesWithHeight);
+  float second_m = 0;
+  std::memcpy(&second_m, bytes.data() + bytes.size() - sizeof second_m, sizeof second_m);
+  EXPECT_EQ(second_m, -0.5F);
 }
 
 TEST_F(Page, ABrowserThatStopsDelaysNoFrameAndMissesThem) {
@@ -308,6 +325,7 @@ TEST_F(Page, ShowsLatencyAndWhatMissedTheDeadline) {
   const json shown = figures();
   EXPECT_EQ(shown.at("deadline_ms"), 50);
   EXPECT_EQ(shown.at("rows"), 64);
+  EXPECT_EQ(shown.at("sensor_height_m"), 1.73);
   EXPECT_EQ(shown.at("frames"), json::parse("[[4.0, 0, false], [60.0, 1, true]]"));
   EXPECT_EQ(shown.at("capture"), nullptr);
   EXPECT_EQ(shown.at("objects"), false);
@@ -406,7 +424,10 @@ TEST_F(PageOfACapture, TellsItsPlayer) {
   EXPECT_EQ(capture_.told[0].playing, false);
   EXPECT_EQ(capture_.told[0].seek_s, 2.5);
   EXPECT_EQ(capture_.told[0].rate, 0.5);
-  EXPECT_EQ(json::parse(answer.body).at("capture").at("duration_s"), 9);
+  const json state = json::parse(answer.body).at("capture");
+  EXPECT_EQ(state.at("duration_s"), 9);
+  EXPECT_EQ(state.at("loop"), true);
+  EXPECT_EQ(state.at("frame"), 20);
 }
 
 TEST_F(PageOfACapture, RefusesWhatIsNoCommand) {

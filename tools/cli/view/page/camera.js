@@ -26,6 +26,11 @@ export class Camera {
     Object.assign(this, structuredClone(STARTS[view]));
   }
 
+  get isMoved() {
+    const start = STARTS[this.view];
+    return Object.keys(start).some((name) => String(this[name]) !== String(start[name]));
+  }
+
   // A narrow picture shows as much to the sides as a square one.
   resize(width, height) {
     this.width = Math.max(width, 1);
@@ -75,13 +80,16 @@ export class Camera {
     return columns(scale(x, 1 / (half * aspect)), scale(y, 1 / half), depth, w);
   }
 
-  // Where a place is on the canvas, in its pixels; null: behind the eye.
-  project(place) {
+  // A function of a place in space: where it is on the canvas, in its pixels, and how far from the eye, in metres; null: behind it.
+  projection() {
     const m = this.matrix();
-    const at = (row) => m[row] * place[0] + m[4 + row] * place[1] + m[8 + row] * place[2] + m[12 + row];
-    const w = at(3);
-    if (w <= 0) return null;
-    return [((at(0) / w + 1) / 2) * this.width, ((1 - at(1) / w) / 2) * this.height];
+    const { width, height, isFlat } = this;
+    return ([x, y, z]) => {
+      const at = (row) => m[row] * x + m[4 + row] * y + m[8 + row] * z + m[12 + row];
+      const w = at(3);
+      const depth = isFlat ? ((at(2) + 1) / 2) * FAR : w;
+      return w <= 0 ? null : [((at(0) / w + 1) / 2) * width, ((1 - at(1) / w) / 2) * height, depth];
+    };
   }
 
   turn(dx, dy) {

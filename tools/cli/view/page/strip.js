@@ -3,17 +3,17 @@
 
 // The last 300 frames: a bar each, as high as it took, coloured by how much of the method it got.
 
+import { css } from "./colours.js";
 import { LEVELS } from "./frames.js";
 
 const BARS = 300;
-const LEVEL_COLOURS = ["#5f93a8", "#d9b45e", "#d98a4e", "#ef6f6c"];
 
 function percentile(sorted, share) {
   return sorted.length === 0 ? 0 : sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))];
 }
 
-// `frames`: [ms, level, missed]; `deadlineMs`: null where there is none.
-export function drawStrip(canvas, frames, deadlineMs) {
+// `frames`: [ms, level, missed]; `deadlineMs`: null where there is none; `bars`: colours by level.
+export function drawStrip(canvas, frames, deadlineMs, bars) {
   const ratio = window.devicePixelRatio || 1;
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
   if (canvas.width !== Math.round(width * ratio)) canvas.width = Math.round(width * ratio);
@@ -27,19 +27,22 @@ export function drawStrip(canvas, frames, deadlineMs) {
   const step = width / BARS;
   frames.slice(-BARS).forEach(([ms, level, missed], i, shown) => {
     const x = width - (shown.length - i) * step;
-    context.fillStyle = missed ? LEVEL_COLOURS[3] : LEVEL_COLOURS[level] ?? LEVEL_COLOURS[0];
+    context.fillStyle = css(missed ? bars[3] : bars[level] ?? bars[0]);
     context.fillRect(x, y(ms), Math.max(step - 0.35, 0.6), height - y(ms));
   });
   context.font = "10.5px system-ui, sans-serif";
   context.textBaseline = "bottom";
   const mark = deadlineMs ?? top;
-  context.strokeStyle = deadlineMs ? "rgba(239, 111, 108, 0.75)" : "rgba(255, 255, 255, 0.14)";
+  const ink = getComputedStyle(canvas).color;
+  context.strokeStyle = deadlineMs ? css(bars[3]) : ink;
+  context.globalAlpha = deadlineMs ? 0.75 : 0.3;
   context.setLineDash(deadlineMs ? [4, 3] : []);
   context.beginPath();
   context.moveTo(0, y(mark) + 0.5);
   context.lineTo(width, y(mark) + 0.5);
   context.stroke();
-  context.fillStyle = "rgba(190, 203, 214, 0.9)";
+  context.globalAlpha = 1;
+  context.fillStyle = ink;
   context.fillText(deadlineMs ? `deadline ${deadlineMs} ms` : `${mark} ms`, 2, y(mark) + 13);
 }
 

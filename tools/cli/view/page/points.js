@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+
+// The returns that are shown, as they lie in the stream: in a buffer of the graphics unit, and for those who ask for one.
+
+const ROOM = 1 << 20; // for points of sectors: more than two turns of any sensor
+const HEIGHT_AT = 20; // of a point that has its height above the ground
+
+export class Points {
+  constructor(gl) {
+    this.gl = gl;
+    this.buffer = gl.createBuffer();
+    this.layout = gl.createVertexArray();
+    this.pieces = []; // of the buffer: {first, count, frame, number of the first return}, and of sectors when they began
+    this.next = null; // where the next sector goes; null: the buffer holds a whole frame
+    this.pointBytes = 20;
+  }
+
+  get hasHeights() {
+    return this.pointBytes >= HEIGHT_AT + 4;
+  }
+
+  // A whole frame. `bytes` stay as they are until the next one.
+  setFrame({ header, points }) {
+    this.pieces = [{ first: 0, count: header.points, frame: header.number, number: 0 }];
+    this.next = null;
+    this.bytes = points;
+    this.fill(points, header.pointBytes);
+  }
+
+  // Adds a part of a turn. `began` and `turn` are times of one unit: what began a turn or more before is forgotten.
+  addSector({ header, points }, began, turn) {
+    const { gl } = this;
+    const count = header.points;
+    if (this.next === null || this.pointBytes !== header.pointBytes) {
+      this.bytes = new Uint8Array(ROOM * header.pointBytes);
+      this.fill(this.bytes.length, header.pointBytes);
+      this.pieces = [];
+      this.next = 0;
+    }
+    const first = this.next + count > ROOM ? 0 : this.next;
+    this.next = first + count;
+    const stays = (piece) => Math.abs(began - piece.began) < turn && (piece.first >= this.next || piece.first + piece.count <= first);
+    this.pieces = this.pieces.filter(stays);
+    this.pieces.push({ first, count, began, frame: header.number, number: header.firstReturn });
+    this.bytes.set(points, first * this.pointBytes);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
+    gl.bufferSubData(gl.ARRAY_BUFFER, first * this.pointBytes, points);
+  }
+
+  // Makes the buffer anew, of bytes or of so many.
+  fill(bytes, pointBytes) {
+    const { gl } = this;
+    this.pointBytes = pointBytes;
+    gl.bindVertexArray(this.layout);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, bytes, gl.STREAM_DRAW);
+    for (let i = 0; i < 4; ++i) gl.enableVertexAttribArray(i);
+    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, pointBytes, 0);
+    gl.vertexAttribPointer(1, 1, gl.UNSIGNED_BYTE, false, pointBytes, 12);
+    gl.vertexAttribIPointer(2, 1, gl.UNSIGNED_BYTE, pointBytes, 13);
+    gl.vertexAttribIPointer(3, 1, gl.UNSIGNED_SHORT, pointBytes, 14);
+    if (!this.hasHeights) return gl.disableVertexAttribArray(4);
+    gl.enableVertexAttribArray(4);
+    gl.vertexAttribPointer(4, 1, gl.FLOAT, false, pointBytes, HEIGHT_AT);
+  }
+
+  draw() {
+    const { gl, pieces } = this;
+    gl.bindVertexArray(this.layout);
+    for (let i = 0; i < pieces.length; ) {
+      let { first, count } = pieces[i];
+      while (pieces[++i]?.first === first + count) count += pieces[i].count;
+      gl.drawArrays(gl.POINTS, first, count);
+    }
+  }
+
+  // The return with the least `score(place, label, row)`, or null if none is finite.
+  // {frame, number, place, intensity, label, row, aboveGround (undefined: not told)}
+  best(score) {
+    let [least, chosen, of] = [Infinity, 0, null];
+    if (this.pieces.length === 0) return null;
+    const view = new DataView(this.bytes.buffer, this.bytes.byteOffset, this.bytes.byteLength);
+    const place = [0, 0, 0];
+    const read = (at) => [0, 1, 2].forEach((axis) => (place[axis] = view.getFloat32(at + 4 * axis, true)));
+    for (const piece of this.pieces) {
+      for (let i = piece.first; i < piece.first + piece.count; ++i) {
+        const at = i * this.pointBytes;
+        read(at);
+        const found = score(place, this.bytes[at + 13], view.getUint16(at + 14, true));
+        if (found < least) [least, chosen, of] = [found, i, piece];
+      }
+    }
+    if (!of) return null;
+    const at = chosen * this.pointBytes;
+    read(at);
+    return {
+      frame: of.frame,
+      number: of.number + chosen - of.first,
+      place,
+      intensity: this.bytes[at + 12],
+      label: this.bytes[at + 13],
+      row: view.getUint16(at + 14, true),
+      aboveGround: this.hasHeights ? view.getFloat32(at + HEIGHT_AT, true) : undefined,
+    };
+  }
+}

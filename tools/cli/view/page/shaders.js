@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+
+// Programs of the graphics unit: points where they lie, points by row and azimuth, and lines.
+
+import { OBSTACLE_STOPS_M, RAMP_STEPS } from "./colours.js";
+
+// `placed` is GLSL that sets gl_Position and gl_PointSize of a point that is shown.
+const points = (uniforms, placed) => `#version 300 es
+layout(location = 0) in vec3 place;
+layout(location = 1) in float intensity;
+layout(location = 2) in uint label;
+layout(location = 3) in uint row;
+layout(location = 4) in float aboveGround;
+uniform vec3 ground[2], other[2], none; // in the light that comes back least and most
+uniform vec3 obstacle[${OBSTACLE_STOPS_M.length}];
+uniform vec3 steps[${RAMP_STEPS}];
+uniform vec2 range;
+uniform int colourBy;        // 0 label, 1 height, 2 intensity, 3 ring
+uniform bool hasOtherGround; // 40 is road then
+uniform bool hasHeights;
+uniform uint shown;          // bits by kind
+${uniforms}
+out vec3 colour;
+vec3 byHeight(float height) {
+  const float stops[${OBSTACLE_STOPS_M.length}] = float[](${OBSTACLE_STOPS_M.map((stop) => stop.toFixed(2)).join(", ")});
+  vec3 found = obstacle[0];
+  for (int i = 1; i < ${OBSTACLE_STOPS_M.length}; ++i) {
+    found = mix(found, obstacle[i], clamp((height - stops[i - 1]) / (stops[i] - stops[i - 1]), 0.0, 1.0));
+  }
+  return found;
+}
+void main() {
+  uint kind = label == 40u ? (hasOtherGround ? 0u : 1u) : label == 49u ? 1u : label == 99u ? 2u : 3u;
+  if ((shown >> kind & 1u) == 0u) {
+    gl_Position = vec4(2, 2, 2, 1);
+    return;
+  }
+  ${placed}
+  if (colourBy == 0) {
+    float light = sqrt(intensity / 255.0);
+    colour = kind == 3u ? none : kind == 2u ? byHeight(hasHeights ? aboveGround : place.z) :
+             label == 49u ? mix(other[0], other[1], light) : mix(ground[0], ground[1], light);
+    return;
+  }
+  float value = colourBy == 1 ? place.z : colourBy == 2 ? intensity : float(row);
+  float at = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0) * ${RAMP_STEPS - 1}.0;
+  int below = min(int(at), ${RAMP_STEPS - 2});
+  colour = mix(steps[below], steps[below + 1], at - float(below));
+}`;
+
+const IN_SPACE = points(
+  `uniform mat4 view;
+uniform vec3 size; // pixels at a metre's distance, the least, the most`,
+  `gl_Position = view * vec4(place, 1);
+  gl_PointSize = clamp(size.x / gl_Position.w, size.y, size.z);`,
+);
+
+// Ahead is in the middle, the left on the left; the nearest return of a pixel is seen.
+const BY_ROW = points(
+  `uniform float rows;
+uniform float size;`,
+  `gl_Position = vec4(-atan(place.y, place.x) / ${Math.PI}, (float(row) + 0.5) / rows * 2.0 - 1.0, min(length(place) / 150.0 - 1.0, 1.0), 1);
+  gl_PointSize = size;`,
+);
+
+const LINES = `#version 300 es
+layout(location = 0) in vec4 place; // w: how bright
+uniform mat4 view;
+uniform vec3 tint, paper;
+out vec3 colour;
+void main() {
+  gl_Position = view * vec4(place.xyz, 1);
+  colour = mix(paper, tint, place.w);
+}`;
+
+const PAINT = `#version 300 es
+precision mediump float;
+in vec3 colour;
+out vec4 painted;
+void main() { painted = vec4(colour, 1); }`;
+
+function program(gl, vertex) {
+  const made = gl.createProgram();
+  for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, PAINT]]) {
+    const shader = gl.createShader(type);
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    gl.attachShader(made, shader);
+  }
+  gl.linkProgram(made);
+  if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(made));
+  const at = new Map();
+  return { made, uniform: (name) => at.get(name) ?? at.set(name, gl.getUniformLocation(made, name)).get(name) };
+}
+
+// {inSpace, byRow, lines}: each {made, uniform(name)}
+export function programs(gl) {
+  return { inSpace: program(gl, IN_SPACE), byRow: program(gl, BY_ROW), lines: program(gl, LINES) };
+}

@@ -12,6 +12,8 @@ namespace terracut::points {
 namespace {
 
 constexpr double kTurn_rad = 2 * std::numbers::pi;
+/// After that way it is certain which way round the sensor turns: its lasers' azimuths differ less.
+constexpr double kSureWay_rad = kTurn_rad / 8;
 
 /// Returns the same direction between -pi and pi.
 float folded_rad(float angle_rad) noexcept {
@@ -48,7 +50,7 @@ std::span<const CompleteObject> CompleteObjects::take(const SectorRecord& sector
   find_azimuths(points, azimuths_rad_);
   const double middle_way_rad = advance(std::span(azimuths_rad_).first(points.size()));
   keep_obstacles(sector, middle_way_rad, points, heights_m);
-  if (++sectors_ % kSectorsALook == 0) look();
+  if (++sectors_ % kSectorsALook == 0 && last_way_rad_ > kSureWay_rad) look();
   return complete_;
 }
 
@@ -63,13 +65,9 @@ void CompleteObjects::begin(std::uint32_t frame) noexcept {
 
 double CompleteObjects::advance(std::span<const float> azimuths_rad) noexcept {
   const float middle_rad = azimuths_rad[azimuths_rad.size() / 2];
-  const float turned_rad = folded_rad(middle_rad - last_azimuth_rad_);
-  if (sectors_ == 1 && turned_rad < 0) {
-    direction_ = -1;
-    for (Origin& origin : origins_) origin.way_rad = -origin.way_rad;
-  }
-  if (sectors_ > 0) last_way_rad_ += direction_ * turned_rad;
+  if (sectors_ > 0) last_way_rad_ += direction_ * folded_rad(middle_rad - last_azimuth_rad_);
   last_azimuth_rad_ = middle_rad;
+  if (last_way_rad_ < -kSureWay_rad) turn_around();
   float least_rad = 0, most_rad = 0;
   for (const float azimuth_rad : azimuths_rad) {
     const float ahead_rad = direction_ * folded_rad(azimuth_rad - middle_rad);
@@ -79,6 +77,13 @@ double CompleteObjects::advance(std::span<const float> azimuths_rad) noexcept {
   if (sectors_ == 0) begin_rad_ = std::max(-least_rad, most_rad);  // whichever way it turns
   if (sectors_ > 0) edge_rad_ = std::max(edge_rad_, last_way_rad_ + least_rad);
   return last_way_rad_;
+}
+
+void CompleteObjects::turn_around() noexcept {
+  direction_ = -direction_;
+  last_way_rad_ = -last_way_rad_;
+  edge_rad_ = 0;
+  for (Origin& origin : origins_) origin.way_rad = -origin.way_rad;
 }
 
 void CompleteObjects::keep_obstacles(const SectorRecord& sector, double middle_way_rad,

@@ -68,6 +68,8 @@ class CompleteObjects {
   /// Follows the sensor to a sector, of which the azimuths are known. Returns the way to the
   /// azimuth of its middle point.
   double advance(std::span<const float> azimuths_rad) noexcept;
+  /// Counts the way in the other direction.
+  void turn_around() noexcept;
   void keep_obstacles(const SectorRecord& sector, double middle_way_rad,
                       std::span<const LabelledPoint> points,
                       std::span<const float> heights_m) noexcept;

@@ -45,7 +45,7 @@ TEST_F(LiveUnwinding, EndsTheThreadThatHandsOutLabelledPoints) {
   publish::Publisher publisher({}, publish::WhenFull::kDropOldest, {});
   FrameOutlet::Slots slots("points", 2, 100, memory_);
   const auto run_that_throws = [&] {
-    FrameOutlet outlet(std::nullopt, publisher, slots, nullptr, *ready);
+    FrameOutlet outlet(std::nullopt, publisher, slots, nullptr, *ready, {});
     throw std::runtime_error("anything");
   };
   EXPECT_THROW(run_that_throws(), std::runtime_error);

@@ -27,15 +27,18 @@ struct ObjectsOfSectors : testing::Test, test::BoxScene {
   static constexpr int kColumnsASector = 10, kSectors = kShape.columns / kColumnsASector;
   static constexpr std::int64_t kSector_ns = 1'000'000;
 
-  /// The points of a turn that begins at column `first_column` and goes one way or the other.
-  void see(const std::vector<test::Box>& boxes, int first_column = 0, bool clockwise = true) {
+  /// The points of a turn that begins at column `first_column` and goes one way or the other; its
+  /// lasers look up to `aside` columns to either side of the head.
+  void see(const std::vector<test::Box>& boxes, int first_column = 0, bool clockwise = true,
+           int aside = 0) {
     cast(test::ground_with_boxes(boxes));
     points.clear();
     sector_of_point.clear();
     for (int i = 0; i < kShape.columns; ++i) {
       const int away = clockwise ? i : kShape.columns - i;
-      const int column = (first_column + away) % kShape.columns;
       for (int row = 0; row < kShape.rows; ++row) {
+        const int of_laser = row * 17 % (2 * aside + 1) - aside;
+        const int column = (first_column + away + of_laser + kShape.columns) % kShape.columns;
         const std::size_t cell = kShape.cell(row, column);
         if (!image.has_return(cell)) continue;
         const float z_m = image.z_m()[cell];
@@ -166,6 +169,15 @@ TEST_F(ObjectsOfSectors, OfATurnThatBeginsAnywhereAndGoesEitherWayAreTheSame) {
         expect_same(of.found.object, *same);
       }
     }
+  }
+}
+
+TEST_F(ObjectsOfSectors, OfLasersThatLookAsideAreTheSame) {
+  for (const bool clockwise : {true, false}) {
+    see(kAround, 0, clockwise, 25);
+    ++frame;  // begins anew
+    (void)stream();
+    EXPECT_EQ(stream().size(), whole().size());
   }
 }
 

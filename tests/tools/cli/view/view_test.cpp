@@ -37,10 +37,8 @@ publish::LabelledFrame frame_of(std::uint32_t number, std::size_t points = 1000)
 
 publish::LabelledSector sector_of(std::uint32_t frame, std::uint32_t first,
                                   std::size_t points = 100) {
-  publish::LabelledSector sector{
-      .record = {.frame = frame, .first_return = first, .first_packet_ns = 1, .labels_ns = 2},
-      .points = {},
-      .heights_m = {}};
+  publish::LabelledSector sector;
+  sector.record = {.frame = frame, .first_return = first, .first_packet_ns = 1, .labels_ns = 2};
   sector.points.assign(points, {.x_m = 1, .label = frame::Label::kGround});
   return sector;
 }

@@ -9,7 +9,7 @@ install(CODE "set(PROGRAM $<TARGET_FILE:terracut_cli>)
 set(VERSION ${PROJECT_VERSION})
 include(${CMAKE_CURRENT_LIST_DIR}/ManPages.cmake)" ${in_package})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION share/doc/terracut
-  ${in_package} FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
+  ${in_package} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/examples/read_frames.py
   ${PROJECT_SOURCE_DIR}/tools/examples/labels_in_numpy.py
   DESTINATION share/doc/terracut/examples ${in_package})

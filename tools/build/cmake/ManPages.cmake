@@ -1,4 +1,4 @@
-# Run by the installation of the component `program`: manual pages of PROGRAM and of each of its commands, from what their
+# Run by the installation of the component `service`: manual pages of PROGRAM and of each of its commands, from what their
 # --help says, by help2man.
 find_program(HELP2MAN help2man)
 find_program(GZIP gzip)

@@ -95,7 +95,7 @@ PEERS = (
                code="linefit_ground_segmentation/linefit_ground_segmentation/src/ground_segmentation.cc "
                     "linefit_ground_segmentation/linefit_ground_segmentation/src/segment.cc "
                     "linefit_ground_segmentation/linefit_ground_segmentation/src/bin.cc",
-               include="linefit_ground_segmentation/linefit_ground_segmentation/include", flags="-pthread"),
+               include="linefit_ground_segmentation/linefit_ground_segmentation/include", flags="-pthread -include iostream"),
     PeerSource("depth_clustering", "MIT-like", (DEPTH_CLUSTERING,), "depth_clustering_adapter.cpp",
                code="depth_clustering/src/projections/*.cpp depth_clustering/src/ground_removal/*.cpp "
                     "depth_clustering/src/communication/*.cpp depth_clustering/src/utils/cloud.cpp "

@@ -110,6 +110,7 @@ TEST(MetricsText, IsWhatTheGuideSays) {
   run.figures().mount.found_in_frames = 10;
   run.figures().sight.is_watched = 1;
   run.figures().sight.sectors[0].has_view = 1;
+  run.figures().last_return_to_object.record(1);
   std::set<std::string> emitted;
   std::istringstream lines(metrics_text(run.figures()));
   for (std::string line; std::getline(lines, line);) {

@@ -59,13 +59,12 @@ TEST(ConfigurationFile, ServicesFileHasEveryKeyAndSaysOnlyWhereDumpsGo) {
   EXPECT_EQ(content_of(path), defaults);
 }
 
-TEST(ConfigurationFile, EveryPresetIsAcceptedAndChangesSomething) {
+TEST(ConfigurationFile, EveryPresetIsAccepted) {
   int presets = 0;
   for (const char* folder : {"tools/presets", "tools/ros2/terracut_ros/config"}) {
     for (const auto& entry : fs::directory_iterator(test::source_folder() / folder)) {
       const auto options = read_configuration(entry.path());
       ASSERT_TRUE(options) << options.error().message;
-      EXPECT_NE(configuration_yaml(*options), configuration_yaml({})) << entry.path();
       ++presets;
     }
   }

@@ -6,6 +6,7 @@
 browser_test.py PROGRAM DRIVE [FOLDER FOR PICTURES]
 """
 
+import base64
 import json
 import re
 import socket
@@ -50,7 +51,13 @@ def picture(browser, name):
         browser.photograph(PICTURES / f"{name}.png")
 
 
-# Read right after the page has drawn, in the same picture.
+TEXT_OF = """(pixels => {
+  let text = '';
+  for (let i = 0; i < pixels.length; i += 32768) text += String.fromCharCode(...pixels.subarray(i, i + 32768));
+  return btoa(text);
+})"""
+
+# Read right after the page has drawn, in the same picture; the lowest line first.
 READ_PIXELS = """new Promise(resolve => {
   dispatchEvent(new Event('resize'));
   requestAnimationFrame(() => {
@@ -58,11 +65,20 @@ READ_PIXELS = """new Promise(resolve => {
     const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
     const pixels = new Uint8Array(4 * width * height);
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-    let text = '';
-    for (let i = 0; i < pixels.length; i += 32768) text += String.fromCharCode(...pixels.subarray(i, i + 32768));
-    resolve({width, height, pixels: btoa(text)});
+    resolve({width, height, pixels: TEXT_OF(pixels)});
   });
-})"""
+})""".replace("TEXT_OF", TEXT_OF)
+
+READ_RANGE_IMAGE = """(({width, height}, paint) => {
+  return {width, height, pixels: TEXT_OF(paint.getImageData(0, 0, width, height).data)};
+})(document.getElementById('range'), document.getElementById('range').getContext('2d'))""".replace("TEXT_OF", TEXT_OF)
+
+
+def pixels_of(read):
+    flat = np.frombuffer(base64.b64decode(read["pixels"]), np.uint8)
+    return flat.reshape(read["height"], read["width"], 4)[:, :, :3].astype(int)
+
+
 
 # `asked` is what was found, as the page asked for it; their answers come once letGo() was called.
 HELD_OBJECTS = """{
@@ -88,11 +104,7 @@ class APage(unittest.TestCase):
         return served
 
     def pixels(self):
-        import base64
-
-        read = self.browser.evaluate(READ_PIXELS)
-        flat = np.frombuffer(base64.b64decode(read["pixels"]), np.uint8)
-        return flat.reshape(read["height"], read["width"], 4)[::-1, :, :3].astype(int)
+        return pixels_of(self.browser.evaluate(READ_PIXELS))[::-1]
 
     def stops_of(self, kind):
         """The colours that the legend shows, from one to the next."""
@@ -209,16 +221,16 @@ class APage(unittest.TestCase):
 
     def range_image(self, points):
         self.browser.press("i")
-        left, top, width, height = self.browser.evaluate("(({left, top, width, height}) => [left, top, width, height])(document.getElementById('range').getBoundingClientRect())")
-        image = self.pixels()[int(top) + 1 : int(top + height) - 1, int(left) + 1 : int(left + width) - 1]
+        self.browser.evaluate(READ_PIXELS)
         picture(self.browser, "range_image")
+        image = pixels_of(self.browser.evaluate(READ_RANGE_IMAGE))
+        rows, width, _ = image.shape
+        self.assertEqual(rows, 64)
         x, y, _ = points["xyz"].T
-        columns = np.floor((0.5 - np.arctan2(y, x) / (2 * np.pi)) * width).astype(int) - 1
-        rows = np.floor((63.5 - points["row"]) / 64 * height).astype(int) - 1
-        inside = (columns > 1) & (columns < image.shape[1] - 1) & (rows > 1) & (rows < image.shape[0] - 1)
+        columns = np.minimum(((0.5 - np.arctan2(y, x) / (2 * np.pi)) * width).astype(int), width - 1)
+        shown = image[63 - points["row"], columns]
         for label, kind in ((40, "ground"), (99, "obstacle")):
-            chosen = inside & (points["label"] == label)
-            self.assertGreater(self.shows(image[rows[chosen], columns[chosen]], kind).mean(), 0.9)
+            self.assertGreater(self.shows(shown[points["label"] == label], kind).mean(), 0.9)
         self.browser.press("i")
 
     def light_and_dark(self):

@@ -75,33 +75,35 @@ export class Points {
     }
   }
 
-  // The return with the least `score(place, label, row)`, or null if none is finite.
-  // {frame, number, place, intensity, label, row, aboveGround (undefined: not told)}
-  best(score) {
-    let [least, chosen, of] = [Infinity, 0, null];
-    if (this.pieces.length === 0) return null;
-    const view = new DataView(this.bytes.buffer, this.bytes.byteOffset, this.bytes.byteLength);
-    const place = [0, 0, 0];
-    const read = (at) => [0, 1, 2].forEach((axis) => (place[axis] = view.getFloat32(at + 4 * axis, true)));
+  get count() {
+    return this.pieces.reduce((sum, piece) => sum + piece.count, 0);
+  }
+
+  // Calls `visit(x, y, z, intensity, label, row, above ground (undefined: not told), place in the buffer, piece)`.
+  each(visit) {
+    if (this.pieces.length === 0) return;
+    const { bytes, pointBytes, hasHeights } = this;
+    const floats = new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length >> 2);
+    const shorts = new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.length >> 1);
     for (const piece of this.pieces) {
       for (let i = piece.first; i < piece.first + piece.count; ++i) {
-        const at = i * this.pointBytes;
-        read(at);
-        const found = score(place, this.bytes[at + 13], view.getUint16(at + 14, true));
-        if (found < least) [least, chosen, of] = [found, i, piece];
+        const byte = i * pointBytes;
+        const f = byte >> 2;
+        visit(floats[f], floats[f + 1], floats[f + 2], bytes[byte + 12], bytes[byte + 13], shorts[(byte >> 1) + 7], hasHeights ? floats[f + HEIGHT_AT / 4] : undefined, i, piece);
       }
     }
-    if (!of) return null;
-    const at = chosen * this.pointBytes;
-    read(at);
-    return {
-      frame: of.frame,
-      number: of.number + chosen - of.first,
-      place,
-      intensity: this.bytes[at + 12],
-      label: this.bytes[at + 13],
-      row: view.getUint16(at + 14, true),
-      aboveGround: this.hasHeights ? view.getFloat32(at + HEIGHT_AT, true) : undefined,
-    };
+  }
+
+  // The return with the least `score(place, label, row)`, or null if none is finite:
+  // {frame, number, place, intensity, label, row, aboveGround (undefined: not told)}
+  best(score) {
+    let [least, best] = [Infinity, null];
+    this.each((x, y, z, intensity, label, row, aboveGround, i, piece) => {
+      const found = score([x, y, z], label, row);
+      if (found >= least) return;
+      least = found;
+      best = { frame: piece.frame, number: piece.number + i - piece.first, place: [x, y, z], intensity, label, row, aboveGround };
+    });
+    return best;
   }
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 
-// Draws points, boxes of objects, the free way, circles ten metres apart, the vehicle, how far the sensor sees around it, and
-// the range image below.
+// Draws points, boxes of objects, the free way, circles ten metres apart, the vehicle, and how far the sensor sees around it.
 
 import { RANGES, colours, ramp } from "./colours.js";
 import { Points } from "./points.js";
@@ -59,8 +58,8 @@ export class Scene {
     gl.bufferData(gl.ARRAY_BUFFER, places, gl.STREAM_DRAW);
   }
 
-  // `look`: {colourBy, hasOtherGround, shown: Set, pointSize, isLight}; `rangeBox`: where on the page the range image is, or null
-  draw(camera, look, rangeBox) {
+  // `look`: {colourBy, hasOtherGround, shown: Set, pointSize, isLight}
+  draw(camera, look) {
     const { gl, canvas } = this;
     const palette = colours(look.isLight);
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
@@ -73,12 +72,7 @@ export class Scene {
     const view = camera.matrix();
     this.drawShapes(view, look, palette);
     if (this.points.pieces.length === 0) return;
-    const least = 1.25 * ratio * look.pointSize;
-    const inSpace = this.usePoints(this.programs.inSpace, look, palette);
-    gl.uniformMatrix4fv(inSpace("view"), false, view);
-    gl.uniform3f(inSpace("size"), camera.isFlat ? least : 50 * ratio * look.pointSize, least, 3 * least);
-    this.points.draw();
-    if (rangeBox) this.drawRangeImage(rangeBox, look, palette, ratio);
+    this.drawPoints(camera, view, look, palette, 1.25 * ratio * look.pointSize);
   }
 
   drawShapes(view, look, palette) {
@@ -104,9 +98,12 @@ export class Scene {
     gl.drawArrays(as, 0, lines.vertices);
   }
 
-  usePoints({ made, uniform }, look, palette) {
+  drawPoints(camera, view, look, palette, least) {
     const gl = this.gl;
+    const { made, uniform } = this.programs.points;
     gl.useProgram(made);
+    gl.uniformMatrix4fv(uniform("view"), false, view);
+    gl.uniform3f(uniform("size"), camera.isFlat ? least : 40 * least, least, 3 * least);
     for (const kind of ["ground", "other", "obstacle"]) gl.uniform3fv(uniform(kind), unit(palette[kind]));
     gl.uniform3fv(uniform("none"), unit(palette.none));
     gl.uniform1i(uniform("colourBy"), COLOURS.indexOf(look.colourBy));
@@ -117,27 +114,6 @@ export class Scene {
     gl.uniform1i(uniform("hasOtherGround"), look.hasOtherGround ? 1 : 0);
     gl.uniform1i(uniform("hasHeights"), this.points.hasHeights ? 1 : 0);
     gl.uniform1ui(uniform("shown"), 8 | [...look.shown].reduce((bits, kind) => bits | (BITS[kind] ?? 0), 0));
-    return uniform;
-  }
-
-  // Where a return is in the range image, on the page, and how far away.
-  placeInRangeImage([x, y, z], row, box) {
-    const turn = 0.5 - Math.atan2(y, x) / (2 * Math.PI);
-    const up = (row + 0.5) / (RANGES.ring[1] + 1);
-    return [box.left + turn * box.width, box.bottom - up * box.height, Math.hypot(x, y, z)];
-  }
-  drawRangeImage(box, look, palette, ratio) {
-    const gl = this.gl;
-    const scaled = [box.left, this.canvas.clientHeight - box.bottom, box.width, box.height].map((value) => Math.round(value * ratio));
-    gl.viewport(...scaled);
-    gl.scissor(...scaled);
-    gl.enable(gl.SCISSOR_TEST);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    const uniform = this.usePoints(this.programs.byRow, look, palette);
-    const rows = RANGES.ring[1] + 1;
-    gl.uniform1f(uniform("rows"), rows);
-    gl.uniform1f(uniform("size"), Math.max(Math.ceil(scaled[3] / rows), 1));
     this.points.draw();
-    gl.disable(gl.SCISSOR_TEST);
   }
 }

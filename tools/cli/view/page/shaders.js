@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 
-// Programs of the graphics unit: points where they lie, points by row and azimuth, and lines.
+// Programs of the graphics unit: points and lines.
 
 import { OBSTACLE_STOPS_M, RAMP_STEPS } from "./colours.js";
 
-// `placed` is GLSL that sets gl_Position and gl_PointSize of a point that is shown.
-const points = (uniforms, placed) => `#version 300 es
+const POINTS = `#version 300 es
 layout(location = 0) in vec3 place;
 layout(location = 1) in float intensity;
 layout(location = 2) in uint label;
@@ -20,7 +19,8 @@ uniform int colourBy;        // 0 label, 1 height, 2 intensity, 3 ring
 uniform bool hasOtherGround; // 40 is road then
 uniform bool hasHeights;
 uniform uint shown;          // bits by kind
-${uniforms}
+uniform mat4 view;
+uniform vec3 size;           // pixels at a metre's distance, the least, the most
 out vec3 colour;
 vec3 byHeight(float height) {
   const float stops[${OBSTACLE_STOPS_M.length}] = float[](${OBSTACLE_STOPS_M.map((stop) => stop.toFixed(2)).join(", ")});
@@ -36,7 +36,8 @@ void main() {
     gl_Position = vec4(2, 2, 2, 1);
     return;
   }
-  ${placed}
+  gl_Position = view * vec4(place, 1);
+  gl_PointSize = clamp(size.x / gl_Position.w, size.y, size.z);
   if (colourBy == 0) {
     float light = sqrt(intensity / 255.0);
     colour = kind == 3u ? none : kind == 2u ? byHeight(hasHeights ? aboveGround : place.z) :
@@ -48,21 +49,6 @@ void main() {
   int below = min(int(at), ${RAMP_STEPS - 2});
   colour = mix(steps[below], steps[below + 1], at - float(below));
 }`;
-
-const IN_SPACE = points(
-  `uniform mat4 view;
-uniform vec3 size; // pixels at a metre's distance, the least, the most`,
-  `gl_Position = view * vec4(place, 1);
-  gl_PointSize = clamp(size.x / gl_Position.w, size.y, size.z);`,
-);
-
-// Ahead is in the middle, the left on the left; the nearest return of a pixel is seen.
-const BY_ROW = points(
-  `uniform float rows;
-uniform float size;`,
-  `gl_Position = vec4(-atan(place.y, place.x) / ${Math.PI}, (float(row) + 0.5) / rows * 2.0 - 1.0, min(length(place) / 150.0 - 1.0, 1.0), 1);
-  gl_PointSize = size;`,
-);
 
 const LINES = `#version 300 es
 layout(location = 0) in vec4 place; // w: how bright
@@ -94,7 +80,7 @@ function program(gl, vertex) {
   return { made, uniform: (name) => at.get(name) ?? at.set(name, gl.getUniformLocation(made, name)).get(name) };
 }
 
-// {inSpace, byRow, lines}: each {made, uniform(name)}
+// {points, lines}: each {made, uniform(name)}
 export function programs(gl) {
-  return { inSpace: program(gl, IN_SPACE), byRow: program(gl, BY_ROW), lines: program(gl, LINES) };
+  return { points: program(gl, POINTS), lines: program(gl, LINES) };
 }

@@ -9,6 +9,7 @@ import { Found } from "./found.js";
 import { readFrames } from "./frames.js";
 import { listenToKeys, listenToPointers } from "./hands.js";
 import { readLink, writeLink } from "./link.js";
+import { RangeImage } from "./range_image.js";
 import { Film, canFilm, savePicture } from "./recorder.js";
 import { Scene } from "./scene.js";
 import { Theme } from "./theme.js";
@@ -72,12 +73,14 @@ function showDistances() {
   at("scale").lastElementChild.textContent = `${metres} m`;
 }
 
-const rangeBox = () => (at("range").hidden ? null : at("range").getBoundingClientRect());
+const rangeImage = new RangeImage(at("range"));
+const isShown = (label) => look.shown.has(label === 40 && look.hasOtherGround ? "road" : label === 99 ? "obstacle" : "ground") || ![40, 49, 99].includes(label);
 
 function drawNow() {
   if (newest) scene.points.setFrame(newest);
   newest = null;
-  scene.draw(camera, look, rangeBox());
+  scene.draw(camera, look);
+  if (!at("range").hidden) rangeImage.draw(scene.points, look, colours(look.isLight), isShown);
   showDistances();
   chosen.draw(camera.projection());
 }
@@ -211,12 +214,11 @@ const filmOrEnd = () => canFilm && film.toggle(fileName());
 
 // Chooses the return at a place on the page: of the range image, or of the picture in space.
 function tapped(x, y, isFinger) {
-  const kinds = { 40: look.hasOtherGround ? "road" : "ground", 49: "ground", 99: "obstacle" };
-  const box = rangeBox();
-  const isInRangeImage = box && x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
-  const project = isInRangeImage ? (place, row) => scene.placeInRangeImage(place, row, box) : camera.projection();
+  const box = at("range").getBoundingClientRect(); // empty where it is hidden
+  const isInRangeImage = x >= box.left && x <= box.right && y >= box.top && y <= box.bottom && box.width > 0;
+  const project = isInRangeImage ? (place, row) => rangeImage.place(place, row, box) : camera.projection();
   chosen.take(scene.points, isFinger, (place, label, row) => {
-    const seen = label in kinds && !look.shown.has(kinds[label]) ? null : project(place, row);
+    const seen = isShown(label) ? project(place, row) : null;
     return seen ? { pixels: Math.hypot(seen[0] - x, seen[1] - y), depth: seen[2] } : { pixels: Infinity, depth: 1 };
   });
 }

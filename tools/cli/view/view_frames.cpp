@@ -33,14 +33,14 @@ void keep_points(std::span<const points::LabelledPoint> points, std::span<const 
 }
 
 nlohmann::ordered_json sight_json(const visibility::SightFigures& sight) {
-  nlohmann::ordered_json json{{"state", sight.has_learnt == 0 ? "learning"
-                                                              : to_string(sight.worst().state)},
-                              {"text", sight_text(sight)},
-                              {"sectors", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json{
+      {"state", sight.has_learnt == 0 ? "learning" : to_string(sight.worst().state)},
+      {"text", sight_text(sight)},
+      {"sectors", nlohmann::ordered_json::array()}};
   for (const visibility::SightFigures::Sector& sector : sight.sectors) {
     const bool is_judged = sight.has_learnt != 0 && sector.has_view != 0;
-    json["sectors"].push_back({is_judged ? to_string(sector.condition.state) : "unknown",
-                               centimetres(sector.visible_m)});
+    json["sectors"].push_back(
+        {is_judged ? to_string(sector.condition.state) : "unknown", centimetres(sector.visible_m)});
   }
   return json;
 }

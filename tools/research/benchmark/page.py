@@ -57,7 +57,7 @@ def spanned(ratios):
 
 def machines(results):
     """Where the parts were measured that benchmark.md shows, each once."""
-    return list(dict.fromkeys(of.measured["machine"] for name, of in results.items() if of.cases and name != ELSEWHERE))
+    return list(dict.fromkeys(of.measured["machine"] for name, of in results.items() if of.cases and name not in (ELSEWHERE, "hazards")))
 
 
 def stamp(results, known=""):

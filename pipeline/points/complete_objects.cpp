@@ -45,17 +45,16 @@ std::span<const CompleteObject> CompleteObjects::take(const SectorRecord& sector
   complete_.clear();
   points = points.first(std::min(points.size(), azimuths_rad_.size()));
   if (points.empty()) return {};
-  if (sectors_ == 0 || (sector.frame != frame_ && sector.frame != frame_ + 1)) begin(sector.frame);
+  if (sectors_ == 0 || (sector.frame != frame_ && sector.frame != frame_ + 1)) begin();
   frame_ = sector.frame;
   find_azimuths(points, azimuths_rad_);
-  const double middle_way_rad = advance(std::span(azimuths_rad_).first(points.size()));
-  keep_obstacles(sector, middle_way_rad, points, heights_m);
+  advance(std::span(azimuths_rad_).first(points.size()));
+  keep_obstacles(sector, points, heights_m);
   if (++sectors_ % kSectorsALook == 0 && last_way_rad_ > kSureWay_rad) look();
   return complete_;
 }
 
-void CompleteObjects::begin(std::uint32_t frame) noexcept {
-  frame_ = frame;
+void CompleteObjects::begin() noexcept {
   sectors_ = 0;
   direction_ = 1;
   last_way_rad_ = edge_rad_ = 0;
@@ -63,7 +62,7 @@ void CompleteObjects::begin(std::uint32_t frame) noexcept {
   origins_.clear();
 }
 
-double CompleteObjects::advance(std::span<const float> azimuths_rad) noexcept {
+void CompleteObjects::advance(std::span<const float> azimuths_rad) noexcept {
   const float middle_rad = azimuths_rad[azimuths_rad.size() / 2];
   if (sectors_ > 0) last_way_rad_ += direction_ * folded_rad(middle_rad - last_azimuth_rad_);
   last_azimuth_rad_ = middle_rad;
@@ -74,9 +73,11 @@ double CompleteObjects::advance(std::span<const float> azimuths_rad) noexcept {
     least_rad = std::min(least_rad, ahead_rad);
     most_rad = std::max(most_rad, ahead_rad);
   }
-  if (sectors_ == 0) begin_rad_ = std::max(-least_rad, most_rad);  // whichever way it turns
-  if (sectors_ > 0) edge_rad_ = std::max(edge_rad_, last_way_rad_ + least_rad);
-  return last_way_rad_;
+  if (sectors_ == 0) {
+    begin_rad_ = std::max(-least_rad, most_rad);  // whichever way it turns
+  } else {
+    edge_rad_ = std::max(edge_rad_, last_way_rad_ + least_rad);
+  }
 }
 
 void CompleteObjects::turn_around() noexcept {
@@ -86,7 +87,7 @@ void CompleteObjects::turn_around() noexcept {
   for (Origin& origin : origins_) origin.way_rad = -origin.way_rad;
 }
 
-void CompleteObjects::keep_obstacles(const SectorRecord& sector, double middle_way_rad,
+void CompleteObjects::keep_obstacles(const SectorRecord& sector,
                                      std::span<const LabelledPoint> points,
                                      std::span<const float> heights_m) noexcept {
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -94,7 +95,7 @@ void CompleteObjects::keep_obstacles(const SectorRecord& sector, double middle_w
     if (points_.size() == points_.capacity()) return;
     const float ahead_rad = direction_ * folded_rad(azimuths_rad_[i] - last_azimuth_rad_);
     points_.push_back(points[i]);
-    origins_.push_back({middle_way_rad + ahead_rad, sector.first_packet_ns, sector.frame,
+    origins_.push_back({last_way_rad_ + ahead_rad, sector.first_packet_ns, sector.frame,
                         sector.first_return + static_cast<std::uint32_t>(i), heights_m[i], false});
   }
 }

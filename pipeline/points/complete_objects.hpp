@@ -64,14 +64,12 @@ class CompleteObjects {
     bool is_over;                       ///< And nothing that lies behind it goes on.
   };
 
-  void begin(std::uint32_t frame) noexcept;
-  /// Follows the sensor to a sector, of which the azimuths are known. Returns the way to the
-  /// azimuth of its middle point.
-  double advance(std::span<const float> azimuths_rad) noexcept;
+  void begin() noexcept;
+  /// Follows the sensor to a sector, of which the azimuths are known.
+  void advance(std::span<const float> azimuths_rad) noexcept;
   /// Counts the way in the other direction.
   void turn_around() noexcept;
-  void keep_obstacles(const SectorRecord& sector, double middle_way_rad,
-                      std::span<const LabelledPoint> points,
+  void keep_obstacles(const SectorRecord& sector, std::span<const LabelledPoint> points,
                       std::span<const float> heights_m) noexcept;
   void look() noexcept;
   /// Finds where objects lie, and which of them are closed and over.

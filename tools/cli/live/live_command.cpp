@@ -214,7 +214,7 @@ class Writers {
       const scene::Wanted wanted = options.method.scene;
       live::FrameOutlet::Finders finders{.scene = finder_of(wanted.without_sight()),
                                          .sight = finder_of({.sight = wanted.sight})};
-      if (wanted.objects && publisher_->wants_sectors()) {
+      if (wanted.objects && wants_sector_objects(options.output)) {
         finders.complete = std::make_unique<points::CompleteObjects>(profile, decoder.shape(),
                                                                      decoder.return_capacity());
       }

@@ -133,6 +133,10 @@ bool wants_sinks(const OutputOptions& options) {
          wants_view(options);
 }
 
+bool wants_sector_objects(const OutputOptions& options) {
+  return dds_wants_sectors(options) && options.dds.objects != "off";
+}
+
 bool wants_sectors(const OutputOptions& options) {
   return dds_wants_sectors(options) || wants_view(options);
 }

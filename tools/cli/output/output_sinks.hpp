@@ -17,6 +17,8 @@ namespace terracut::cli {
 [[nodiscard]] bool wants_sinks(const OutputOptions& options);
 /// True if an output takes the sectors of each frame.
 [[nodiscard]] bool wants_sectors(const OutputOptions& options);
+/// True if an output takes the objects that are complete with each sector.
+[[nodiscard]] bool wants_sector_objects(const OutputOptions& options);
 
 /// Opens the requested outputs: creates files, binds ports, and prints both. Returns the first
 /// error. `facts` gets its names of coordinate frames from `options`.

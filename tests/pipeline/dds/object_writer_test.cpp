@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <optional>
 #include <string>
 
 #include "ros_types.h"
@@ -27,17 +28,19 @@ struct BoxesOfObjects : testing::Test {
         Participant::open({.domain = 1 + static_cast<int>(::getpid() % 200), .interface = "lo"});
     if (!opened) GTEST_SKIP() << opened.error().message;
     participant.emplace(*std::move(opened));
+    auto made = ObjectWriter::open(*participant, topics, {});
+    ASSERT_TRUE(made) << made.error().message;
+    writer.emplace(*std::move(made));
   }
 
   const ObjectWriter::Topics topics{"rt/test/objects", "rt/test/objects/markers",
                                     "rt/test/sectors/objects"};
   std::string frame_id = "terracut_ground";
   std::optional<Participant> participant;
+  std::optional<ObjectWriter> writer;
 };
 
 TEST_F(BoxesOfObjects, OfAFrameAreNumberedFromOne) {
-  auto writer = ObjectWriter::open(*participant, topics, {});
-  ASSERT_TRUE(writer) << writer.error().message;
   OneReader<vision_msgs_msg_dds__Detection3DArray_> boxes(
       *participant, topics.boxes, vision_msgs_msg_dds__Detection3DArray__desc);
   publish::LabelledFrame frame;
@@ -54,8 +57,6 @@ TEST_F(BoxesOfObjects, OfAFrameAreNumberedFromOne) {
 }
 
 TEST_F(BoxesOfObjects, OfASectorAreCalledByTheirFirstReturnAndStampedByTheirLast) {
-  auto writer = ObjectWriter::open(*participant, topics, {});
-  ASSERT_TRUE(writer) << writer.error().message;
   OneReader<vision_msgs_msg_dds__Detection3DArray_> boxes(
       *participant, topics.sector_boxes, vision_msgs_msg_dds__Detection3DArray__desc);
   publish::LabelledSector sector;

@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "pipeline/points/scene_of_points.hpp"
+#include "tests/pipeline/points/point_of_cell.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/box_scene.hpp"
 
 namespace terracut::points {
 namespace {
-
-using frame::Label;
 
 /// An object and the sector with which it came.
 struct Came {
@@ -41,10 +40,7 @@ struct ObjectsOfSectors : testing::Test, test::BoxScene {
         const int column = (first_column + away + of_laser + kShape.columns) % kShape.columns;
         const std::size_t cell = kShape.cell(row, column);
         if (!image.has_return(cell)) continue;
-        const float z_m = image.z_m()[cell];
-        points.push_back({image.x_m()[cell], image.y_m()[cell], z_m, 0,
-                          z_m > 0.05F ? Label::kObstacle : Label::kGround,
-                          static_cast<std::uint16_t>(row), 0});
+        points.push_back(test::point_of_cell(image, row, cell));
         sector_of_point.push_back(i / kColumnsASector);
       }
     }

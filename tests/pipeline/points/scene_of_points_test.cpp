@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "firmware_io/vehicle/planar_pose.hpp"
+#include "tests/pipeline/points/point_of_cell.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/box_scene.hpp"
 
@@ -30,10 +31,7 @@ struct PointsOfATurn : testing::Test, test::BoxScene {
       for (int column = 0; column < kShape.columns; ++column) {
         const std::size_t cell = kShape.cell(row, column);
         if (!image.has_return(cell)) continue;
-        const float z_m = image.z_m()[cell];
-        points.push_back({image.x_m()[cell], image.y_m()[cell], z_m, 0,
-                          z_m > 0.05F ? Label::kObstacle : Label::kGround,
-                          static_cast<std::uint16_t>(row), 0});
+        points.push_back(test::point_of_cell(image, row, cell));
       }
     }
   }

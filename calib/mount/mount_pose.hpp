@@ -26,6 +26,9 @@ struct Pose {
           {-cp * sr, -sp * cr, sp * sr, cp * cr}};
 }
 
+/// Returns the pose that the transform gives its frame; of its two quaternions the one with w >= 0.
+[[nodiscard]] Pose pose_of(const RigidTransform& T) noexcept;
+
 /// Returns the inverse transform.
 [[nodiscard]] constexpr RigidTransform inverse(const RigidTransform& T) noexcept {
   const auto turned_back = [&](std::size_t axis) {
@@ -34,6 +37,20 @@ struct Pose {
   return {T[0], T[4], T[8],  turned_back(0),  //
           T[1], T[5], T[9],  turned_back(1),  //
           T[2], T[6], T[10], turned_back(2)};
+}
+
+/// Returns the transform that does `second` after `first`.
+[[nodiscard]] constexpr RigidTransform chained(const RigidTransform& second,
+                                               const RigidTransform& first) noexcept {
+  RigidTransform T{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      double sum = column == 3 ? second[4 * row + 3] : 0;
+      for (std::size_t i = 0; i < 3; ++i) sum += second[4 * row + i] * first[4 * i + column];
+      T[4 * row + column] = sum;
+    }
+  }
+  return T;
 }
 
 }  // namespace terracut::mount

@@ -14,24 +14,12 @@
 namespace terracut::bag {
 namespace {
 
+using mount::chained;
 using mount::RigidTransform;
 
 /// A hostile bag or node names no more frames than this.
 constexpr std::size_t kMostFrames = 1000;
 constexpr RigidTransform kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-
-/// Returns the transform that does `second` after `first`.
-RigidTransform chained(const RigidTransform& second, const RigidTransform& first) {
-  RigidTransform T{};
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 4; ++column) {
-      double sum = column == 3 ? second[4 * row + 3] : 0;
-      for (std::size_t i = 0; i < 3; ++i) sum += second[4 * row + i] * first[4 * i + column];
-      T[4 * row + column] = sum;
-    }
-  }
-  return T;
-}
 
 std::optional<RigidTransform> transform_of(const std::array<double, 3>& t,
                                            std::array<double, 4> xyzw) {

@@ -20,20 +20,25 @@ using Marker = visualization_msgs_msg_dds__Marker_;
 using Detection = vision_msgs_msg_dds__Detection3D_;
 using Places = std::vector<std::array<double, 3>>;
 
-std::vector<Point> points_of(const Places& places_m) {
+std::vector<Point> points_of(const Places& places_m, const mount::RigidTransform* T) {
   std::vector<Point> points;
-  for (const auto& [x, y, z] : places_m) points.push_back({x, y, z});
+  for (const auto& place_m : places_m) {
+    const auto& [x, y, z] = place_m;
+    const auto [to_x, to_y, to_z] = T == nullptr ? place_m : mount::apply(*T, x, y, z);
+    points.push_back({to_x, to_y, to_z});
+  }
   return points;
 }
 
 /// Boxes of one message.
 class Boxes {
  public:
-  void add(const objects::Object& object, std::uint32_t id, std::int64_t stamp_ns,
-           std::string& frame_id) {
-    const auto [at_m, turned, size_m] = ros_messages::box_pose(object);
+  void add(const objects::Object& object, std::uint32_t id, const ObjectWriter::Seen& seen) {
+    ros_messages::BoxPose box = ros_messages::box_pose(object);
+    if (seen.T_frame_vehicle != nullptr) box = ros_messages::moved(box, *seen.T_frame_vehicle);
+    const auto& [at_m, turned, size_m] = box;
     Detection detection{};
-    detection.header = {ros_time(stamp_ns), frame_id.data()};
+    detection.header = {ros_time(seen.stamp_ns), seen.frame_id.data()};
     detection.bbox = {{{at_m[0], at_m[1], at_m[2]}, {turned[0], turned[1], turned[2], turned[3]}},
                       {size_m[0], size_m[1], size_m[2]}};
     ids_.push_back(std::to_string(id));
@@ -71,35 +76,37 @@ Expected<ObjectWriter> ObjectWriter::open(const Participant& participant, const 
   return writer;
 }
 
-Status ObjectWriter::write(const publish::LabelledFrame& frame, std::string& frame_id) {
+Status ObjectWriter::write(std::span<const objects::Object> objects, const Seen& seen) {
   if (boxes_.readers() > 0) {
-    const std::int64_t stamp_ns = ros_messages::stamp_ns_of(frame.record);
     Boxes boxes;
-    for (std::uint32_t i = 0; i < frame.objects.size(); ++i) {
-      boxes.add(frame.objects[i], i + 1, stamp_ns, frame_id);
-    }
-    if (Status written = boxes.write(boxes_, stamp_ns, frame_id); !written) return written;
+    for (std::uint32_t i = 0; i < objects.size(); ++i) boxes.add(objects[i], i + 1, seen);
+    Status written = boxes.write(boxes_, seen.stamp_ns, seen.frame_id);
+    if (!written) return written;
   }
-  return markers_.readers() > 0 ? write_markers(frame, frame_id) : Status();
+  return markers_.readers() > 0 ? write_markers(objects, seen) : Status();
+}
+
+Status ObjectWriter::write(const publish::LabelledFrame& frame, std::string& frame_id) {
+  return write(frame.objects, {frame_id, ros_messages::stamp_ns_of(frame.record)});
 }
 
 Status ObjectWriter::write(const publish::LabelledSector& sector, std::string& frame_id) {
   if (!sector_boxes_ || sector.objects.empty() || sector_boxes_->readers() == 0) return {};
   Boxes boxes;
   for (const CompleteObject& of : sector.objects) {
-    boxes.add(of.object, of.object.first_return, of.last_packet_ns, frame_id);
+    boxes.add(of.object, of.object.first_return, {frame_id, of.last_packet_ns});
   }
   return boxes.write(*sector_boxes_, sector.record.first_packet_ns, frame_id);
 }
 
-Status ObjectWriter::write_markers(const publish::LabelledFrame& frame, std::string& frame_id) {
+Status ObjectWriter::write_markers(std::span<const objects::Object> objects, const Seen& seen) {
   std::string none;
   std::vector<Marker> markers;
   std::vector<std::vector<Point>> points;
-  for (const ros_messages::ObjectLines& lines : ros_messages::object_lines(frame.objects)) {
-    points.push_back(points_of(lines.places_m));
+  for (const ros_messages::ObjectLines& lines : ros_messages::object_lines(objects)) {
+    points.push_back(points_of(lines.places_m, seen.T_frame_vehicle));
     Marker& marker = markers.emplace_back();
-    marker.header = {ros_time(ros_messages::stamp_ns_of(frame.record)), frame_id.data()};
+    marker.header = {ros_time(seen.stamp_ns), seen.frame_id.data()};
     marker.ns = const_cast<char*>(lines.name);
     marker.type = ros_messages::kLineList;
     marker.pose.orientation.w = 1;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "calib/mount/mount_pose.hpp"
 #include "pipeline/ros_messages/header.hpp"
 
 namespace terracut::ros_messages {
@@ -95,6 +96,15 @@ BoxPose box_pose(const Object& object) noexcept {
           .rotation_xyzw = {0, 0, sine / (2 * w), w},
           .size_m = {static_cast<double>(box.length_m), static_cast<double>(box.width_m),
                      top_m - bottom_m}};
+}
+
+BoxPose moved(const BoxPose& box, const mount::RigidTransform& T) noexcept {
+  const double z = box.rotation_xyzw[2], w = box.rotation_xyzw[3];
+  const double cosine = w * w - z * z, sine = 2 * w * z;
+  const auto& [x_m, y_m, z_m] = box.middle_m;
+  const mount::Pose pose = mount::pose_of(
+      mount::chained(T, {cosine, -sine, 0, x_m, sine, cosine, 0, y_m, 0, 0, 1, z_m}));
+  return {pose.translation_m, pose.rotation_xyzw, box.size_m};
 }
 
 std::array<ObjectLines, 2> object_lines(std::span<const Object> objects) {

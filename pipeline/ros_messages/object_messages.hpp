@@ -9,19 +9,22 @@
 #include <string_view>
 #include <vector>
 
+#include "calib/mount/mount.hpp"
 #include "pipeline/objects/object.hpp"
 #include "pipeline/publish/labelled_frame.hpp"
 
 namespace terracut::ros_messages {
 
-/// A box in the terms of geometry_msgs: metres, vehicle frame.
+/// A box in the terms of geometry_msgs.
 struct BoxPose {
   std::array<double, 3> middle_m;       ///< geometry_msgs/Point.
-  std::array<double, 4> rotation_xyzw;  ///< geometry_msgs/Quaternion, about z; x ahead, w > 0.
+  std::array<double, 4> rotation_xyzw;  ///< geometry_msgs/Quaternion; x ahead, w >= 0.
   std::array<double, 3> size_m;         ///< Length, width, height.
 };
-/// Returns the box of an object, from its lowest to its highest return.
+/// Returns the box of an object, from its lowest to its highest return, in the vehicle frame.
 [[nodiscard]] BoxPose box_pose(const objects::Object& object) noexcept;
+/// Returns a box of the vehicle frame in another frame.
+[[nodiscard]] BoxPose moved(const BoxPose& box, const mount::RigidTransform& T_to_from) noexcept;
 
 /// Lines to be shown as a visualization_msgs/Marker.
 struct ObjectLines {

@@ -49,6 +49,26 @@ TEST(BoxPose, IsTurnedWithTheLongerSideWhicheverWayThatPoints) {
   }
 }
 
+TEST(BoxPose, MovesToTheFrameOfASensorThatIsTilted) {
+  // Looks down in front by 90 degrees, 2 m above the ground: its x points down, its z ahead.
+  constexpr mount::RigidTransform kTilted{0, 0, -1, 2, 0, 1, 0, 0, 1, 0, 0, 0};
+  const BoxPose box = moved(box_pose(box_turned(0)), kTilted);
+  EXPECT_THAT(box.middle_m, ElementsAre(1.5, 5, 10));
+  EXPECT_THAT(box.size_m, ElementsAre(4, 2, 1.5));
+  const double half = std::sqrt(0.5);
+  EXPECT_THAT(box.rotation_xyzw, ElementsAre(DoubleNear(0, 1e-9), DoubleNear(-half, 1e-9),
+                                             DoubleNear(0, 1e-9), DoubleNear(half, 1e-9)));
+}
+
+TEST(BoxPose, StaysAsItIsInTheSameFrame) {
+  const BoxPose box = box_pose(box_turned(2)),
+                same = moved(box, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+  EXPECT_EQ(same.middle_m, box.middle_m);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(same.rotation_xyzw[i], box.rotation_xyzw[i], 1e-9);
+  }
+}
+
 TEST(ObjectLines, BoxesAreTheTwelveEdgesOfEachBox) {
   const std::array<objects::Object, 2> objects{box_turned(0.3), box_turned(2)};
   const auto lines = object_lines(objects)[0].places_m;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "calib/mount/mount_finder.hpp"
+#include "calib/mount/mount_pose.hpp"
 #include "pipeline/dds/cloud_buffer.hpp"
 #include "rt/measure/milliseconds.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
@@ -23,6 +24,11 @@ constexpr std::size_t kMostWaiting = 4, kMostAnswers = kMostWaiting + mount::kFr
 /// If no cloud comes for this long, rows and mount are learnt from the clouds so far.
 constexpr std::chrono::seconds kPatience{1};
 
+std::int64_t ns_of(const builtin_interfaces_msg_dds__Time_& stamp) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  return stamp.sec * kSecond_ns + stamp.nanosec;
+}
+
 }  // namespace
 
 CloudNode::CloudNode(const Options& options, dds::CloudReader reader,
@@ -35,7 +41,7 @@ CloudNode::CloudNode(const Options& options, dds::CloudReader reader,
       answers_(std::move(answers)),
       labeller_(options),
       came_(kMostWaiting),
-      labelled_(kMostAnswers) {
+      answered_(kMostAnswers) {
   try {
     taker_ = std::jthread([this] { take_clouds(); });
     labelling_ = std::jthread([this] { label_clouds(); });
@@ -79,9 +85,7 @@ void CloudNode::take_clouds() {
 
 void CloudNode::look_for_gap(const dds::RosCloud& cloud) {
   if (reader_.writers() > 1) return gaps_.restart();
-  const auto& stamp = cloud.header.stamp;
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  missing_ += gaps_.missing_before(stamp.sec * kSecond_ns + stamp.nanosec);
+  missing_ += gaps_.missing_before(ns_of(cloud.header.stamp));
 }
 
 void CloudNode::label_clouds() {
@@ -103,7 +107,7 @@ void CloudNode::label_clouds() {
       learn_from(*std::move(job));
     }
   }
-  labelled_.close();
+  answered_.close();
 }
 
 bool CloudNode::read(const dds::RosCloud& cloud) {
@@ -168,13 +172,39 @@ void CloudNode::label(Job job) {
     return;
   }
   news_.add(job.record);
-  if (job.record.level != status::Level::kSkipped) {
+  const status::Level level = job.record.level;
+  if (level != status::Level::kSkipped) {
     job.labels = labeller_.point_labels();
     job.heights_m = labeller_.point_heights_m();
-    if (!labelled_.push(std::move(job))) news_.count(NoAnswer::kUnanswered);
+    std::optional<Found> found;
+    if (answers_.wants_objects()) found = place_of_objects(job);
+    if (!answered_.push(std::move(job))) news_.count(NoAnswer::kUnanswered);
+    if (found) find_objects(*std::move(found), level);
   }
   labeller_.watch_mount();
   news_.set_mount(labeller_.mount());
+}
+
+CloudNode::Found CloudNode::place_of_objects(const Job& job) const {
+  const std_msgs_msg_dds__Header_& header = job.cloud->header;
+  const mount::RigidTransform T_cloud_vehicle =
+      mount::inverse(mount::T_vehicle_lidar(labeller_.mount_in_use()));
+  Found found{.objects = {},
+              .frame_id = header.frame_id,
+              .stamp_ns = ns_of(header.stamp),
+              .T_answer_vehicle = T_cloud_vehicle};
+  if (job.T_answer_cloud) {
+    found.frame_id = answer_frame_;
+    found.T_answer_vehicle = mount::chained(*job.T_answer_cloud, T_cloud_vehicle);
+  }
+  return found;
+}
+
+void CloudNode::find_objects(Found found, status::Level level) {
+  if (level != status::Level::kFull) return news_.count(NoAnswer::kNoObjects);
+  const std::span<const objects::Object> objects = labeller_.find_objects();
+  found.objects.assign(objects.begin(), objects.end());
+  if (!answered_.push(std::move(found))) news_.count(NoAnswer::kNoObjects);
 }
 
 void CloudNode::refuse_rows(const Error& error) {
@@ -195,26 +225,32 @@ bool CloudNode::is_new(const std::string& text) {
 }
 
 void CloudNode::write_answers() {
-  std::int64_t before_ns = 0;
   bool said = false;
-  while (!labelled_.is_over()) {
-    const auto job = labelled_.pop(kPatience);
-    if (!job) continue;
-    const status::FrameRecord& record = job->record;
-    const auto since = [&](std::int64_t then_ns) {
-      return then_ns == 0 ? 0.0 : measure::milliseconds(record.labels_ns - then_ns);
-    };
-    const dds::RosCloud& cloud = job->T_answer_cloud
-                                     ? moved_.move(*job->cloud, *job->T_answer_cloud, answer_frame_)
-                                     : *job->cloud;
-    const Status written = answers_.write(cloud, job->labels, job->heights_m,
-                                          {since(record.closing_packet_ns), since(before_ns)});
-    before_ns = record.labels_ns;
+  while (!answered_.is_over()) {
+    auto answer = answered_.pop(kPatience);
+    if (!answer) continue;
+    const Status written = std::visit([&](auto& some) { return write(some); }, *answer);
     if (written) continue;
     news_.count(NoAnswer::kUnwritten);
     if (!said) warn(written.error().message);
     said = true;
   }
+}
+
+Status CloudNode::write(const Job& job) {
+  const status::FrameRecord& record = job.record;
+  const auto since = [&](std::int64_t then_ns) {
+    return then_ns == 0 ? 0.0 : measure::milliseconds(record.labels_ns - then_ns);
+  };
+  const NodeAnswers::Times times{since(record.closing_packet_ns),
+                                 since(std::exchange(labels_before_ns_, record.labels_ns))};
+  const dds::RosCloud& cloud =
+      job.T_answer_cloud ? moved_.move(*job.cloud, *job.T_answer_cloud, answer_frame_) : *job.cloud;
+  return answers_.write(cloud, job.labels, job.heights_m, times);
+}
+
+Status CloudNode::write(Found& found) {
+  return answers_.write(found.objects, {found.frame_id, found.stamp_ns, &found.T_answer_vehicle});
 }
 
 }  // namespace terracut::cli

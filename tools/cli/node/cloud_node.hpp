@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "node_labeller.hpp"
@@ -24,6 +25,8 @@ namespace terracut::cli {
 ///
 ///   takes  --->  labels, before the deadline  --->  writes
 ///
+/// Objects are looked for once labels were handed on, and left out if the cloud was not labelled by
+/// the whole method: then time is short.
 /// If clouds wait to be labelled, the oldest are pushed out; if answers are not written in time,
 /// the newest answer is left out. Both are counted.
 class CloudNode {
@@ -46,6 +49,13 @@ class CloudNode {
     std::vector<float> heights_m{};                         ///< Empty unless asked for.
     std::optional<mount::RigidTransform> T_answer_cloud{};  ///< Empty: answers stay in its frame.
   };
+  /// The objects of a cloud, which follow its labels.
+  struct Found {
+    std::vector<objects::Object> objects;  ///< In the vehicle frame.
+    std::string frame_id;                  ///< Of the answers.
+    std::int64_t stamp_ns;
+    mount::RigidTransform T_answer_vehicle;
+  };
 
   void end();
   void take_clouds();
@@ -64,6 +74,11 @@ class CloudNode {
   void learn_from(Job job);
   void set_up();
   void label(Job job);
+  [[nodiscard]] Found place_of_objects(const Job& job) const;
+  /// Looks for objects in the cloud labelled last, after its labels were handed on to be written.
+  void find_objects(Found found, status::Level level);
+  [[nodiscard]] Status write(const Job& job);
+  [[nodiscard]] Status write(Found& found);
   void refuse_rows(const Error& error);
   void say_once(const std::string& what);
   /// True if it was not asked of this text before.
@@ -74,12 +89,14 @@ class CloudNode {
   dds::TransformReader transforms_;  ///< For the labelling thread.
   dds::CloudReader reader_;          ///< Declared before queues of clouds in its memory.
   NodeAnswers answers_;
-  dds::MovedCloud moved_;  ///< For the writing thread.
+  dds::MovedCloud moved_;              ///< For the writing thread.
+  std::int64_t labels_before_ns_ = 0;  ///< For the writing thread: when the last labels were made.
   NodeLabeller labeller_;
   std::vector<PointField> fields_;
   std::vector<Job> first_clouds_;
   std::vector<std::string> said_;
-  queues::BoundedQueue<Job> came_, labelled_;
+  queues::BoundedQueue<Job> came_;
+  queues::BoundedQueue<std::variant<Job, Found>> answered_;
   StampGaps gaps_;
   std::atomic<std::uint64_t> missing_{0};
   std::atomic<bool> finish_{false};

@@ -55,6 +55,11 @@ Status NodeLabeller::set_up() {
   if (!profile) return tl::unexpected(profile.error());
   mount_ = profile->mount;
   pipeline_.emplace(*rows, *profile, method_of(options_.method));
+  if (options_.method.scene.objects) {
+    const frame::RangeImage& image = pipeline_->image();
+    scene_.emplace(scene::Wanted{.objects = true}, *profile, image.shape(), image.return_capacity(),
+                   scene_memory_);
+  }
   watch_.emplace(profile->mount, choice);
   return {};
 }
@@ -100,6 +105,11 @@ Status NodeLabeller::label(status::FrameRecord& record) {
   degradation_.end(record.stages, record.segmentation,
                    record.segment_cpu_ns - record.stages.sum_ns());
   return {};
+}
+
+std::span<const objects::Object> NodeLabeller::find_objects() {
+  scene_->find(pipeline_->image(), pipeline_->labels(), pipeline_->heights_m());
+  return scene_->objects();
 }
 
 void NodeLabeller::watch_mount() {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,7 +15,9 @@
 #include "pipeline/api/point_buffer.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
+#include "pipeline/scene/scene_finder.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
+#include "rt/memory/fixed_memory.hpp"
 #include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/mount_watch.hpp"
 #include "tools/cli/input/tree_mount.hpp"
@@ -66,6 +69,10 @@ class NodeLabeller {
     return pipeline_->point_heights_m();
   }
 
+  /// Looks for objects in the cloud labelled last; takes milliseconds. Returns them in the vehicle
+  /// frame of mount_in_use(); valid until the next call.
+  [[nodiscard]] std::span<const objects::Object> find_objects();
+
   /// Compares the mount with the ground of the cloud labelled last; takes milliseconds.
   void watch_mount();
   [[nodiscard]] const status::MountFigures& mount() const noexcept { return watch_->figures(); }
@@ -83,6 +90,8 @@ class NodeLabeller {
   cloud::Cloud cloud_;
   std::vector<cloud::Cloud> kept_;
   std::optional<run::CloudPipeline> pipeline_;
+  memory::FixedMemory scene_memory_;
+  std::optional<scene::SceneFinder> scene_;  ///< Exists if objects are asked for.
   std::optional<MountWatch> watch_;
   mount::Mount mount_;
   std::string sensor_;

@@ -18,7 +18,7 @@
 
 namespace terracut::cli {
 
-/// Why a cloud has no answer, beyond the reasons of BufferFault.
+/// Why a cloud has no answer, or not all of it, beyond the reasons of BufferFault.
 enum class NoAnswer : std::uint8_t {
   kNoPlace,      ///< No point has a valid position: NaN, null, beyond 10 km.
   kNoRows,       ///< No field tells lasers apart as in the first clouds.
@@ -26,6 +26,7 @@ enum class NoAnswer : std::uint8_t {
   kPushedOut,    ///< Newer clouds came before this one was processed.
   kUnanswered,   ///< Labelled, but earlier answers were still being written.
   kUnwritten,    ///< DDS refused an answer.
+  kNoObjects,    ///< Labelled, but there was no time for its objects.
   kCount,
 };
 
@@ -64,7 +65,8 @@ class NodeNews {
   [[nodiscard]] State look() {
     constexpr std::array<std::string_view, static_cast<std::size_t>(NoAnswer::kCount)> kNames{
         "refused_clouds_no_place", "refused_clouds_no_rows", "refused_clouds_no_transform",
-        "pushed_out_clouds",       "unanswered_clouds",      "unwritten_answers"};
+        "pushed_out_clouds",       "unanswered_clouds",      "unwritten_answers",
+        "clouds_without_objects"};
     const std::scoped_lock lock(mutex_);
     State state{clouds_, last_cloud_ns_, sensor_, mount_, std::exchange(records_, {}), {}};
     for (std::size_t i = 0; i < counts_.size(); ++i) {

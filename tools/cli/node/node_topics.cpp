@@ -50,6 +50,15 @@ Expected<NodeAnswers> NodeAnswers::open(const dds::Participant& participant,
     if (!writer) return tl::unexpected(writer.error());
     answers.*wanted.writer = *std::move(writer);
   }
+  if (!options.method.scene.objects || topics.objects.empty()) return answers;
+  const DdsOptions& dds = options.output.dds;
+  auto objects = dds::ObjectWriter::open(participant,
+                                         {.boxes = dds_topic_of(topics.objects, dds),
+                                          .markers = dds_topic_of(topics.objects + "/markers", dds),
+                                          .sector_boxes = ""},
+                                         {.reliable = dds.reliable, .depth = dds.depth});
+  if (!objects) return tl::unexpected(objects.error());
+  answers.objects_.emplace(*std::move(objects));
   return answers;
 }
 

@@ -8,6 +8,7 @@
 #include "firmware_io/frame/label.hpp"
 #include "pipeline/dds/cloud_reader.hpp"
 #include "pipeline/dds/derived_cloud.hpp"
+#include "pipeline/dds/object_writer.hpp"
 #include "pipeline/dds/participant.hpp"
 #include "pipeline/dds/topic_writer.hpp"
 #include "rt/error.hpp"
@@ -15,7 +16,7 @@
 
 namespace terracut::cli {
 
-/// The topics to which answers are written. For one thread.
+/// The topics to which answers are written. For one thread, but for wants_objects().
 class NodeAnswers {
  public:
   [[nodiscard]] static Expected<NodeAnswers> open(const dds::Participant& participant,
@@ -29,6 +30,13 @@ class NodeAnswers {
   /// Writes an answer; skips topics without readers. Returns the first error.
   [[nodiscard]] Status write(const dds::RosCloud& cloud, std::span<const frame::Label> labels,
                              std::span<const float> heights_m, const Times& times);
+  /// Writes the objects of a cloud.
+  [[nodiscard]] Status write(std::span<const objects::Object> objects,
+                             const dds::ObjectWriter::Seen& seen) {
+    return objects_->write(objects, seen);
+  }
+  /// True if somebody reads objects. For any thread.
+  [[nodiscard]] bool wants_objects() const { return objects_ && objects_->has_readers(); }
 
  private:
   NodeAnswers() = default;
@@ -38,6 +46,7 @@ class NodeAnswers {
 
   std::optional<dds::TopicWriter> points_, ground_, obstacles_, road_;
   std::optional<dds::TopicWriter> processing_time_, cyclic_time_;
+  std::optional<dds::ObjectWriter> objects_;  ///< Exists if objects are asked for.
   dds::DerivedCloud derived_;
 };
 

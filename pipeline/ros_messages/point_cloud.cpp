@@ -3,6 +3,7 @@
 #include "pipeline/ros_messages/point_cloud.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "pipeline/ros_messages/header.hpp"
@@ -21,6 +22,29 @@ void add_fields(bool with_height, CdrWriter& to) {
   to.add_length(std::size(kCloudFields) + (with_height ? 1 : 0));
   for (const CloudField& field : kCloudFields) add_field(field, to);
   if (with_height) add_field(kHeightField, to);
+}
+
+/// Replaces a float by the nearest multiple of kStep, a power of two; one beyond four million steps
+/// stays as it is.
+template <float kStep>
+void round_to(std::byte* at) noexcept {
+  // Added to this, a float has no bits left for less than the step.
+  constexpr float kLoss = 1.5F * (1 << 23) * kStep;
+  float value = 0;
+  std::memcpy(&value, at, sizeof value);
+  if (std::abs(value) < kLoss / 3) value = (value + kLoss) - kLoss;
+  std::memcpy(at, &value, sizeof value);
+}
+
+void round_points(std::span<std::byte> points, std::size_t bytes) noexcept {
+  for (std::size_t i = 0; i < points.size(); i += bytes) {
+    std::byte* const point = &points[i];
+    round_to<kPlaceStep_m>(point + offsetof(CloudPoint, x_m));
+    round_to<kPlaceStep_m>(point + offsetof(CloudPoint, y_m));
+    round_to<kPlaceStep_m>(point + offsetof(CloudPoint, z_m));
+    round_to<kTimeStep_s>(point + offsetof(CloudPoint, time_s));
+    if (bytes > sizeof(CloudPoint)) round_to<kPlaceStep_m>(point + kHeightField.offset);
+  }
 }
 
 }  // namespace
@@ -61,8 +85,9 @@ void write_point_cloud(const publish::LabelledFrame& frame, CloudOf which,
   to.add(false);  // is_bigendian
   to.add(static_cast<std::uint32_t>(step));
   to.add(static_cast<std::uint32_t>(step * points));  // row_step
-  (void)copy_points(which, frame.points, frame.heights_m, time_of_first_s,
-                    to.add_byte_sequence(step * points));
+  const std::span<std::byte> bytes = to.add_byte_sequence(step * points);
+  (void)copy_points(which, frame.points, frame.heights_m, time_of_first_s, bytes);
+  round_points(bytes, step);
   to.add(true);  // is_dense: every point is a return
 }
 

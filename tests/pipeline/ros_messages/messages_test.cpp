@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -111,6 +112,27 @@ TEST(PointCloud, PointsHaveTheirHeightBehindThemWhereTheFrameHasIt) {
   };
   EXPECT_NE(text_of(with).find("height_above_ground"), std::string::npos);
   EXPECT_EQ(text_of(without).find("height_above_ground"), std::string::npos);
+}
+
+TEST(PointCloud, PlacesAreRoundedToAStepThatNoSensorTellsApart) {
+  publish::LabelledFrame frame = small_frame();
+  frame.heights_m = {1.23456F, 0, 0, 0};
+  for (float x_m = -120; x_m < 120; x_m += 0.12345F) {
+    frame.points[0].x_m = x_m;
+    Bytes message;
+    write_point_cloud(frame, CloudOf::kObstacles, "vehicle", message);
+    const auto rounded_m = at<float>(message, message.size() - 1 - 28);
+    EXPECT_EQ(rounded_m, std::nearbyint(x_m * 1024) / 1024);
+    EXPECT_EQ(at<float>(message, message.size() - 1 - 4), 1264.0F / 1024);
+  }
+}
+
+TEST(PointCloud, PlacesOfSurveysFarAwayStayAsTheyAre) {
+  publish::LabelledFrame frame = small_frame();
+  frame.points[0].x_m = -5000.00049F;
+  Bytes message;
+  write_point_cloud(frame, CloudOf::kObstacles, "vehicle", message);
+  EXPECT_EQ(last_point(message).x_m, -5000.00049F);
 }
 
 TEST(PointCloud, OfNoPointsIsOne) {

@@ -34,7 +34,7 @@ from .suites import Failed, Suites
 REPOSITORY = Path(__file__).resolve().parents[3]
 FOLDER = REPOSITORY / "build/mutants"
 # Suites in parts by how long they take: most mistakes are noticed by the first.
-PARTS_S = (0, 2, 10, math.inf)
+PARTS_S = (0, 0.5, 2, 5, 10, math.inf)
 
 
 def arguments(given):

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "calib/mount/mount_pose.hpp"
+#include "mount_transform.hpp"
 #include "pipeline/ros_messages/header.hpp"
 #include "ros_time.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
@@ -60,7 +61,6 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
   // A turn of them may wait as long as a turn of whole clouds does.
   Quality of_sectors = config.quality;
   of_sectors.depth = std::max(of_sectors.depth, 128);
-  const Quality latched{.reliable = true, .depth = 1, .latched = true};
   for (const Wanted& wanted :
        {Wanted{sink->points_, config.points, kPointCloud2, config.quality},
         Wanted{sink->sectors_, config.sectors, kPointCloud2, of_sectors},
@@ -69,7 +69,7 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
         Wanted{sink->road_, config.road, kPointCloud2, config.quality},
         Wanted{sink->raw_, config.raw, kPointCloud2, config.quality},
         Wanted{diagnostics, config.diagnostics, kDiagnosticArray, {}},
-        Wanted{sink->tf_static_, config.tf_static, kTfMessage, latched}}) {
+        Wanted{sink->tf_static_, config.tf_static, kTfMessage, kLatched}}) {
     if (wanted.topic.empty()) continue;
     auto writer = TopicWriter::open(sink->participant_, wanted.topic, wanted.type, wanted.quality);
     if (!writer) return tl::unexpected(writer.error());
@@ -88,20 +88,12 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
     if (!free_way) return tl::unexpected(free_way.error());
     sink->free_way_.emplace(*std::move(free_way));
   }
-  if (Status told = sink->write_mount(facts); !told) return tl::unexpected(told.error());
+  if (sink->tf_static_ && !facts.sensor_frame_id.empty()) {
+    const Status told =
+        write_mount(*sink->tf_static_, facts.mount, facts.sensor_frame_id, facts.frame_id);
+    if (!told) return tl::unexpected(told.error());
+  }
   return sink;
-}
-
-Status DdsSink::write_mount(const publish::RunFacts& facts) {
-  if (!tf_static_ || facts.sensor_frame_id.empty()) return {};
-  const auto [at_m, turned] = mount::vehicle_in_lidar(facts.mount);
-  std::string parent = facts.sensor_frame_id, child = facts.frame_id;
-  geometry_msgs_msg_dds__TransformStamped_ transform{
-      {ros_time(measure::realtime_ns()), parent.data()},
-      child.data(),
-      {{at_m[0], at_m[1], at_m[2]}, {turned[0], turned[1], turned[2], turned[3]}}};
-  const tf2_msgs_msg_dds__TFMessage_ message{{1, 1, &transform, false}};
-  return tf_static_->write(&message);
 }
 
 Status DdsSink::put(const publish::LabelledFrame& frame) {

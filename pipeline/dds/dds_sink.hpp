@@ -58,7 +58,6 @@ class DdsSink final : public publish::FrameSink {
   using Writer = std::optional<TopicWriter>;
 
   explicit DdsSink(Participant participant) noexcept : participant_(std::move(participant)) {}
-  [[nodiscard]] Status write_mount(const publish::RunFacts& facts);
   void await_readers();
   /// Publishes those of the points that belong to a cloud, with their heights if there are any.
   /// `time_of_first_s` is added to their times.

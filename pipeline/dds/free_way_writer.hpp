@@ -22,6 +22,10 @@ class FreeWayWriter {
 
   /// Publishes a frame's free way, in the frame `frame_id`. Fails with kWriteFailed.
   [[nodiscard]] Status write(const publish::LabelledFrame& frame, std::string& frame_id);
+  /// True if a topic has a reader. For any thread.
+  [[nodiscard]] bool has_readers() const {
+    return scan_.readers() + polygon_.readers() + grid_.readers() > 0;
+  }
 
  private:
   FreeWayWriter(TopicWriter scan, TopicWriter polygon, TopicWriter grid) noexcept

@@ -176,35 +176,37 @@ void CloudNode::label(Job job) {
   if (level != status::Level::kSkipped) {
     job.labels = labeller_.point_labels();
     job.heights_m = labeller_.point_heights_m();
-    std::optional<Found> found;
-    if (answers_.wants_objects()) found = place_of_objects(job);
+    std::optional<NodeScene> scene;
+    if (answers_.wants_scene()) scene = empty_scene_of(job);
     if (!answered_.push(std::move(job))) news_.count(NoAnswer::kUnanswered);
-    if (found) find_objects(*std::move(found), level);
+    if (scene) find_scene(*std::move(scene), level);
   }
   labeller_.watch_mount();
   news_.set_mount(labeller_.mount());
 }
 
-CloudNode::Found CloudNode::place_of_objects(const Job& job) const {
+NodeScene CloudNode::empty_scene_of(const Job& job) const {
   const std_msgs_msg_dds__Header_& header = job.cloud->header;
-  const mount::RigidTransform T_cloud_vehicle =
-      mount::inverse(mount::T_vehicle_lidar(labeller_.mount_in_use()));
-  Found found{.objects = {},
-              .frame_id = header.frame_id,
-              .stamp_ns = ns_of(header.stamp),
-              .T_answer_vehicle = T_cloud_vehicle};
+  const mount::Mount& mount = labeller_.mount_in_use();
+  const mount::RigidTransform T_cloud_vehicle = mount::inverse(mount::T_vehicle_lidar(mount));
+  NodeScene scene{.frame = {},
+                  .mount = mount,
+                  .cloud_frame = header.frame_id,
+                  .answer_frame = header.frame_id,
+                  .T_answer_vehicle = T_cloud_vehicle};
+  scene.frame.record.info.first_packet_ns = ns_of(header.stamp);
+  scene.frame.record.info.last_packet_ns = scene.frame.record.info.first_packet_ns;
   if (job.T_answer_cloud) {
-    found.frame_id = answer_frame_;
-    found.T_answer_vehicle = mount::chained(*job.T_answer_cloud, T_cloud_vehicle);
+    scene.answer_frame = answer_frame_;
+    scene.T_answer_vehicle = mount::chained(*job.T_answer_cloud, T_cloud_vehicle);
   }
-  return found;
+  return scene;
 }
 
-void CloudNode::find_objects(Found found, status::Level level) {
-  if (level != status::Level::kFull) return news_.count(NoAnswer::kNoObjects);
-  const std::span<const objects::Object> objects = labeller_.find_objects();
-  found.objects.assign(objects.begin(), objects.end());
-  if (!answered_.push(std::move(found))) news_.count(NoAnswer::kNoObjects);
+void CloudNode::find_scene(NodeScene scene, status::Level level) {
+  if (level != status::Level::kFull) return news_.count(NoAnswer::kNoScene);
+  labeller_.find_scene(scene.frame);
+  if (!answered_.push(std::move(scene))) news_.count(NoAnswer::kNoScene);
 }
 
 void CloudNode::refuse_rows(const Error& error) {
@@ -247,10 +249,6 @@ Status CloudNode::write(const Job& job) {
   const dds::RosCloud& cloud =
       job.T_answer_cloud ? moved_.move(*job.cloud, *job.T_answer_cloud, answer_frame_) : *job.cloud;
   return answers_.write(cloud, job.labels, job.heights_m, times);
-}
-
-Status CloudNode::write(Found& found) {
-  return answers_.write(found.objects, {found.frame_id, found.stamp_ns, &found.T_answer_vehicle});
 }
 
 }  // namespace terracut::cli

@@ -25,8 +25,8 @@ namespace terracut::cli {
 ///
 ///   takes  --->  labels, before the deadline  --->  writes
 ///
-/// Objects are looked for once labels were handed on, and left out if the cloud was not labelled by
-/// the whole method: then time is short.
+/// Objects and the free way are looked for once labels were handed on, and left out if the cloud
+/// was not labelled by the whole method: then time is short. They follow its labels.
 /// If clouds wait to be labelled, the oldest are pushed out; if answers are not written in time,
 /// the newest answer is left out. Both are counted.
 class CloudNode {
@@ -49,13 +49,6 @@ class CloudNode {
     std::vector<float> heights_m{};                         ///< Empty unless asked for.
     std::optional<mount::RigidTransform> T_answer_cloud{};  ///< Empty: answers stay in its frame.
   };
-  /// The objects of a cloud, which follow its labels.
-  struct Found {
-    std::vector<objects::Object> objects;  ///< In the vehicle frame.
-    std::string frame_id;                  ///< Of the answers.
-    std::int64_t stamp_ns;
-    mount::RigidTransform T_answer_vehicle;
-  };
 
   void end();
   void take_clouds();
@@ -74,11 +67,12 @@ class CloudNode {
   void learn_from(Job job);
   void set_up();
   void label(Job job);
-  [[nodiscard]] Found place_of_objects(const Job& job) const;
-  /// Looks for objects in the cloud labelled last, after its labels were handed on to be written.
-  void find_objects(Found found, status::Level level);
+  /// Returns when and where a cloud's scene was seen, before anything is found in it.
+  [[nodiscard]] NodeScene empty_scene_of(const Job& job) const;
+  /// Looks at the cloud labelled last, after its labels were handed on to be written.
+  void find_scene(NodeScene scene, status::Level level);
   [[nodiscard]] Status write(const Job& job);
-  [[nodiscard]] Status write(Found& found);
+  [[nodiscard]] Status write(NodeScene& scene) { return answers_.write(scene); }
   void refuse_rows(const Error& error);
   void say_once(const std::string& what);
   /// True if it was not asked of this text before.
@@ -96,7 +90,7 @@ class CloudNode {
   std::vector<Job> first_clouds_;
   std::vector<std::string> said_;
   queues::BoundedQueue<Job> came_;
-  queues::BoundedQueue<std::variant<Job, Found>> answered_;
+  queues::BoundedQueue<std::variant<Job, NodeScene>> answered_;
   StampGaps gaps_;
   std::atomic<std::uint64_t> missing_{0};
   std::atomic<bool> finish_{false};

@@ -55,10 +55,9 @@ Status NodeLabeller::set_up() {
   if (!profile) return tl::unexpected(profile.error());
   mount_ = profile->mount;
   pipeline_.emplace(*rows, *profile, method_of(options_.method));
-  if (options_.method.scene.objects) {
+  if (const scene::Wanted wanted = options_.method.scene; wanted.any()) {
     const frame::RangeImage& image = pipeline_->image();
-    scene_.emplace(scene::Wanted{.objects = true}, *profile, image.shape(), image.return_capacity(),
-                   scene_memory_);
+    scene_.emplace(wanted, *profile, image.shape(), image.return_capacity(), scene_memory_);
   }
   watch_.emplace(profile->mount, choice);
   return {};
@@ -107,9 +106,9 @@ Status NodeLabeller::label(status::FrameRecord& record) {
   return {};
 }
 
-std::span<const objects::Object> NodeLabeller::find_objects() {
+void NodeLabeller::find_scene(publish::LabelledFrame& scene) {
   scene_->find(pipeline_->image(), pipeline_->labels(), pipeline_->heights_m());
-  return scene_->objects();
+  publish::set_scene(*scene_, scene);
 }
 
 void NodeLabeller::watch_mount() {

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "firmware_io/cloud/cloud.hpp"
 #include "pipeline/api/point_buffer.hpp"
 #include "pipeline/ground/mount_search.hpp"
+#include "pipeline/publish/labelled_frame.hpp"
 #include "pipeline/run/cloud_pipeline.hpp"
 #include "pipeline/scene/scene_finder.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
@@ -69,9 +69,9 @@ class NodeLabeller {
     return pipeline_->point_heights_m();
   }
 
-  /// Looks for objects in the cloud labelled last; takes milliseconds. Returns them in the vehicle
-  /// frame of mount_in_use(); valid until the next call.
-  [[nodiscard]] std::span<const objects::Object> find_objects();
+  /// Looks for what is wanted in the cloud labelled last, which takes milliseconds, and sets it in
+  /// `scene`, in the vehicle frame of mount_in_use().
+  void find_scene(publish::LabelledFrame& scene);
 
   /// Compares the mount with the ground of the cloud labelled last; takes milliseconds.
   void watch_mount();
@@ -91,7 +91,7 @@ class NodeLabeller {
   std::vector<cloud::Cloud> kept_;
   std::optional<run::CloudPipeline> pipeline_;
   memory::FixedMemory scene_memory_;
-  std::optional<scene::SceneFinder> scene_;  ///< Exists if objects are asked for.
+  std::optional<scene::SceneFinder> scene_;  ///< Exists if anything is to be found.
   std::optional<MountWatch> watch_;
   mount::Mount mount_;
   std::string sensor_;

@@ -26,7 +26,7 @@ enum class NoAnswer : std::uint8_t {
   kPushedOut,    ///< Newer clouds came before this one was processed.
   kUnanswered,   ///< Labelled, but earlier answers were still being written.
   kUnwritten,    ///< DDS refused an answer.
-  kNoObjects,    ///< Labelled, but there was no time for its objects.
+  kNoScene,      ///< Labelled, but there was no time for its objects and free way.
   kCount,
 };
 
@@ -66,7 +66,7 @@ class NodeNews {
     constexpr std::array<std::string_view, static_cast<std::size_t>(NoAnswer::kCount)> kNames{
         "refused_clouds_no_place", "refused_clouds_no_rows", "refused_clouds_no_transform",
         "pushed_out_clouds",       "unanswered_clouds",      "unwritten_answers",
-        "clouds_without_objects"};
+        "clouds_without_scene"};
     const std::scoped_lock lock(mutex_);
     State state{clouds_, last_cloud_ns_, sensor_, mount_, std::exchange(records_, {}), {}};
     for (std::size_t i = 0; i < counts_.size(); ++i) {

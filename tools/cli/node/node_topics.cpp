@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/dds/mount_transform.hpp"
+#include "pipeline/ros_messages/header.hpp"
 #include "tools/cli/output/dds_output.hpp"
 #include "tools/cli/output/dds_participant.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
@@ -50,16 +52,56 @@ Expected<NodeAnswers> NodeAnswers::open(const dds::Participant& participant,
     if (!writer) return tl::unexpected(writer.error());
     answers.*wanted.writer = *std::move(writer);
   }
-  if (!options.method.scene.objects || topics.objects.empty()) return answers;
-  const DdsOptions& dds = options.output.dds;
-  auto objects = dds::ObjectWriter::open(participant,
-                                         {.boxes = dds_topic_of(topics.objects, dds),
-                                          .markers = dds_topic_of(topics.objects + "/markers", dds),
-                                          .sector_boxes = ""},
-                                         {.reliable = dds.reliable, .depth = dds.depth});
-  if (!objects) return tl::unexpected(objects.error());
-  answers.objects_.emplace(*std::move(objects));
+  if (Status opened = answers.open_scene(participant, options); !opened) {
+    return tl::unexpected(opened.error());
+  }
   return answers;
+}
+
+Status NodeAnswers::open_scene(const dds::Participant& participant, const Options& options) {
+  const DdsOptions& dds = options.output.dds;
+  const DdsTopics topics = dds_topics_of(dds);
+  const dds::Quality quality{.reliable = dds.reliable, .depth = dds.depth};
+  if (options.method.scene.objects && !topics.objects.empty()) {
+    auto objects =
+        dds::ObjectWriter::open(participant,
+                                {.boxes = dds_topic_of(topics.objects, dds),
+                                 .markers = dds_topic_of(topics.objects + "/markers", dds),
+                                 .sector_boxes = ""},
+                                quality);
+    if (!objects) return tl::unexpected(objects.error());
+    objects_.emplace(*std::move(objects));
+  }
+  if (!options.method.scene.free_way || topics.free_way.empty()) return {};
+  auto free_way =
+      dds::FreeWayWriter::open(participant, dds_topic_of(topics.free_way, dds), quality);
+  if (!free_way) return tl::unexpected(free_way.error());
+  auto tf_static = dds::TopicWriter::open(participant, dds_topic_of("/tf_static", dds),
+                                          dds::kTfMessage, dds::kLatched);
+  if (!tf_static) return tl::unexpected(tf_static.error());
+  free_way_.emplace(*std::move(free_way));
+  tf_static_.emplace(*std::move(tf_static));
+  vehicle_frame_ = options.output.frame_id;
+  return {};
+}
+
+Status NodeAnswers::write(NodeScene& scene) {
+  Status first;
+  const auto keep = [&](Status written) {
+    if (first && !written) first = std::move(written);
+  };
+  if (free_way_) {
+    if (!std::exchange(is_vehicle_frame_told_, true)) {
+      keep(dds::write_mount(*tf_static_, scene.mount, scene.cloud_frame, vehicle_frame_));
+    }
+    keep(free_way_->write(scene.frame, vehicle_frame_));
+  }
+  if (objects_) {
+    keep(objects_->write(scene.frame.objects,
+                         {scene.answer_frame, ros_messages::stamp_ns_of(scene.frame.record),
+                          &scene.T_answer_vehicle}));
+  }
+  return first;
 }
 
 Status NodeAnswers::write(const dds::RosCloud& cloud, std::span<const Label> labels,

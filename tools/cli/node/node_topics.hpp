@@ -4,10 +4,12 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "firmware_io/frame/label.hpp"
 #include "pipeline/dds/cloud_reader.hpp"
 #include "pipeline/dds/derived_cloud.hpp"
+#include "pipeline/dds/free_way_writer.hpp"
 #include "pipeline/dds/object_writer.hpp"
 #include "pipeline/dds/participant.hpp"
 #include "pipeline/dds/topic_writer.hpp"
@@ -16,7 +18,15 @@
 
 namespace terracut::cli {
 
-/// The topics to which answers are written. For one thread, but for wants_objects().
+/// What was found in a cloud beside its labels.
+struct NodeScene {
+  publish::LabelledFrame frame;  ///< Stamp, objects and free way, in the vehicle frame.
+  mount::Mount mount;            ///< Of the sensor above that frame.
+  std::string cloud_frame, answer_frame;
+  mount::RigidTransform T_answer_vehicle;
+};
+
+/// The topics to which answers are written. For one thread, but for wants_scene().
 class NodeAnswers {
  public:
   [[nodiscard]] static Expected<NodeAnswers> open(const dds::Participant& participant,
@@ -30,23 +40,28 @@ class NodeAnswers {
   /// Writes an answer; skips topics without readers. Returns the first error.
   [[nodiscard]] Status write(const dds::RosCloud& cloud, std::span<const frame::Label> labels,
                              std::span<const float> heights_m, const Times& times);
-  /// Writes the objects of a cloud.
-  [[nodiscard]] Status write(std::span<const objects::Object> objects,
-                             const dds::ObjectWriter::Seen& seen) {
-    return objects_->write(objects, seen);
+  /// Writes the free way in the vehicle frame, which is told to lie below the cloud's, and objects
+  /// in the frame of the answers. Returns the first error.
+  [[nodiscard]] Status write(NodeScene& scene);
+  /// True if somebody reads objects or the free way. For any thread.
+  [[nodiscard]] bool wants_scene() const {
+    return (objects_ && objects_->has_readers()) || (free_way_ && free_way_->has_readers());
   }
-  /// True if somebody reads objects. For any thread.
-  [[nodiscard]] bool wants_objects() const { return objects_ && objects_->has_readers(); }
 
  private:
   NodeAnswers() = default;
+  [[nodiscard]] Status open_scene(const dds::Participant& participant, const Options& options);
   [[nodiscard]] static bool is_read(const std::optional<dds::TopicWriter>& writer) {
     return writer && writer->readers() > 0;
   }
 
   std::optional<dds::TopicWriter> points_, ground_, obstacles_, road_;
   std::optional<dds::TopicWriter> processing_time_, cyclic_time_;
-  std::optional<dds::ObjectWriter> objects_;  ///< Exists if objects are asked for.
+  std::optional<dds::ObjectWriter> objects_;    ///< Exists if objects are asked for.
+  std::optional<dds::FreeWayWriter> free_way_;  ///< Exists with the next if it is asked for.
+  std::optional<dds::TopicWriter> tf_static_;
+  std::string vehicle_frame_;
+  bool is_vehicle_frame_told_ = false;
   dds::DerivedCloud derived_;
 };
 

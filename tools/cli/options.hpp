@@ -282,9 +282,11 @@ struct Options {
 
   PlayOptions replay;
   std::string view_at = "127.0.0.1:8480";  ///< Address for a capture in a browser.
-  std::filesystem::path can_recording;     ///< Recording of the vehicle's bus; empty: none.
-  int bench_repeat = 10;                   ///< Passes over the capture's frames.
-  int bench_core = -1;                     ///< Core to run on; -1: the last allowed core.
+  /// Configuration with the method for a second labelling in the view; empty: none.
+  std::filesystem::path beside;
+  std::filesystem::path can_recording;  ///< Recording of the vehicle's bus; empty: none.
+  int bench_repeat = 10;                ///< Passes over the capture's frames.
+  int bench_core = -1;                  ///< Core to run on; -1: the last allowed core.
   bool keep_mount = false;  ///< Calibrate: use the given mount instead of estimating it.
 
   SimulateOptions simulate;

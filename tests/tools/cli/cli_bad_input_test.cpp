@@ -49,6 +49,20 @@ TEST_F(CliRefusal, OfFilesThatAreNoCaptureNamesThem) {
   }
 }
 
+TEST_F(CliRefusal, OfWhatAViewIsToBeComparedWithNamesIt) {
+  const std::string view = "view " + quoted(kDrive) + " --at 127.0.0.1:0 ";
+  expect_refusal(view + "--truth none", kInputRefused,
+                 AllOf(HasSubstr("--truth none"), HasSubstr("NNNNNN.label")));
+  expect_refusal(view + "--truth .", kInputRefused, HasSubstr("NNNNNN.label"));
+  expect_refusal(view + "--beside none.yaml", kInputRefused,
+                 AllOf(HasSubstr("none.yaml"), HasSubstr("no such file")));
+  write("b.yaml", "method: {profle: paper}\n");
+  expect_refusal(view + "--beside b.yaml", kInputRefused, HasSubstr("method.profle"));
+  fs::create_directory(folder_ / "other.truth");
+  write("other.truth/000000.label", "8 bytes!");
+  expect_refusal(view + "--truth other.truth", kInputRefused, HasSubstr("000000.label"));
+}
+
 TEST_F(CliRefusal, WithoutACalibrationSaysHowMuchIsMissingAndWhatToDo) {
   const std::string whole = content_of(kDrive);
   write("short.pcap", whole.substr(0, whole.size() / 3));

@@ -6,15 +6,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <thread>
-#include <vector>
+#include <utility>
 
-#include "firmware_io/scan/label_file.hpp"
 #include "pipeline/visibility/sight_news.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/figures/run_report.hpp"
+#include "tools/cli/input/frame_truth.hpp"
 #include "tools/cli/input/labelled_capture.hpp"
 #include "tools/cli/output/frame_outputs.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
@@ -61,39 +62,14 @@ class Pace {
   std::chrono::steady_clock::time_point started_;
 };
 
-/// Reads the true labels of successive frames, if a file fits the frame.
-class FrameTruth {
- public:
-  explicit FrameTruth(std::filesystem::path folder) : folder_(std::move(folder)) {}
-
-  /// Returns the true class of each return. Empty if no truth was asked for or the frame's file
-  /// does not fit, which is reported once.
-  std::span<const std::uint32_t> read(const std::string& name, std::size_t returns) {
-    labels_.clear();
-    if (folder_.empty()) return labels_;
-    const Status status = scan::read_label_file(folder_ / (name + ".label"), returns, labels_);
-    if (status) return labels_;
-    if (!warned_)
-      warn("frames without fitting truth are not scored; the first: " + status.error().message);
-    warned_ = true;
-    labels_.clear();
-    return labels_;
-  }
-
- private:
-  std::filesystem::path folder_;
-  std::vector<std::uint32_t> labels_;
-  bool warned_ = false;
-};
-
 /// Hands the labelled frames of a capture to the sinks named by the options.
 class Replay {
  public:
-  Replay(const Options& options, LabelledCapture& capture)
+  Replay(const Options& options, LabelledCapture& capture, FrameTruth truth)
       : options_(options),
         capture_(capture),
         outputs_(options.output),
-        truth_(options.output.truth),
+        truth_(std::move(truth)),
         pace_(options.replay.rate),
         progress_("replaying", "frames", 0) {
     capture.before_each(
@@ -134,7 +110,7 @@ class Replay {
     const FrameInfo& info = frame.record.info;
     const std::span<const frame::Label> labels = capture_.labels();
     const std::string name = fmt::format("{:06}", info.number);
-    const std::span<const std::uint32_t> truth = truth_.read(name, info.returns);
+    const std::span<const std::uint32_t> truth = truth_of(name, info.returns);
     if (!truth.empty()) capture_.report().score(labels, truth);
     if (frame.image != nullptr) {
       outputs_.look(*frame.image, *frame.as_measured, labels, capture_.heights_m(),
@@ -144,6 +120,16 @@ class Replay {
     sinks_ = outputs_.write_labels(name, labels, outputs_.object_of_return());
     if (sinks_ && frame.image != nullptr) sinks_ = write_points(name, frame, truth);
     progress_.update(static_cast<double>(capture_.report().totals.frames));
+  }
+
+  /// Returns the true class of each return. Empty if no truth was asked for or the frame's file
+  /// does not fit, which is reported once.
+  std::span<const std::uint32_t> truth_of(const std::string& name, std::size_t returns) {
+    const Status read = truth_.read(name, returns);
+    if (!read && !std::exchange(warned_, true)) {
+      warn("frames without fitting truth are not scored; the first: " + read.error().message);
+    }
+    return truth_.labels();
   }
 
   /// Keeps how far the sensor sees for the report, and prints what changes.
@@ -179,6 +165,7 @@ class Replay {
   LabelledCapture& capture_;
   FrameOutputs outputs_;
   FrameTruth truth_;
+  bool warned_ = false;  ///< Of a frame without fitting truth.
   visibility::SightNews sight_news_;
   Pace pace_;
   Progress progress_;
@@ -194,18 +181,15 @@ ExitCode run_replay(const Options& options) {
                   "--truth goes by frame number, so the replay must run once from the capture's "
                   "beginning: leave --start and --loop away");
   }
-  if (!options.output.truth.empty() && !std::filesystem::is_directory(options.output.truth)) {
-    return refuse(kInputRefused, fmt::format("--truth {}: no such folder; expected one of "
-                                             "NNNNNN.label, as `terracut simulate` writes it",
-                                             options.output.truth.string()));
-  }
+  auto truth = FrameTruth::open(options.output.truth);
+  if (!truth) return refuse(truth.error());
   auto capture = LabelledCapture::open(
       options, FrameOutputs::need_points(options.output) || options.method.scene.any()
                    ? LabelledCapture::Makes::kPoints
                    : LabelledCapture::Makes::kLabels);
   if (!capture) return refuse_work(capture.error());
   catch_stop_signals();
-  return Replay(options, **capture).run();
+  return Replay(options, **capture, *std::move(truth)).run();
 }
 
 }  // namespace terracut::cli

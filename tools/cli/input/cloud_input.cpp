@@ -113,6 +113,10 @@ Expected<cloud::CloudView> CloudReader::read(std::size_t index) {
   return cloud_.view();
 }
 
+bool CloudReader::has_labels() const {
+  return std::ranges::any_of(files_, [](const auto& file) { return file.labels.has_value(); });
+}
+
 Status CloudReader::read_labels(std::size_t index, std::size_t points,
                                 std::vector<std::uint32_t>& labels) const {
   labels.clear();

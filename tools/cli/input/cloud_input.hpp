@@ -54,6 +54,8 @@ class CloudReader {
 
   /// Reads one cloud, valid until the next cloud is read.
   [[nodiscard]] Expected<cloud::CloudView> read(std::size_t index);
+  /// True if a cloud has its truth beside it, as SemanticKITTI's have.
+  [[nodiscard]] bool has_labels() const;
   /// Reads the truth of a cloud of `points` points into `labels`, empty if there is no truth.
   [[nodiscard]] Status read_labels(std::size_t index, std::size_t points,
                                    std::vector<std::uint32_t>& labels) const;

@@ -256,7 +256,7 @@ constexpr std::array kSettings{
             .needs = "--udp", .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},
     Setting{.option = "--json", .commands = C::kEval, .help = "File for the results; FILE.journal beside it lets an interrupted run go on",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},
-    Setting{.key = "output.truth", .option = "--truth", .commands = C::kReplay, .help = "Folder of NNNNNN.label: print IoU_g and Recall_o, draw mistakes",
+    Setting{.key = "output.truth", .option = "--truth", .commands = kPlayed, .help = "Folder of NNNNNN.label: print IoU_g and Recall_o, draw mistakes",
             .reads = "the truth", .field = [](O& o) -> F { return &o.output.truth; }},
     Setting{.key = "output.stream", .option = "--stream", .commands = C::kLive, .help = "Where other programs get every frame's labelled points (docs/reference/labelled_stream.md); a port alone: this machine's programs (default: nowhere)",
             .form = TextForm::kStream, .field = [](O& o) -> F { return &o.stream; }},
@@ -284,6 +284,8 @@ constexpr std::array kSettings{
             .form = TextForm::kServingOrOff, .bare = "8480", .field = [](O& o) -> F { return &o.output.view; }},
     Setting{.option = "--at", .commands = C::kView, .help = "Where a browser sees the frames; a port alone: of this machine",
             .form = TextForm::kServingOrOff, .field = [](O& o) -> F { return &o.view_at; }},
+    Setting{.option = "--beside", .commands = C::kView, .help = "Configuration file whose section `method` labels the same frames a second time, to be seen side by side",
+            .reads = "the configuration beside", .field = [](O& o) -> F { return &o.beside; }},
     Setting{.key = "output.trace", .option = "--trace", .commands = C::kLive, .help = "File for the last frames as a trace, for ui.perfetto.dev",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.trace; }},
 

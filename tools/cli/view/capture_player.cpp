@@ -73,7 +73,7 @@ PlayerState CapturePlayer::state() const {
 }
 
 Status CapturePlayer::run(const OnFrame& on_frame) {
-  publish::LabelledFrame frame;
+  PlayedFrame frame;
   while (!stop_wanted()) {
     std::optional<double> seek_s;
     {
@@ -91,8 +91,9 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
     const auto span = next_due();
     if (!span && !has_frames_ && !stop_wanted()) return recording_.conclude();
     if (!span) continue;
-    recording_.take(frame);
-    if (Status taken = on_frame(frame); !taken) return taken;
+    Status taken = recording_.take(frame);
+    if (taken) taken = on_frame(frame);
+    if (!taken) return taken;
     const std::lock_guard lock(mutex_);
     state_.frame = frame.record.info.number;
     state_.position_s = std::max(0.0, seconds(span->begin_ns));

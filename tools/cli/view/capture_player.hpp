@@ -21,7 +21,7 @@ namespace terracut::cli {
 /// over or, if so commanded, pauses.
 class CapturePlayer : public ViewedCapture {
  public:
-  using OnFrame = std::function<Status(const publish::LabelledFrame& frame)>;
+  using OnFrame = std::function<Status(const PlayedFrame& frame)>;
 
   /// `recording` must outlive this object, which measures its length on a thread of its own.
   explicit CapturePlayer(PlayedRecording& recording);

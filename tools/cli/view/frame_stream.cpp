@@ -23,8 +23,8 @@ constexpr std::string_view kHead =
 
 }  // namespace
 
-FrameStream::FrameStream(HttpStream stream, ViewSource& source, bool by_sectors)
-    : stream_(std::move(stream)), source_(source), by_sectors_(by_sectors) {
+FrameStream::FrameStream(HttpStream stream, ViewSource& source, Streamed what)
+    : stream_(std::move(stream)), source_(source), what_(what) {
   ++source_.streams;
 }
 
@@ -45,19 +45,23 @@ void FrameStream::begin() {
 
 void FrameStream::send_next() {
   if (is_sending_) return;
+  const bool by_sectors = what_ == Streamed::kSectors;
   const ViewFrames::Message next =
-      by_sectors_ ? source_.frames.sector_after(seen_) : source_.frames.newest();
+      by_sectors ? source_.frames.sector_after(seen_) : source_.frames.newest();
   if (next.number == seen_) return;
   const std::uint64_t skipped = seen_ == 0 ? 0 : next.number - seen_ - 1;
-  (by_sectors_ ? source_.sectors_skipped : source_.skipped) += skipped;
+  (by_sectors ? source_.sectors_skipped : source_.skipped) += skipped;
   seen_ = next.number;
   kept_ = next.kept;
   const std::uint32_t missed = header_.missed + static_cast<std::uint32_t>(skipped);
   header_ = kept_->header;
   header_.missed = missed;
+  const bool is_compared = what_ == Streamed::kComparedFrames && !kept_->comparison.empty();
+  if (is_compared) header_.flags |= kFrameCompared;
   is_sending_ = true;
-  const std::array<asio::const_buffer, 2> parts{asio::buffer(&header_, sizeof(header_)),
-                                                asio::buffer(kept_->points)};
+  const std::array<asio::const_buffer, 3> parts{
+      asio::buffer(&header_, sizeof(header_)), asio::buffer(kept_->points),
+      asio::buffer(kept_->comparison.data(), is_compared ? kept_->comparison.size() : 0)};
   asio::async_write(stream_, parts, [self = shared_from_this()](error_code error, std::size_t) {
     if (error) return self->stream_.close();
     self->is_sending_ = false;

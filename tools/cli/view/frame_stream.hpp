@@ -11,12 +11,22 @@
 
 namespace terracut::cli {
 
+/// What one browser gets.
+enum class Streamed : std::uint8_t {
+  kFrames,
+  kSectors,
+  /// Frames, with the flag kFrameCompared followed by FrameComparison::of_returns.
+  kComparedFrames,
+};
+/// A bit of stream::FrameWireHeader::flags: a byte for each point follows the points.
+inline constexpr std::uint32_t kFrameCompared = 1U << 31;
+
 /// Streams labelled frames, or their sectors, to one browser as the body of an answer, until either
 /// side ends. While a frame is being sent, only the newest later one waits; of sectors
 /// ViewFrames::kSectorsKept.
 class FrameStream final : public HttpGuest, public std::enable_shared_from_this<FrameStream> {
  public:
-  FrameStream(HttpStream stream, ViewSource& source, bool by_sectors);
+  FrameStream(HttpStream stream, ViewSource& source, Streamed what);
   ~FrameStream() override;
 
   void begin();
@@ -30,7 +40,7 @@ class FrameStream final : public HttpGuest, public std::enable_shared_from_this<
 
   HttpStream stream_;
   ViewSource& source_;
-  bool by_sectors_;
+  Streamed what_;
   std::uint64_t seen_ = 0;
   stream::FrameWireHeader header_{};
   std::shared_ptr<const ViewFrames::Kept> kept_;  ///< What is being sent.

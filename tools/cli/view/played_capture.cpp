@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "played_capture.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -48,8 +50,13 @@ class PlayedCapture::Counter {
   bool ended_ = false;
 };
 
-PlayedCapture::PlayedCapture(LabelledCapture& capture, const Options& options)
-    : capture_(capture), options_(options), begins_(options.capture.start_s == 0) {
+PlayedCapture::PlayedCapture(LabelledCapture& capture, const Options& options, FrameTruth truth,
+                             std::unique_ptr<CaptureLabels> beside)
+    : capture_(capture),
+      options_(options),
+      truth_(std::move(truth)),
+      beside_(std::move(beside)),
+      begins_(options.capture.start_s == 0) {
   const scene::Wanted wanted = options.method.scene;
   if (!wanted.any()) return;
   const decode::Decoder& decoder = capture.decoder();
@@ -75,7 +82,7 @@ std::optional<PlayedRecording::Span> PlayedCapture::next() {
   return span_;
 }
 
-void PlayedCapture::take(publish::LabelledFrame& frame) {
+Status PlayedCapture::take(PlayedFrame& frame) {
   frame.record = frame_->record;
   frame.points.resize(frame_->image->returns());
   (void)points::pack_labelled_points(*frame_->image, capture_.labels(), frame.points,
@@ -88,6 +95,12 @@ void PlayedCapture::take(publish::LabelledFrame& frame) {
   }
   if (!ahead_) ahead_ = frame.record.info.number - number_of(span_.end_ns);
   frame.record.info.number -= *ahead_;
+  const frame::FrameInfo& info = frame.record.info;
+  const Status read = truth_.read(fmt::format("{:06}", info.number), info.returns);
+  const std::span<const frame::Label> beside =
+      beside_ ? beside_->of(info, span_.end_ns) : std::span<const frame::Label>();
+  compare(capture_.labels(), beside, truth_.labels(), frame.comparison);
+  return info.complete ? doubt_.judge(read) : Status();
 }
 
 Status PlayedCapture::go_to(double seek_s) {
@@ -95,6 +108,9 @@ Status PlayedCapture::go_to(double seek_s) {
   const double from_s = std::max(0.0, seek_s - 1.25 * frame_s());
   ahead_.reset();
   begins_ = from_s == 0;
+  if (beside_) {
+    if (Status gone = beside_->go_to(from_s); !gone) return gone;
+  }
   return capture_.rewind(from_s);
 }
 

@@ -7,9 +7,12 @@
 #include <optional>
 #include <vector>
 
+#include "capture_labels.hpp"
 #include "pipeline/scene/scene_finder.hpp"
 #include "played_recording.hpp"
+#include "tools/cli/input/frame_truth.hpp"
 #include "tools/cli/input/labelled_capture.hpp"
+#include "truth_doubt.hpp"
 
 namespace terracut::cli {
 
@@ -17,13 +20,15 @@ namespace terracut::cli {
 /// them; after a seek these are found by decoding, once, the part before it.
 class PlayedCapture : public PlayedRecording {
  public:
-  /// Both arguments must outlive this object.
-  PlayedCapture(LabelledCapture& capture, const Options& options);
+  /// The first two arguments must outlive this object. Frames are compared with `truth` and with
+  /// `beside`, which may be null.
+  PlayedCapture(LabelledCapture& capture, const Options& options, FrameTruth truth,
+                std::unique_ptr<CaptureLabels> beside);
   ~PlayedCapture() override;
 
   [[nodiscard]] double frame_s() const override;
   [[nodiscard]] std::optional<Span> next() override;
-  void take(publish::LabelledFrame& frame) override;
+  [[nodiscard]] Status take(PlayedFrame& frame) override;
   [[nodiscard]] Status go_to(double seek_s) override;
   [[nodiscard]] Status conclude() override { return capture_.conclude(); }
   void measure(const OnLength& on_length) const override;
@@ -37,6 +42,9 @@ class PlayedCapture : public PlayedRecording {
   const Options& options_;
   memory::FixedMemory memory_;
   std::optional<scene::SceneFinder> scene_;  ///< Exists if anything is to be found.
+  FrameTruth truth_;
+  TruthDoubt doubt_{true};
+  std::unique_ptr<CaptureLabels> beside_;
   const run::Frame* frame_ = nullptr;
   Span span_{};
   /// The decoder's frame number, which never restarts, minus the frame's number in file names.

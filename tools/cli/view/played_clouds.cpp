@@ -23,10 +23,11 @@ constexpr std::int64_t kPeriod_ns = 100'000'000;
 }  // namespace
 
 Expected<std::unique_ptr<PlayedClouds>> PlayedClouds::open(const std::filesystem::path& clouds,
-                                                           const Options& options) {
+                                                           const Options& options, FrameTruth truth,
+                                                           const MethodOptions* beside) {
   auto reader = CloudReader::open(clouds, options.capture.topic);
   if (!reader) return tl::unexpected(reader.error());
-  std::unique_ptr<PlayedClouds> opened(new PlayedClouds(*std::move(reader)));
+  std::unique_ptr<PlayedClouds> opened(new PlayedClouds(*std::move(reader), std::move(truth)));
   const auto rows = rows_of(opened->reader_, options.capture.calibration);
   if (!rows) return tl::unexpected(rows.error());
   CloudFrames frames(opened->reader_, *rows);
@@ -38,6 +39,11 @@ Expected<std::unique_ptr<PlayedClouds>> PlayedClouds::open(const std::filesystem
   opened->mount_ = profile->mount;
   opened->pipeline_ =
       std::make_unique<run::CloudPipeline>(*rows, *profile, method_of(options.method));
+  if (beside != nullptr) {
+    const frame::RangeImage& image = opened->pipeline_->image();
+    opened->beside_ =
+        method_of(*beside)({*profile, image.shape(), image.return_capacity()}, opened->memory_);
+  }
   if (const scene::Wanted wanted = options.method.scene; wanted.any()) {
     const frame::RangeImage& image = opened->pipeline_->image();
     opened->scene_.emplace(wanted, *profile, image.shape(), image.return_capacity(),
@@ -76,18 +82,35 @@ Status PlayedClouds::label(std::size_t index) {
   if (const Status labelled = pipeline_->label(*cloud, record_); !labelled) {
     return fail(labelled.error().code, reader_.place(index) + ": " + labelled.error().message);
   }
+  if (beside_) (void)beside_->segment(pipeline_->image());
+  read_truth(index, cloud->points.size());
   return {};
 }
 
-void PlayedClouds::take(publish::LabelledFrame& frame) {
+void PlayedClouds::read_truth(std::size_t index, std::size_t points) {
+  point_truth_.clear();
+  if (!truth_.exists()) {
+    truth_read_ = reader_.read_labels(index, points, point_truth_);
+  } else {
+    truth_read_ = truth_.read(reader_.name(index), points);
+    point_truth_.assign(truth_.labels().begin(), truth_.labels().end());
+  }
+  if (!truth_read_) point_truth_.clear();
+}
+
+Status PlayedClouds::take(PlayedFrame& frame) {
   frame.record = record_;
   frame.points.resize(pipeline_->image().returns());
   (void)points::pack_labelled_points(pipeline_->image(), pipeline_->labels(), frame.points);
   const std::span<const float> heights_m = pipeline_->heights_m();
   frame.heights_m.assign(heights_m.begin(), heights_m.end());
-  if (!scene_) return;
-  scene_->find(pipeline_->image(), pipeline_->labels(), heights_m);
-  publish::set_scene(*scene_, frame);
+  if (scene_) {
+    scene_->find(pipeline_->image(), pipeline_->labels(), heights_m);
+    publish::set_scene(*scene_, frame);
+  }
+  compare(pipeline_->labels(), beside_ ? beside_->labels() : std::span<const frame::Label>(),
+          pipeline_->truth_of_returns(point_truth_), frame.comparison);
+  return doubt_.judge(truth_read_);
 }
 
 Status PlayedClouds::go_to(double seek_s) {

@@ -6,10 +6,16 @@
 #include <functional>
 #include <optional>
 
+#include "frame_comparison.hpp"
 #include "pipeline/publish/labelled_frame.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::cli {
+
+/// A labelled frame of a recording, and what it is compared with.
+struct PlayedFrame : publish::LabelledFrame {
+  FrameComparison comparison;
+};
 
 /// A recording that CapturePlayer plays. Times count from the recording's beginning. One thread,
 /// except measure().
@@ -30,8 +36,8 @@ class PlayedRecording {
   /// stop_wanted().
   [[nodiscard]] virtual std::optional<Span> next() = 0;
   /// Copies the frame labelled last. Its number is that in the names of its files, even after a
-  /// seek.
-  virtual void take(publish::LabelledFrame& frame) = 0;
+  /// seek. Fails with kMalformed if the truth is that of another recording.
+  [[nodiscard]] virtual Status take(PlayedFrame& frame) = 0;
   /// Seeks: next() then gives the frame of that time, perhaps after some earlier ones.
   [[nodiscard]] virtual Status go_to(double seek_s) = 0;
   /// Returns an error, with its reason, if there was no frame at all.

@@ -45,16 +45,27 @@ nlohmann::ordered_json sight_json(const visibility::SightFigures& sight) {
   return json;
 }
 
+/// Returns the scores of one set of parameters, rounded as people read them.
+nlohmann::ordered_json score_json(const quality::Quality& quality) {
+  const auto rounded = [](double share) { return std::round(share * 1e5) / 1e5; };
+  return {{"iou_g", rounded(quality.iou_ground())},
+          {"recall_o", rounded(quality.recall_key_obstacles())},
+          {"missed", quality.obstacle_as_ground},
+          {"false", quality.ground_as_obstacle}};
+}
+
 }  // namespace
 
-ViewFrames::ViewFrames(const publish::RunFacts& facts) : facts_(facts) {}
+ViewFrames::ViewFrames(const publish::RunFacts& facts, ComparedWith compared)
+    : facts_(facts), compared_(std::move(compared)) {}
 
-void ViewFrames::put(const publish::LabelledFrame& frame) {
+void ViewFrames::put(const publish::LabelledFrame& frame, const FrameComparison& comparison) {
   const std::shared_ptr<Kept> room = rooms_.take();
   const Shown of_frame = shown(frame.record);
   room->header = stream::header_of(frame.record, sensor::SensorModel::kUnknown, of_frame.missed,
                                    frame.points.size());
   keep_points(frame.points, frame.heights_m, *room);
+  room->comparison = comparison.of_returns;
   const std::lock_guard lock(mutex_);
   newest_ = room;
   if (gives_sectors()) {
@@ -66,7 +77,12 @@ void ViewFrames::put(const publish::LabelledFrame& frame) {
   ++frames_put_;
   losses_ += frame.record.info.losses;
   if (finds_anything()) {
-    found_.push_back({frame.record.info.number, frame.objects, frame.free_way});
+    std::vector<quality::Quality> qualities;
+    for (const auto& quality : {comparison.quality, comparison.quality_beside}) {
+      if (quality) qualities.push_back(*quality);
+    }
+    found_.push_back({frame.record.info.number, frame.objects, frame.free_way, std::move(qualities),
+                      comparison.differing});
     if (found_.size() > kFramesWithFinds) found_.pop_front();
   }
   shown_.push_back(of_frame);
@@ -119,6 +135,7 @@ ViewFrames::Shown ViewFrames::shown(const status::FrameRecord& record) const noe
 nlohmann::ordered_json ViewFrames::found(std::uint32_t frame) const {
   nlohmann::ordered_json json;
   json["boxes"] = json["free_way"] = nlohmann::ordered_json::array();
+  if (compared_.any()) json["scores"] = nlohmann::ordered_json::array();
   const std::lock_guard lock(mutex_);
   const auto of_frame = std::find_if(found_.rbegin(), found_.rend(),
                                      [&](const Found& kept) { return kept.frame == frame; });
@@ -135,6 +152,10 @@ nlohmann::ordered_json ViewFrames::found(std::uint32_t frame) const {
   for (const Corner& corner : free_way::outline(of_frame->free_way)) {
     json["free_way"].push_back({centimetres(corner.x_m), centimetres(corner.y_m)});
   }
+  for (const quality::Quality& quality : of_frame->qualities) {
+    json["scores"].push_back(score_json(quality));
+  }
+  if (!compared_.beside.empty()) json["differing"] = of_frame->differing;
   return json;
 }
 
@@ -146,6 +167,12 @@ nlohmann::ordered_json ViewFrames::figures() const {
   json["sensor_height_m"] = std::round(facts_.mount.height_m * 100) / 100;
   json["objects"] = facts_.found.objects;
   json["free_way"] = facts_.found.free_way;
+  json["compared"] = nullptr;
+  if (compared_.any()) {
+    json["compared"] = {{"truth", compared_.truth},
+                        {"names", nlohmann::json::array({compared_.name})}};
+    if (!compared_.beside.empty()) json["compared"]["names"].push_back(compared_.beside);
+  }
   json["deadline_ms"] = nullptr;
   if (facts_.deadline_ns > 0) json["deadline_ms"] = milliseconds(facts_.deadline_ns);
   json["frames"] = nlohmann::ordered_json::array();

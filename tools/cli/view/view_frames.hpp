@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "frame_comparison.hpp"
 #include "pipeline/publish/labelled_frame.hpp"
 #include "pipeline/publish/run_facts.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
@@ -26,7 +27,8 @@ class ViewFrames {
  public:
   struct Kept {
     stream::FrameWireHeader header;
-    std::vector<std::byte> points;  ///< As stream::write_points() writes them.
+    std::vector<std::byte> points;         ///< As stream::write_points() writes them.
+    std::vector<std::uint8_t> comparison;  ///< FrameComparison::of_returns.
   };
   struct Message {
     std::uint64_t number = 0;          ///< Sequence number, from 1; 0: none yet.
@@ -38,10 +40,10 @@ class ViewFrames {
   /// later.
   static constexpr std::size_t kFramesWithFinds = 64;
 
-  explicit ViewFrames(const publish::RunFacts& facts);
+  explicit ViewFrames(const publish::RunFacts& facts, ComparedWith compared = {});
 
-  /// Copies the frame.
-  void put(const publish::LabelledFrame& frame);
+  /// Copies the frame, and what it is compared with.
+  void put(const publish::LabelledFrame& frame, const FrameComparison& comparison = {});
   /// Copies the sector; those of a frame come before the frame.
   void put_sector(const publish::LabelledSector& sector);
   void put_figures(const status::MonitorSnapshot& figures);
@@ -53,15 +55,20 @@ class ViewFrames {
   [[nodiscard]] Message sector_after(std::uint64_t seen) const;
   /// Returns the figures for the page: sensor, rows, sensor_height_m, deadline_ms or null, frames[]
   /// as [ms, level, missed], losses[] and onlookers[] as [cause, count]
-  /// (status::is_of_onlookers()); objects and free_way, whether there are any; silent_s if the
-  /// sensor is silent; sight if the view is watched: state, text, sectors[] clockwise from straight
+  /// (status::is_of_onlookers()); objects and free_way, whether there are any; compared, null or
+  /// whether there is truth, and names[] of one or two sets of parameters; silent_s if the sensor
+  /// is silent; sight if the view is watched: state, text, sectors[] clockwise from straight
   /// ahead as [state, visible_m].
   [[nodiscard]] nlohmann::ordered_json figures() const;
   /// Returns what was found in a frame for the page, in the vehicle frame: boxes[] of objects, of
   /// four corners [x_m, y_m], bottom_m and top_m; free_way[], the corners [x_m, y_m] of the free
-  /// area. Both are empty if the frame is not among the last kFramesWithFinds.
+  /// area; of frames that are compared differing, how many returns, and for each set of parameters
+  /// scores[] of iou_g, recall_o, missed and false, counts of returns. All are empty if the frame
+  /// is not among the last kFramesWithFinds.
   [[nodiscard]] nlohmann::ordered_json found(std::uint32_t frame) const;
-  [[nodiscard]] bool finds_anything() const noexcept { return facts_.found.any(); }
+  [[nodiscard]] bool finds_anything() const noexcept {
+    return facts_.found.any() || compared_.any();
+  }
 
  private:
   struct Shown {
@@ -73,12 +80,15 @@ class ViewFrames {
     std::uint32_t frame;
     std::vector<objects::Object> objects;
     std::vector<free_way::Sector> free_way;
+    std::vector<quality::Quality> qualities;  ///< One for each set of parameters.
+    std::uint64_t differing = 0;
   };
   [[nodiscard]] Shown shown(const status::FrameRecord& record) const noexcept;
 
   void keep_sector(std::shared_ptr<const Kept> sector);
 
   publish::RunFacts facts_;
+  ComparedWith compared_;
   /// Memory for one frame per browser, for the newest frame and for the next one; likewise for
   /// sectors.
   memory::UsedAgain<Kept> rooms_, sector_rooms_;

@@ -56,12 +56,12 @@ HttpAnswer answer_control(ViewSource& source, std::string_view body) {
   return figures_of(source);
 }
 
-HttpReply answer_frames(ViewSource& source, const HttpRequest& asked, bool by_sectors) {
+HttpReply answer_frames(ViewSource& source, const HttpRequest& asked, Streamed what) {
   if (!is_asked_by_own_page_or_program(asked)) {
     return http_refusal(403, "browsers get frames by way of the page");
   }
-  return HttpTakeover([&source, by_sectors](HttpConnection&& connection) {
-    auto stream = std::make_shared<FrameStream>(std::move(connection.stream), source, by_sectors);
+  return HttpTakeover([&source, what](HttpConnection&& connection) {
+    auto stream = std::make_shared<FrameStream>(std::move(connection.stream), source, what);
     stream->begin();
     return stream;
   });
@@ -76,8 +76,15 @@ HttpReply answer_view(ViewSource& source, const HttpRequest& asked) {
     return answer_control(source, asked.body);
   }
   if (asked.method != "GET") return http_refusal(405, "expected GET");
-  if (asked.path == "/frames") return answer_frames(source, asked, false);
-  if (asked.path == "/sectors") return answer_frames(source, asked, source.frames.gives_sectors());
+  if (asked.path == "/frames") return answer_frames(source, asked, Streamed::kFrames);
+  const bool by_sectors = source.frames.gives_sectors();
+  if (asked.path == "/sectors") {
+    return answer_frames(source, asked, by_sectors ? Streamed::kSectors : Streamed::kFrames);
+  }
+  if (asked.path == "/shown") {
+    return answer_frames(source, asked,
+                         by_sectors ? Streamed::kSectors : Streamed::kComparedFrames);
+  }
   if (asked.path == "/figures") return figures_of(source);
   if (asked.path.starts_with(kFound) && source.frames.finds_anything()) {
     return found_in(source, asked.path.substr(kFound.size()));

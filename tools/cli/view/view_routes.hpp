@@ -25,6 +25,8 @@ struct ViewSource {
 ///   GET  /, /view.js, ...   the page
 ///   GET  /frames            the labelled stream, from the newest frame on (FrameStream)
 ///   GET  /sectors           the same by sectors, from a turn ago on; of a capture as /frames
+///   GET  /shown             what the page draws: /sectors, and frames with what they are compared
+///                           with (Streamed::kComparedFrames)
 ///   GET  /figures           ViewFrames::figures(), and of a capture its PlayerState
 ///   POST /control           a PlayerCommand as JSON; answered as /figures
 ///

@@ -11,16 +11,16 @@
 
 namespace terracut::cli {
 
-ViewSink::ViewSink(const publish::RunFacts& facts, ViewedCapture* capture)
-    : frames_(facts), source_{frames_, capture} {}
+ViewSink::ViewSink(const publish::RunFacts& facts, ViewedCapture* capture, ComparedWith compared)
+    : frames_(facts, std::move(compared)), source_{frames_, capture} {}
 
 Expected<std::unique_ptr<ViewSink>> ViewSink::open(const std::string& endpoint,
                                                    const publish::RunFacts& facts,
-                                                   ViewedCapture* capture,
-                                                   const HttpBounds& bounds) {
+                                                   ViewedCapture* capture, const HttpBounds& bounds,
+                                                   ComparedWith compared) {
   const auto at = stream::parse_serving_endpoint(endpoint);
   if (!at) return tl::unexpected(at.error());
-  std::unique_ptr<ViewSink> sink(new ViewSink(facts, capture));
+  std::unique_ptr<ViewSink> sink(new ViewSink(facts, capture, std::move(compared)));
   auto server = HttpServer::start(
       {.at = *at, .what = "the page", .bounds = bounds},
       [&source = sink->source_](const HttpRequest& asked) { return answer_view(source, asked); });
@@ -32,9 +32,14 @@ Expected<std::unique_ptr<ViewSink>> ViewSink::open(const std::string& endpoint,
 }
 
 Status ViewSink::put(const publish::LabelledFrame& frame) {
-  frames_.put(frame);
-  send_next();
+  put_compared(frame, {});
   return {};
+}
+
+void ViewSink::put_compared(const publish::LabelledFrame& frame,
+                            const FrameComparison& comparison) {
+  frames_.put(frame, comparison);
+  send_next();
 }
 
 Status ViewSink::put_sector(const publish::LabelledSector& sector) {

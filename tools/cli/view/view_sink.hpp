@@ -22,15 +22,18 @@ namespace terracut::cli {
 class ViewSink : public publish::FrameSink {
  public:
   /// `endpoint` is like "127.0.0.1:8480". `capture` is its player, which outlives this object; null
-  /// in live runs. Fails with the errors of HttpServer::start().
+  /// in live runs. `compared` is what its frames are compared with. Fails with the errors of
+  /// HttpServer::start().
   [[nodiscard]] static Expected<std::unique_ptr<ViewSink>> open(const std::string& endpoint,
                                                                 const publish::RunFacts& facts,
                                                                 ViewedCapture* capture,
-                                                                const HttpBounds& bounds = {});
+                                                                const HttpBounds& bounds = {},
+                                                                ComparedWith compared = {});
 
   [[nodiscard]] std::string_view name() const noexcept override { return "view"; }
   [[nodiscard]] bool wants_sectors() const noexcept override { return frames_.gives_sectors(); }
   [[nodiscard]] Status put(const publish::LabelledFrame& frame) override;
+  void put_compared(const publish::LabelledFrame& frame, const FrameComparison& comparison);
   [[nodiscard]] Status put_sector(const publish::LabelledSector& sector) override;
   [[nodiscard]] Status put_figures(const status::MonitorSnapshot& figures) override;
   [[nodiscard]] std::vector<status::NamedCount> losses() const override;
@@ -39,7 +42,7 @@ class ViewSink : public publish::FrameSink {
   [[nodiscard]] const std::string& url() const noexcept { return url_; }
 
  private:
-  ViewSink(const publish::RunFacts& facts, ViewedCapture* capture);
+  ViewSink(const publish::RunFacts& facts, ViewedCapture* capture, ComparedWith compared);
   void send_next();
 
   ViewFrames frames_;

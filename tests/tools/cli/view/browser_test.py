@@ -6,29 +6,19 @@
 browser_test.py PROGRAM DRIVE [FOLDER FOR PICTURES]
 """
 
-import base64
 import json
 import re
 import socket
 import struct
 import subprocess
-import sys
 import tempfile
 import time
-import unittest
 import urllib.request
 from pathlib import Path
 
-from browser import Browser, find_chromium
+from drawn_page import DRIVE, PROGRAM, READ_PIXELS, TEXT_OF, DrawnPage, main, np, picture, pixels_of
 from served import Served
 
-try:
-    import numpy as np
-except ImportError:
-    np = None
-
-PROGRAM, DRIVE = sys.argv[1], Path(sys.argv[2])
-PICTURES = Path(sys.argv[3]) if len(sys.argv) > 3 else None
 HEADER_BYTES = 56
 POINT = np and np.dtype([("xyz", "<f4", 3), ("intensity", "u1"), ("label", "u1"), ("row", "<u2"), ("time", "<f4"), ("above_ground", "<f4")])
 
@@ -45,40 +35,9 @@ def two_digits(value):
     return f"{round(float(value), 2) + 0.0:.2f}"  # no -0.00
 
 
-def picture(browser, name):
-    if PICTURES:
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        browser.photograph(PICTURES / f"{name}.png")
-
-
-TEXT_OF = """(pixels => {
-  let text = '';
-  for (let i = 0; i < pixels.length; i += 32768) text += String.fromCharCode(...pixels.subarray(i, i + 32768));
-  return btoa(text);
-})"""
-
-# Read right after the page has drawn, in the same picture; the lowest line first.
-READ_PIXELS = """new Promise(resolve => {
-  dispatchEvent(new Event('resize'));
-  requestAnimationFrame(() => {
-    const gl = document.getElementById('scene').getContext('webgl2');
-    const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
-    const pixels = new Uint8Array(4 * width * height);
-    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-    resolve({width, height, pixels: TEXT_OF(pixels)});
-  });
-})""".replace("TEXT_OF", TEXT_OF)
-
 READ_RANGE_IMAGE = """(({width, height}, paint) => {
   return {width, height, pixels: TEXT_OF(paint.getImageData(0, 0, width, height).data)};
 })(document.getElementById('range'), document.getElementById('range').getContext('2d'))""".replace("TEXT_OF", TEXT_OF)
-
-
-def pixels_of(read):
-    flat = np.frombuffer(base64.b64decode(read["pixels"]), np.uint8)
-    return flat.reshape(read["height"], read["width"], 4)[:, :, :3].astype(int)
-
-
 
 # `asked` is what was found, as the page asked for it; their answers come once letGo() was called.
 HELD_OBJECTS = """{
@@ -93,33 +52,7 @@ HELD_OBJECTS = """{
 }"""
 
 
-class APage(unittest.TestCase):
-    def setUp(self):
-        self.browser = Browser()
-        self.addCleanup(self.browser.close)
-
-    def served(self, *words):
-        served = Served(PROGRAM, *words)
-        self.addCleanup(served.end)
-        return served
-
-    def pixels(self):
-        return pixels_of(self.browser.evaluate(READ_PIXELS))[::-1]
-
-    def stops_of(self, kind):
-        """The colours that the legend shows, from one to the next."""
-        text = self.browser.evaluate(f"getComputedStyle(document.querySelector('[data-kind={kind}] i')).backgroundImage")
-        return np.array([[int(part) for part in found] for found in re.findall(r"rgb\((\d+), (\d+), (\d+)\)", text)], float)
-
-    def shows(self, pixels, stops):
-        """True where a pixel has one of these colours, or one between them; `stops`: or the kind that has them."""
-        stops = self.stops_of(stops) if isinstance(stops, str) else stops
-        found = np.zeros(pixels.shape[:-1], bool)
-        for begin, way in zip(stops, np.diff(stops, axis=0)):
-            along = np.clip((pixels - begin) @ way / max(way @ way, 1), 0, 1)
-            found |= (np.abs(pixels - begin - along[..., None] * way) <= 2).all(axis=-1)
-        return found
-
+class APage(DrawnPage):
     def places_on_screen(self, xy):
         """From above: where places on the ground are, by the distances that the page marks."""
         marks = self.browser.evaluate(
@@ -476,7 +409,4 @@ class APage(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if find_chromium() is None or np is None:
-        print("skipped: needs chromium and numpy (./tools/setup --all)")
-        sys.exit(0)
-    unittest.main(argv=sys.argv[:1])
+    main()

@@ -7,53 +7,34 @@
 #include <gtest/gtest.h>
 
 #include <deque>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "eight_frames.hpp"
 #include "tests/support/no_threads.hpp"
 #include "tests/support/rewritten_capture.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tools/cli/view/played_capture.hpp"
 #include "tools/cli/view/played_clouds.hpp"
-#include "tools/lab/drive/drive_writer.hpp"
-#include "tools/lab/packets/table_encoder_traits.hpp"
-#include "tools/lab/simulator/drive.hpp"
 
 namespace terracut::cli {
 namespace {
 
 using testing::ElementsAre;
-using Traits = packets::VelodyneEncoderTraits<velodyne::Vlp16>;
-
-constexpr double kFrame_s = 0.1;
 
 /// A capture of eight frames, played by a script: each frame shown lets the next command be given.
-class CapturePlayerTest : public test::InScratchFolder {
+class CapturePlayerTest : public EightFrames {
  protected:
   void SetUp() override {
-    options_.capture.file = folder_ / "drive.pcap";
-    options_.mount.height_m = 1.73;
-    simulator::SimulationConfig<Traits> config;
-    config.scene = "flat";
-    config.duration_s = 8 * kFrame_s;
-    auto writer = drive::DriveWriter<Traits>::create(options_.capture.file, config.calibration);
-    ASSERT_TRUE(writer) << writer.error().message;
-    const auto done = simulator::simulate_drive(
-        config, [&](const simulator::SimulatedColumn<Traits>& column) -> Status {
-          return writer->add_column(column.wire.stamp_ns, column.wire.unwrapped_azimuth_cdeg,
-                                    column.wire.by_laser);
-        });
-    ASSERT_TRUE(done) << done.error().message;
-    ASSERT_TRUE(writer->finish());
+    EightFrames::SetUp();
     open();
   }
   void open() {
     auto capture = LabelledCapture::open(options_, LabelledCapture::Makes::kPoints);
     ASSERT_TRUE(capture) << capture.error().message;
     capture_ = *std::move(capture);
-    played_ = std::make_unique<PlayedCapture>(*capture_, options_);
+    played_ =
+        std::make_unique<PlayedCapture>(*capture_, options_, FrameTruth::open({}).value(), nullptr);
   }
   /// From the middle on its stamps are a minute older.
   void set_the_clock_back() {
@@ -94,7 +75,6 @@ class CapturePlayerTest : public test::InScratchFolder {
     });
     return shown_s;
   }
-  Options options_;
   std::unique_ptr<LabelledCapture> capture_;
   std::unique_ptr<PlayedCapture> played_;
 };
@@ -201,19 +181,11 @@ TEST_F(CapturePlayerTest, BeginsAnewAtItsEndOrStandsThere) {
 TEST_F(CapturePlayerTest, PlaysCloudsAndNumbersThemAsTheirFiles) {
   const auto clouds = folder_ / "clouds";
   std::filesystem::create_directory(clouds);
-  for (publish::LabelledFrame frame; played_->next();) {
-    played_->take(frame);
-    std::string text = fmt::format(
-        "VERSION .7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH {0}\n"
-        "HEIGHT 1\nPOINTS {0}\nDATA ascii\n",
-        frame.points.size());
-    for (const points::LabelledPoint& point : frame.points) {
-      text += fmt::format("{} {} {} {}\n", point.x_m, point.y_m,
-                          point.z_m - *options_.mount.height_m, point.row);
-    }
-    std::ofstream(clouds / fmt::format("{:06}.pcd", 10 + frame.record.info.number)) << text;
+  for (PlayedFrame frame; played_->next();) {
+    ASSERT_TRUE(played_->take(frame));
+    write_cloud(clouds / fmt::format("{:06}.pcd", 10 + frame.record.info.number), frame);
   }
-  auto played = PlayedClouds::open(clouds, options_);
+  auto played = PlayedClouds::open(clouds, options_, FrameTruth::open({}).value(), nullptr);
   ASSERT_TRUE(played) << played.error().message;
   CapturePlayer player(**played);
   EXPECT_NEAR(player.state().duration_s, 8 * kFrame_s, 1e-9);

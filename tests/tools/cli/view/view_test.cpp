@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "page_fixture.hpp"
 #include "pipeline/status/loss_causes.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tests/support/http_client.hpp"
@@ -25,15 +26,6 @@ using testing::HasSubstr;
 
 constexpr std::chrono::seconds kPatience{60};
 constexpr std::size_t kMany = 400'000;  ///< 8 MB: more than any socket keeps.
-
-publish::LabelledFrame frame_of(std::uint32_t number, std::size_t points = 1000) {
-  publish::LabelledFrame frame;
-  frame.record.info.number = number;
-  frame.record.info.last_packet_ns = 1'000'000'000;
-  frame.record.labels_ns = 1'004'000'000;
-  frame.points.assign(points, {.x_m = 1, .label = frame::Label::kGround});
-  return frame;
-}
 
 publish::LabelledSector sector_of(std::uint32_t frame, std::uint32_t first,
                                   std::size_t points = 100) {
@@ -51,41 +43,6 @@ class NotedCapture : public ViewedCapture {
     return {.frame = 20, .position_s = 2, .duration_s = 9};
   }
   std::vector<PlayerCommand> told;
-};
-
-class Page : public testing::Test {
- protected:
-  explicit Page(ViewedCapture* capture = nullptr, bool gives_sectors = false,
-                scene::Wanted found = {}) {
-    auto opened = ViewSink::open("127.0.0.1:0",
-                                 {.sensor = "a made sensor",
-                                  .rows = 64,
-                                  .mount = {},
-                                  .deadline_ns = 50'000'000,
-                                  .gives_sectors = gives_sectors,
-                                  .found = found},
-                                 capture);
-    if (!opened) throw std::runtime_error(opened.error().message);
-    sink_ = *std::move(opened);
-    const std::string& url = sink_->url();
-    port_ = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
-  }
-
-  [[nodiscard]] test::HttpResponse get(const char* path, std::string_view headers = {}) const {
-    return test::get(port_, path, headers);
-  }
-  [[nodiscard]] json figures() const { return json::parse(get("/figures").body); }
-  /// Its next bytes are those of the first frame.
-  [[nodiscard]] std::unique_ptr<test::HttpClient> browser(
-      int receive_buffer_bytes = 0, const std::string& path = "/frames") const {
-    auto client = std::make_unique<test::HttpClient>(port_, receive_buffer_bytes);
-    client->send("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
-    EXPECT_THAT(client->read_until("\r\n\r\n"), HasSubstr("HTTP/1.1 200"));
-    return client;
-  }
-
-  std::unique_ptr<ViewSink> sink_;
-  std::uint16_t port_ = 0;
 };
 
 class PageBySectors : public Page {
@@ -112,20 +69,6 @@ class PageOfACapture : public Page {
   }
   inline static NotedCapture capture_;
 };
-
-stream::FrameWireHeader next_header(test::HttpClient& browser) {
-  stream::FrameWireHeader header;
-  const std::string bytes = browser.read(sizeof(header));
-  if (bytes.size() == sizeof(header)) std::memcpy(&header, bytes.data(), sizeof(header));
-  return header;
-}
-/// The header of a frame that was read whole.
-stream::FrameWireHeader next_frame(test::HttpClient& browser) {
-  const stream::FrameWireHeader header = next_header(browser);
-  const std::size_t wanted = header.points * sizeof(stream::WirePoint);
-  EXPECT_EQ(browser.read(wanted).size(), wanted);
-  return header;
-}
 
 TEST_F(Page, IsCompleteInItself) {
   const auto page = get("/");

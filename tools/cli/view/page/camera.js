@@ -31,8 +31,9 @@ export class Camera {
     return Object.keys(start).some((name) => String(this[name]) !== String(start[name]));
   }
 
-  // A narrow picture shows as much to the sides as a square one.
-  resize(width, height) {
+  // The part of the page it draws on. A narrow picture shows as much to the sides as a square one.
+  drawOn({ x, y, width, height }) {
+    [this.left, this.top] = [x, y];
     this.width = Math.max(width, 1);
     this.height = Math.max(height, 1);
     this.spread = Math.max(1, this.height / this.width);
@@ -80,15 +81,15 @@ export class Camera {
     return columns(scale(x, 1 / (half * aspect)), scale(y, 1 / half), depth, w);
   }
 
-  // A function of a place in space: where it is on the canvas, in its pixels, and how far from the eye, in metres; null: behind it.
+  // A function of a place in space: where it is on the page, in pixels, and how far from the eye, in metres; null: behind it.
   projection() {
     const m = this.matrix();
-    const { width, height, isFlat } = this;
-    return ([x, y, z]) => {
-      const at = (row) => m[row] * x + m[4 + row] * y + m[8 + row] * z + m[12 + row];
+    const { left, top, width, height, isFlat } = this;
+    return (place) => {
+      const at = (row) => m[row] * place[0] + m[4 + row] * place[1] + m[8 + row] * place[2] + m[12 + row];
       const w = at(3);
       const depth = isFlat ? ((at(2) + 1) / 2) * FAR : w;
-      return w <= 0 ? null : [((at(0) / w + 1) / 2) * width, ((1 - at(1) / w) / 2) * height, depth];
+      return w <= 0 ? null : [left + ((at(0) / w + 1) / 2) * width, top + ((1 - at(1) / w) / 2) * height, depth];
     };
   }
 

@@ -3,6 +3,8 @@
 
 // One return that was clicked, whose values are shown, or two, and what lies between them.
 
+import { TRUTHS, labelBy } from "./compared.js";
+
 const at = (id) => document.getElementById(id);
 const REACH_PX = { mouse: 9, finger: 22 };
 const COVERED_PX = 2; // by a point, to each side
@@ -19,11 +21,11 @@ export class Chosen {
   }
 
   // Takes the return that is seen at a place, which is the one nearest to the eye, or else one near the place, or forgets all.
-  // `seen(place, label, row)`: {pixels from there, depth}
+  // `seen(place, label, row, compared)`: {pixels from there, depth}
   take(points, isFinger, seen) {
     const reach = isFinger ? REACH_PX.finger : REACH_PX.mouse;
-    const found = points.best((place, label, row) => {
-      const { pixels, depth } = seen(place, label, row);
+    const found = points.best((place, label, row, compared) => {
+      const { pixels, depth } = seen(place, label, row, compared);
       return pixels < reach ? Math.max(pixels - COVERED_PX, 0) + Math.log(Math.max(depth, 0.1)) : Infinity;
     });
     if (!found) return this.forget();
@@ -68,6 +70,9 @@ export class Chosen {
       ["ring", chosen.row],
       ["intensity", chosen.intensity],
     ];
+    const beside = labelBy(1, chosen.label, chosen.compared);
+    if (TRUTHS[chosen.compared & 3]) rows.splice(1, 0, ["truth", TRUTHS[chosen.compared & 3]]);
+    if (beside) rows.splice(1, 0, ["beside", LABELS[beside]]);
     const object = this.objectOf(chosen);
     if (object > 0) rows.splice(1, 0, ["object", object]);
     if (Number.isFinite(chosen.aboveGround)) rows.splice(-2, 0, ["above ground", metres(chosen.aboveGround)]);
@@ -80,10 +85,15 @@ export class Chosen {
     return [["distance", metres(Math.hypot(dx, dy, dz))], ["on the level", metres(Math.hypot(dx, dy))], ["up", metres(dz)]];
   }
 
-  // Marks are above the picture. `project(place)`: where on the page, null: nowhere
-  draw(project) {
+  // Marks are above the picture, in each of its panes. `projections`: of each, where a place is on the page, null: nowhere
+  draw(projections) {
+    const marks = at("marks");
+    while (marks.childElementCount < projections.length) marks.append(marks.firstElementChild.cloneNode(true));
+    [...marks.children].forEach((group, i) => this.drawMarks(group, projections[i] ?? (() => null)));
+  }
+  drawMarks(group, project) {
     const places = this.returns.map(({ place }) => project(place));
-    const [line, ...circles] = at("marks").children;
+    const [line, ...circles] = group.children;
     circles.forEach((circle, i) => {
       circle.style.display = places[i] ? "" : "none";
       if (places[i]) [circle.cx, circle.cy].forEach((length, axis) => (length.baseVal.value = places[i][axis]));

@@ -7,6 +7,7 @@ const MAGIC = 0x544c4354; // "TCLT", little-endian
 const HEADER_START = 8;   // up to and with header_bytes
 const MOST_POINTS = 4194304;
 const SECTOR = 16; // in flags: a sector
+const COMPARED = 0x80000000; // in flags: a byte for each point follows the points
 
 export const LEVELS = ["full", "cut stopped", "coarse", "skipped"];
 
@@ -21,6 +22,7 @@ function parseHeader(bytes) {
     pointBytes: view.getUint16(40, true),
     level: view.getUint8(43),
     isSector: (view.getUint32(44, true) & SECTOR) !== 0,
+    isCompared: (view.getUint32(44, true) & COMPARED) !== 0,
     missed: view.getUint32(48, true),
     firstReturn: view.getUint32(52, true),
   };
@@ -51,7 +53,8 @@ class Pieces {
   }
 }
 
-// Yields {header, points} of each frame or sector; `points` are the bytes as they lie, good until the one after the next.
+// Yields {header, points, compared} of each frame or sector: the bytes of its points as they lie, and a byte for each point
+// where it is compared (compared.js), else none; good until the one after the next.
 export async function* readFrames(url) {
   // No page elsewhere can send this header, so none can hold a place among those that look.
   const response = await fetch(url, { cache: "no-store", headers: { "X-Terracut-Page": "1" } });
@@ -69,10 +72,11 @@ export async function* readFrames(url) {
     if (!(await pieces.fill(header.subarray(HEADER_START)))) return;
     const frame = parseHeader(header);
     if (frame.points > MOST_POINTS || frame.pointBytes < 16) throw new Error("a frame out of range");
-    const bytes = frame.points * frame.pointBytes;
+    const pointsEnd = frame.points * frame.pointBytes;
+    const bytes = pointsEnd + (frame.isCompared ? frame.points : 0);
     if (rooms[turn].length < bytes) rooms[turn] = new Uint8Array(bytes);
-    const points = rooms[turn].subarray(0, bytes);
-    if (!(await pieces.fill(points))) return;
-    yield { header: frame, points };
+    const read = rooms[turn].subarray(0, bytes);
+    if (!(await pieces.fill(read))) return;
+    yield { header: frame, points: read.subarray(0, pointsEnd), compared: read.subarray(pointsEnd) };
   }
 }

@@ -10,6 +10,8 @@ export class Points {
   constructor(gl) {
     this.gl = gl;
     this.buffer = gl.createBuffer();
+    this.compared = new Uint8Array(0); // a byte for each return (compared.js), or none
+    this.comparedBuffer = gl.createBuffer();
     this.layout = gl.createVertexArray();
     this.pieces = []; // of the buffer: {first, count, frame, number of the first return}, and of sectors when they began
     this.next = null; // where the next sector goes; null: the buffer holds a whole frame
@@ -21,11 +23,24 @@ export class Points {
   }
 
   // A whole frame. `bytes` stay as they are until the next one.
-  setFrame({ header, points }) {
+  setFrame({ header, points, compared }) {
     this.pieces = [{ first: 0, count: header.points, frame: header.number, number: 0 }];
     this.next = null;
     this.bytes = points;
     this.fill(points, header.pointBytes);
+    this.setCompared(compared);
+  }
+
+  setCompared(compared) {
+    const { gl } = this;
+    this.compared = compared;
+    gl.bindVertexArray(this.layout);
+    gl.vertexAttribI4ui(5, 0, 0, 0, 0); // for all returns where there are no bytes
+    if (compared.length === 0) return gl.disableVertexAttribArray(5);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.comparedBuffer);
+    gl.bufferData(gl.ARRAY_BUFFER, compared, gl.STREAM_DRAW);
+    gl.enableVertexAttribArray(5);
+    gl.vertexAttribIPointer(5, 1, gl.UNSIGNED_BYTE, 1, 0);
   }
 
   // Adds a part of a turn. `began` and `turn` are times of one unit: what began a turn or more before is forgotten.
@@ -35,6 +50,7 @@ export class Points {
     if (this.next === null || this.pointBytes !== header.pointBytes) {
       this.bytes = new Uint8Array(ROOM * header.pointBytes);
       this.fill(this.bytes.length, header.pointBytes);
+      this.setCompared(new Uint8Array(0));
       this.pieces = [];
       this.next = 0;
     }
@@ -79,30 +95,31 @@ export class Points {
     return this.pieces.reduce((sum, piece) => sum + piece.count, 0);
   }
 
-  // Calls `visit(x, y, z, intensity, label, row, above ground (undefined: not told), place in the buffer, piece)`.
+  // Calls `visit(x, y, z, intensity, label, row, above ground (undefined: not told), compared (compared.js), place in the
+  // buffer, piece)`.
   each(visit) {
     if (this.pieces.length === 0) return;
-    const { bytes, pointBytes, hasHeights } = this;
+    const { bytes, compared, pointBytes, hasHeights } = this;
     const floats = new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length >> 2);
     const shorts = new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.length >> 1);
     for (const piece of this.pieces) {
       for (let i = piece.first; i < piece.first + piece.count; ++i) {
         const byte = i * pointBytes;
         const f = byte >> 2;
-        visit(floats[f], floats[f + 1], floats[f + 2], bytes[byte + 12], bytes[byte + 13], shorts[(byte >> 1) + 7], hasHeights ? floats[f + HEIGHT_AT / 4] : undefined, i, piece);
+        visit(floats[f], floats[f + 1], floats[f + 2], bytes[byte + 12], bytes[byte + 13], shorts[(byte >> 1) + 7], hasHeights ? floats[f + HEIGHT_AT / 4] : undefined, compared[i] ?? 0, i, piece);
       }
     }
   }
 
-  // The return with the least `score(place, label, row)`, or null if none is finite:
-  // {frame, number, place, intensity, label, row, aboveGround (undefined: not told)}
+  // The return with the least `score(place, label, row, compared)`, or null if none is finite:
+  // {frame, number, place, intensity, label, row, aboveGround (undefined: not told), compared}
   best(score) {
     let [least, best] = [Infinity, null];
-    this.each((x, y, z, intensity, label, row, aboveGround, i, piece) => {
-      const found = score([x, y, z], label, row);
+    this.each((x, y, z, intensity, label, row, aboveGround, compared, i, piece) => {
+      const found = score([x, y, z], label, row, compared);
       if (found >= least) return;
       least = found;
-      best = { frame: piece.frame, number: piece.number + i - piece.first, place: [x, y, z], intensity, label, row, aboveGround };
+      best = { frame: piece.frame, number: piece.number + i - piece.first, place: [x, y, z], intensity, label, row, aboveGround, compared };
     });
     return best;
   }

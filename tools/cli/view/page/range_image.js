@@ -4,7 +4,8 @@
 // The range image: a row for each laser, ahead in the middle, the left on the left; the nearest return of a cell is seen.
 // It is painted here, not by the graphics unit, which in software takes ten times as long for points.
 
-import { OBSTACLE_STOPS_M, RANGES, ramp } from "./colours.js";
+import { OBSTACLE_STOPS_M, RANGES, hasRamp, ramp } from "./colours.js";
+import { markOf } from "./compared.js";
 
 const MOST_COLUMNS = 1024;
 const SHADES = 256;
@@ -24,7 +25,7 @@ const shadeOf = (value, [from, to]) => Math.min(Math.max((value - from) / (to - 
 
 // Returns a function that returns a return's colour.
 function painter(look, palette) {
-  if (look.colourBy !== "label") {
+  if (hasRamp(look.colourBy)) {
     const [table, range] = [shades(ramp(look.colourBy, palette)), RANGES[look.colourBy]];
     const value = { height: (intensity, row, z) => z, intensity: (intensity) => intensity, ring: (intensity, row) => row }[look.colourBy];
     return (label, intensity, row, z) => table[shadeOf(value(intensity, row, z), range) | 0];
@@ -32,9 +33,14 @@ function painter(look, palette) {
   const top = OBSTACLE_STOPS_M.at(-1);
   const [ground, other, obstacle] = [shades(palette.ground), shades(palette.other), shades(palette.obstacle, OBSTACLE_STOPS_M.map((stop) => stop / top))];
   const none = opaque(palette.none);
-  return (label, intensity, row, z, aboveGround) => {
-    if (label === 99) return obstacle[shadeOf(aboveGround, [0, top]) | 0];
-    if (label !== 40 && label !== 49) return none;
+  const [isOfDifferences, isOfMistakes] = ["differences", "mistakes"].map((name) => look.colourBy === name);
+  const [sameGround, sameObstacle, rightObstacle] = ["sameGround", "sameObstacle", "rightObstacle"].map((name) => opaque(palette[name]));
+  return (label, intensity, row, z, aboveGround, compared) => {
+    const mark = markOf(look.colourBy, 0, label, compared);
+    if (mark) return opaque(palette[mark]);
+    if (label !== 40 && label !== 49 && label !== 99) return none;
+    if (isOfDifferences) return label === 99 ? sameObstacle : sameGround;
+    if (label === 99) return isOfMistakes ? rightObstacle : obstacle[shadeOf(aboveGround, [0, top]) | 0];
     return (label === 40 ? ground : other)[(Math.sqrt(intensity / 255) * (SHADES - 1) + 0.5) | 0];
   };
 }
@@ -49,7 +55,7 @@ export class RangeImage {
     return RANGES.ring[1] + 1;
   }
 
-  // `isShown(label)`
+  // `isShown(label, compared)`; of two sets of parameters it shows the labels of the first
   draw(points, look, palette, isShown) {
     const { canvas, rows } = this;
     const columns = Math.max(Math.min(MOST_COLUMNS, Math.floor(points.count / rows)), 1);
@@ -62,14 +68,14 @@ export class RangeImage {
     this.pixels.fill(0);
     this.nearest.fill(Infinity);
     const colour = painter(look, palette);
-    points.each((x, y, z, intensity, label, row, aboveGround) => {
-      if (!isShown(label) || row >= rows) return;
+    points.each((x, y, z, intensity, label, row, aboveGround, compared) => {
+      if (!isShown(label, compared) || row >= rows) return;
       const column = ((0.5 - Math.atan2(y, x) / (2 * Math.PI)) * columns) | 0;
       const cell = (rows - 1 - row) * columns + Math.min(column, columns - 1);
       const square = x * x + y * y;
       if (square >= this.nearest[cell]) return;
       this.nearest[cell] = square;
-      this.pixels[cell] = colour(label, intensity, row, z, aboveGround ?? z);
+      this.pixels[cell] = colour(label, intensity, row, z, aboveGround ?? z, compared);
     });
     this.paint.putImageData(this.image, 0, 0);
   }

@@ -3,14 +3,15 @@
 
 // Draws points, boxes of objects, the free way, circles ten metres apart, the vehicle, and how far the sensor sees around it.
 
-import { RANGES, colours, ramp } from "./colours.js";
+import { COLOURS, RANGES, colours, hasRamp, ramp } from "./colours.js";
 import { Points } from "./points.js";
 import { programs } from "./shaders.js";
 import { areaTriangles, boxSegments, floorSegments, outlineSegments, sightSegments } from "./shapes.js";
 
-const COLOURS = ["label", "height", "intensity", "ring"];
 const BITS = { road: 1, ground: 2, obstacle: 4 };
+const [AHEAD, AHEAD_FLAT] = [0.001, 0.05]; // of depth: a metre at 30 m; seen from above 15 m
 const STATES = ["clear", "reduced", "blocked"];
+const MARKS = ["missed", "falseObstacle", "rightObstacle", "toObstacle", "toGround", "toOther", "sameGround", "sameObstacle"];
 
 const unit = (colours) => new Float32Array(colours.flat().map((value) => value / 255));
 
@@ -58,21 +59,23 @@ export class Scene {
     gl.bufferData(gl.ARRAY_BUFFER, places, gl.STREAM_DRAW);
   }
 
-  // `look`: {colourBy, hasOtherGround, shown: Set, pointSize, isLight}
-  draw(camera, look) {
+  // `look`: {colourBy, hasOtherGround, shown: Set, pointSize, isLight}; `panes`: as panesOf()
+  draw(camera, look, panes) {
     const { gl, canvas } = this;
     const palette = colours(look.isLight);
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-    gl.viewport(0, 0, width, height);
     gl.clearColor(...unit(palette.paper), 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    camera.resize(canvas.clientWidth, canvas.clientHeight);
-    const view = camera.matrix();
-    this.drawShapes(view, look, palette);
-    if (this.points.pieces.length === 0) return;
-    this.drawPoints(camera, view, look, palette, 1.25 * ratio * look.pointSize);
+    for (const pane of panes) {
+      gl.viewport(pane.x * ratio, height - (pane.y + pane.height) * ratio, pane.width * ratio, pane.height * ratio);
+      camera.drawOn(pane);
+      const view = camera.matrix();
+      this.drawShapes(view, look, palette);
+      if (this.points.pieces.length === 0) continue;
+      this.drawPoints(camera, view, { ...look, which: pane.which }, palette, 1.25 * ratio * look.pointSize);
+    }
   }
 
   drawShapes(view, look, palette) {
@@ -105,9 +108,11 @@ export class Scene {
     gl.uniformMatrix4fv(uniform("view"), false, view);
     gl.uniform3f(uniform("size"), camera.isFlat ? least : 40 * least, least, 3 * least);
     for (const kind of ["ground", "other", "obstacle"]) gl.uniform3fv(uniform(kind), unit(palette[kind]));
-    gl.uniform3fv(uniform("none"), unit(palette.none));
+    for (const kind of ["none", ...MARKS]) gl.uniform3fv(uniform(kind), unit(palette[kind]));
+    gl.uniform1ui(uniform("which"), look.which);
+    gl.uniform1f(uniform("ahead"), camera.isFlat ? AHEAD_FLAT : AHEAD);
     gl.uniform1i(uniform("colourBy"), COLOURS.indexOf(look.colourBy));
-    if (look.colourBy !== "label") {
+    if (hasRamp(look.colourBy)) {
       gl.uniform3fv(uniform("steps"), unit(ramp(look.colourBy, palette)));
       gl.uniform2fv(uniform("range"), RANGES[look.colourBy]);
     }

@@ -5,21 +5,27 @@
 
 import { OBSTACLE_STOPS_M, RAMP_STEPS } from "./colours.js";
 
+const MARKED_SIZE = 1.8; // of points that stand out, relative to others
+
 const POINTS = `#version 300 es
 layout(location = 0) in vec3 place;
 layout(location = 1) in float intensity;
 layout(location = 2) in uint label;
 layout(location = 3) in uint row;
 layout(location = 4) in float aboveGround;
+layout(location = 5) in uint compared; // see compared.js
+uniform uint which;          // parameters' labels: 0 the run's own, 1 those beside them
 uniform vec3 ground[2], other[2], none; // in the light that comes back least and most
 uniform vec3 obstacle[${OBSTACLE_STOPS_M.length}];
 uniform vec3 steps[${RAMP_STEPS}];
 uniform vec2 range;
-uniform int colourBy;        // 0 label, 1 height, 2 intensity, 3 ring
+uniform int colourBy;        // by place in COLOURS
+uniform vec3 missed, falseObstacle, rightObstacle, toObstacle, toGround, toOther, sameGround, sameObstacle;
 uniform bool hasOtherGround; // 40 is road then
 uniform bool hasHeights;
 uniform uint shown;          // bits by kind
 uniform mat4 view;
+uniform float ahead;         // depth by which points that stand out cover others
 uniform vec3 size;           // pixels at a metre's distance, the least, the most
 out vec3 colour;
 vec3 byHeight(float height) {
@@ -30,18 +36,43 @@ vec3 byHeight(float height) {
   }
   return found;
 }
+bool isGround(uint of) {
+  return of == 40u || of == 49u;
+}
+// True if a return stands out, in its colour: what compared.js' markOf() says.
+bool isMarked(uint own, uint beside, uint seen) {
+  uint truth = compared & 3u;
+  if (colourBy == 4) {
+    colour = isGround(seen) ? missed : falseObstacle;
+    return isGround(seen) ? truth >= 2u : seen == 99u && truth == 1u;
+  }
+  colour = beside == 99u ? toObstacle : own == 99u ? toGround : toOther;
+  return colourBy == 5 && beside != 0u && beside != own;
+}
 void main() {
-  uint kind = label == 40u ? (hasOtherGround ? 0u : 1u) : label == 49u ? 1u : label == 99u ? 2u : 3u;
-  if ((shown >> kind & 1u) == 0u) {
+  uint beside = uint[](0u, 40u, 99u, 49u)[compared >> 2 & 3u];
+  uint seen = which == 0u ? label : beside;
+  uint kind = seen == 40u ? (hasOtherGround ? 0u : 1u) : seen == 49u ? 1u : seen == 99u ? 2u : 3u;
+  bool marked = isMarked(label, beside, seen);
+  if (!marked && (shown >> kind & 1u) == 0u) {
     gl_Position = vec4(2, 2, 2, 1);
     return;
   }
   gl_Position = view * vec4(place, 1);
   gl_PointSize = clamp(size.x / gl_Position.w, size.y, size.z);
-  if (colourBy == 0) {
+  if (marked) {
+    gl_PointSize *= ${MARKED_SIZE};
+    gl_Position.z -= ahead * gl_Position.w;
+    return;
+  }
+  if (colourBy == 5) {
+    colour = kind == 3u ? none : kind == 2u ? sameObstacle : sameGround;
+    return;
+  }
+  if (colourBy == 0 || colourBy == 4) {
     float light = sqrt(intensity / 255.0);
-    colour = kind == 3u ? none : kind == 2u ? byHeight(hasHeights ? aboveGround : place.z) :
-             label == 49u ? mix(other[0], other[1], light) : mix(ground[0], ground[1], light);
+    colour = kind == 3u ? none : kind == 2u ? (colourBy == 4 ? rightObstacle : byHeight(hasHeights ? aboveGround : place.z)) :
+             seen == 49u ? mix(other[0], other[1], light) : mix(ground[0], ground[1], light);
     return;
   }
   float value = colourBy == 1 ? place.z : colourBy == 2 ? intensity : float(row);

@@ -3,12 +3,14 @@
 
 import { Camera } from "./camera.js";
 import { Chosen } from "./chosen.js";
-import { RANGES, colours, css, gradient, ramp, rangeText, swatch } from "./colours.js";
+import { COLOURS, RANGES, colours, css, gradient, hasRamp, ramp, rangeText, swatch } from "./colours.js";
+import { Compared, labelBy, markOf } from "./compared.js";
 import { showFigures } from "./figures.js";
 import { Found } from "./found.js";
 import { readFrames } from "./frames.js";
 import { listenToKeys, listenToPointers } from "./hands.js";
 import { readLink, writeLink } from "./link.js";
+import { isIn, panesOf, showCaptions, showDistances } from "./panes.js";
 import { RangeImage } from "./range_image.js";
 import { Film, canFilm, savePicture } from "./recorder.js";
 import { Scene } from "./scene.js";
@@ -19,8 +21,6 @@ const at = (id) => document.getElementById(id);
 const canvas = at("scene");
 const camera = new Camera();
 const look = { colourBy: "label", hasOtherGround: false, shown: new Set(["road", "ground", "obstacle", "box", "way"]), pointSize: 1, isLight: false };
-const COLOURS = ["label", "height", "intensity", "ring"];
-const MARKED_M = [20, 40, 60, 80, 100];
 const POINT_SIZES = [0.4, 5];
 
 let scene;
@@ -39,10 +39,13 @@ function say(trouble) {
 }
 
 const transport = new Transport(say);
+const compared = new Compared();
+let panes = [];
 const found = new Found(
-  () => [...found.kinds].some((kind) => look.shown.has(kind)),
+  () => compared.isAny || [...found.kinds].some((kind) => look.shown.has(kind)),
   (things) => {
     scene.setFound(things);
+    compared.take(things);
     chosen.show();
     changed();
   },
@@ -56,33 +59,27 @@ const film = new Film(canvas, (text) => {
 
 // --- the picture ---
 
-function showDistances() {
-  const spots = at("distances");
-  if (spots.childElementCount === 0) {
-    for (const metres of MARKED_M) spots.append(Object.assign(document.createElement("span"), { textContent: `${metres} m` }));
-  }
-  const project = camera.projection();
-  MARKED_M.forEach((metres, i) => {
-    const place = project([metres * Math.cos(0.6), -metres * Math.sin(0.6), 0]);
-    const span = spots.children[i];
-    span.style.visibility = place ? "visible" : "hidden";
-    if (place) span.style.transform = `translate(${place[0] + 4}px, ${place[1] - 8}px)`;
-  });
-  const metres = [100, 50, 20, 10, 5, 2, 1].find((length) => length * camera.pixelsPerMetre <= 160) ?? 1;
-  at("scale").firstElementChild.style.width = `${metres * camera.pixelsPerMetre}px`;
-  at("scale").lastElementChild.textContent = `${metres} m`;
-}
-
 const rangeImage = new RangeImage(at("range"));
-const isShown = (label) => look.shown.has(label === 40 && look.hasOtherGround ? "road" : label === 99 ? "obstacle" : "ground") || ![40, 49, 99].includes(label);
+const isKindShown = (label) => look.shown.has(label === 40 && look.hasOtherGround ? "road" : label === 99 ? "obstacle" : "ground") || ![40, 49, 99].includes(label);
+const isShownBy = (which) => (label, bits) => isKindShown(labelBy(which, label, bits)) || markOf(look.colourBy, which, label, bits) !== undefined;
+
+function projectionOf(pane) {
+  camera.drawOn(pane);
+  return camera.projection();
+}
 
 function drawNow() {
   if (newest) scene.points.setFrame(newest);
   newest = null;
-  scene.draw(camera, look);
-  if (!at("range").hidden) rangeImage.draw(scene.points, look, colours(look.isLight), isShown);
-  showDistances();
-  chosen.draw(camera.projection());
+  panes = panesOf(canvas, compared.shown(look.colourBy));
+  scene.draw(camera, look, panes);
+  if (!at("range").hidden) rangeImage.draw(scene.points, look, colours(look.isLight), isShownBy(0));
+  showDistances(panes, projectionOf, camera);
+  if (compared.isAny) showCaptions(panes, panes.map(({ which }) => compared.caption(which, look.colourBy)), colours(look.isLight));
+  chosen.draw(panes.map((pane) => {
+    const project = projectionOf(pane);
+    return (place) => [project(place)].find((found) => found && isIn(pane, found));
+  }));
 }
 
 function draw(now) {
@@ -95,10 +92,10 @@ function draw(now) {
 }
 
 // Which kinds of ground there are: that is for the method's settings to say, and shows in the labels.
-function noteLabels({ header, points }) {
+function noteLabels({ header, points, compared: bits }) {
   if (look.hasOtherGround) return;
-  for (let i = 13; i < points.length; i += header.pointBytes * 7) {
-    if (points[i] !== 49) continue;
+  for (let i = 0; i < header.points; i += 7) {
+    if (points[i * header.pointBytes + 13] !== 49 && labelBy(1, 0, bits[i]) !== 49) continue;
     look.hasOtherGround = true;
     showLook();
     return;
@@ -133,7 +130,7 @@ function take(message) {
 async function follow() {
   for (;;) {
     try {
-      for await (const message of readFrames("sectors")) {
+      for await (const message of readFrames("shown")) {
         take(message);
         say("");
         // The next frame only when this one was drawn: what comes meanwhile is left out by the sender.
@@ -152,18 +149,19 @@ async function follow() {
 function showLook() {
   look.isLight = theme.isLight;
   const palette = colours(look.isLight);
-  for (const button of at("colours").children) button.ariaPressed = button.dataset.colour === look.colourBy;
+  for (const button of document.querySelectorAll("[data-colour]")) button.ariaPressed = button.dataset.colour === look.colourBy;
+  showCompared(palette);
   for (const button of at("views").querySelectorAll("[data-view]")) button.ariaPressed = button.dataset.view === camera.view;
   for (const button of at("kinds").children) {
     const kind = button.dataset.kind;
     const isFound = kind === "box" || kind === "way";
     button.hidden = (kind === "road" && !look.hasOtherGround) || (isFound && !found.kinds.has(kind));
     button.ariaPressed = look.shown.has(kind);
-    const isTold = look.colourBy === "label" || isFound;
-    button.firstElementChild.style.background = isTold ? gradient(swatch(kind, palette, look.hasOtherGround)) : "var(--quiet)";
+    const isTold = !hasRamp(look.colourBy) || isFound;
+    button.firstElementChild.style.background = isTold ? gradient(swatch(kind, palette, look)) : "var(--quiet)";
   }
   const bar = at("ramp");
-  bar.hidden = look.colourBy === "label";
+  bar.hidden = !hasRamp(look.colourBy);
   if (!bar.hidden) {
     bar.firstElementChild.style.background = gradient(ramp(look.colourBy, palette));
     rangeText(look.colourBy).forEach((text, i) => (bar.children[i + 1].textContent = text));
@@ -174,6 +172,13 @@ function showLook() {
   changed();
 }
 
+function showCompared(palette) {
+  document.body.classList.toggle("compared", compared.isAny);
+  at("compared").hidden = !compared.isAny;
+  for (const button of at("compared").children) button.hidden = !compared.modes.has(button.dataset.colour ?? "split");
+  at("split").ariaPressed = compared.shown(look.colourBy).length > 1;
+}
+
 function colourBy(name) {
   look.colourBy = name;
   showLook();
@@ -182,6 +187,10 @@ function toggle(kind) {
   if (!look.shown.delete(kind)) look.shown.add(kind);
   showLook();
   found.ask();
+}
+function split() {
+  compared.isSplit = look.colourBy === "differences" || !compared.isSplit;
+  colourBy(look.colourBy === "differences" ? "label" : look.colourBy);
 }
 function see(view) {
   camera.look(view);
@@ -208,7 +217,7 @@ function fold() {
 const fileName = () => `terracut_frame_${at("frame").dataset.number ?? 0}`;
 function takePicture() {
   drawNow();
-  savePicture(canvas, at("distances").children, fileName());
+  savePicture(canvas, document.querySelectorAll("#distances span, .pane b, .pane span"), fileName());
 }
 const filmOrEnd = () => canFilm && film.toggle(fileName());
 
@@ -216,9 +225,11 @@ const filmOrEnd = () => canFilm && film.toggle(fileName());
 function tapped(x, y, isFinger) {
   const box = at("range").getBoundingClientRect(); // empty where it is hidden
   const isInRangeImage = x >= box.left && x <= box.right && y >= box.top && y <= box.bottom && box.width > 0;
-  const project = isInRangeImage ? (place, row) => rangeImage.place(place, row, box) : camera.projection();
-  chosen.take(scene.points, isFinger, (place, label, row) => {
-    const seen = isShown(label) ? project(place, row) : null;
+  const pane = panes.find((one) => isIn(one, [x, y])) ?? panes[0];
+  const project = isInRangeImage ? (place, row) => rangeImage.place(place, row, box) : projectionOf(pane);
+  const isShown = isShownBy(isInRangeImage ? 0 : pane.which);
+  chosen.take(scene.points, isFinger, (place, label, row, bits) => {
+    const seen = isShown(label, bits) ? project(place, row) : null;
     return seen ? { pixels: Math.hypot(seen[0] - x, seen[1] - y), depth: seen[2] } : { pixels: Infinity, depth: 1 };
   });
 }
@@ -238,7 +249,9 @@ function goByLink() {
 function show(figures) {
   scene.setSight(figures.sight?.sectors ?? []);
   if (figures.sight) changed();
-  if (found.noteKinds(figures)) {
+  const isMoreCompared = compared.note(figures);
+  if (look.colourBy !== "label" && !hasRamp(look.colourBy) && !compared.modes.has(look.colourBy)) colourBy("label");
+  if (found.noteKinds(figures) || isMoreCompared) {
     showLook();
     found.ask();
   }
@@ -270,6 +283,9 @@ const KEYS = {
   2: () => colourBy("height"),
   3: () => colourBy("intensity"),
   4: () => colourBy("ring"),
+  5: () => compared.modes.has("mistakes") && colourBy("mistakes"),
+  6: () => compared.modes.has("differences") && colourBy("differences"),
+  s: () => compared.modes.has("split") && split(),
   r: () => toggle("road"),
   g: () => toggle("ground"),
   o: () => toggle("obstacle"),
@@ -303,7 +319,8 @@ function listen() {
   listenToPointers(canvas, camera, { changed: showLook, tapped, reset: () => see(camera.view) });
   addEventListener("resize", changed);
   addEventListener("hashchange", goByLink);
-  at("colours").onclick = ({ target }) => target.closest("button") && colourBy(target.closest("button").dataset.colour);
+  for (const button of document.querySelectorAll("[data-colour]")) button.onclick = () => colourBy(button.dataset.colour);
+  at("split").onclick = split;
   at("kinds").onclick = ({ target }) => target.closest("button") && toggle(target.closest("button").dataset.kind);
   at("views").onclick = ({ target }) => target.closest("[data-view]") && see(target.closest("[data-view]").dataset.view);
   at("help").onclick = () => {

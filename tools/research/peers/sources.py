@@ -108,7 +108,7 @@ PEERS = (
                include="LiDAR-Processing-V2/lidar_processing_lib/include "
                        "LiDAR-Processing-V2/lidar_processing_lib/include/lidar_processing_lib",
                flags="-lopencv_imgproc -lopencv_core", needs=OPENCV),
-    PeerSource("TRAVEL", "GPL-3", (TRAVEL,), "travel_adapter.cpp", include="TRAVEL/include",
+    PeerSource("TRAVEL", "GPL-3", (TRAVEL,), "travel_adapter.cpp", include="TRAVEL/include", flags="-include queue",
                note="its ground segmentation"),
 )  # fmt: skip
 # Programs of ours for --objects.

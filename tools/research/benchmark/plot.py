@@ -8,7 +8,7 @@ from html import escape
 from .page import TIMED, TUNED, hazards_found, segmenters
 
 FILE = "docs/images/peers.svg"
-WIDTH, TOP, ROW, NAMES, GAP = 780, 64, 44, 104, 36  # pixels
+WIDTH, TOP, ROW, NAMES, GAP = 800, 64, 44, 124, 36  # pixels
 STEPS = (1, 2, 5, 10, 20, 50, 100, 200, 500)
 STYLE = """
   text { font: 12px system-ui, -apple-system, "Segoe UI", Helvetica, Arial, sans-serif; fill: #4b5563 }
@@ -71,7 +71,7 @@ def plot(results):
 
     found = {program: 100 * share for program, share in hazards_found(results).items()}
     times = {program: cases[TIMED][key]["ms"][0] for program, key in programs.items() if key in cases[TIMED]}
-    panels = [("IoU_g of ground, %", share, of_drives(0)), ("Recall_o of obstacles, %", share, of_drives(1)),
+    panels = [("IoU_g, %", share, of_drives(0)), ("Recall_o, %", share, of_drives(1)),
               *([("hazards found, %", bar, found)] if found else []), (f"ms a frame, {TIMED}", bar, times)]  # fmt: skip
     bottom, width = TOP + ROW * len(programs), (WIDTH - NAMES - len(panels) * GAP) // len(panels)
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {bottom + 28}" role="img">',

@@ -19,8 +19,9 @@ namespace terracut::cli {
 namespace {
 
 /// At most kMostWaiting clouds, some hundred milliseconds, wait to be labelled. As many answers may
-/// wait to be written, plus those to the first clouds, which are labelled together.
-constexpr std::size_t kMostWaiting = 4, kMostAnswers = kMostWaiting + mount::kFramesToFind;
+/// wait to be written, plus those to the first clouds, which are labelled together; each may have a
+/// scene besides.
+constexpr std::size_t kMostWaiting = 4, kMostAnswers = 2 * (kMostWaiting + mount::kFramesToFind);
 /// If no cloud comes for this long, rows and mount are learnt from the clouds so far.
 constexpr std::chrono::seconds kPatience{1};
 

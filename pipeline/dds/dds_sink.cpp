@@ -9,7 +9,6 @@
 #include "mount_transform.hpp"
 #include "pipeline/ros_messages/header.hpp"
 #include "ros_time.hpp"
-#include "rt/measure/thread_cpu_clock.hpp"
 
 namespace terracut::dds {
 namespace {

@@ -15,4 +15,10 @@ namespace terracut::dds {
           static_cast<std::uint32_t>(time_ns % kSecond_ns)};
 }
 
+/// Returns nanoseconds since 1970.
+[[nodiscard]] constexpr std::int64_t ns_of(const builtin_interfaces_msg_dds__Time_& time) noexcept {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  return time.sec * kSecond_ns + time.nanosec;
+}
+
 }  // namespace terracut::dds

@@ -13,9 +13,9 @@ template <class Message>
 class OneReader {
  public:
   OneReader(const Participant& participant, const std::string& topic,
-            const dds_topic_descriptor_t& type)
+            const dds_topic_descriptor_t& type, const dds_qos_t* qos = nullptr)
       : topic_(dds_create_topic(participant.id(), &type, topic.c_str(), nullptr, nullptr)),
-        reader_(dds_create_reader(participant.id(), topic_.id(), nullptr, nullptr)) {}
+        reader_(dds_create_reader(participant.id(), topic_.id(), qos, nullptr)) {}
   OneReader(const OneReader&) = delete;
   OneReader& operator=(const OneReader&) = delete;
   ~OneReader() { (void)dds_return_loan(reader_.id(), &sample_, 1); }

@@ -117,6 +117,7 @@ TEST(PointCloud, PointsHaveTheirHeightBehindThemWhereTheFrameHasIt) {
 TEST(PointCloud, PlacesAreRoundedToAStepThatNoSensorTellsApart) {
   publish::LabelledFrame frame = small_frame();
   frame.heights_m = {1.23456F, 0, 0, 0};
+  frame.points[0].time_s = 0.0123456F;
   for (float x_m = -120; x_m < 120; x_m += 0.12345F) {
     frame.points[0].x_m = x_m;
     Bytes message;
@@ -124,6 +125,7 @@ TEST(PointCloud, PlacesAreRoundedToAStepThatNoSensorTellsApart) {
     const auto rounded_m = at<float>(message, message.size() - 1 - 28);
     EXPECT_EQ(rounded_m, std::nearbyint(x_m * 1024) / 1024);
     EXPECT_EQ(at<float>(message, message.size() - 1 - 4), 1264.0F / 1024);
+    EXPECT_EQ(at<float>(message, message.size() - 1 - 8), 1618.0F / 131072) << "the time";
   }
 }
 

@@ -11,6 +11,7 @@
 #include "calib/mount/mount_finder.hpp"
 #include "calib/mount/mount_pose.hpp"
 #include "pipeline/dds/cloud_buffer.hpp"
+#include "pipeline/dds/ros_time.hpp"
 #include "rt/measure/milliseconds.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/console.hpp"
@@ -24,11 +25,6 @@ namespace {
 constexpr std::size_t kMostWaiting = 4, kMostAnswers = 2 * (kMostWaiting + mount::kFramesToFind);
 /// If no cloud comes for this long, rows and mount are learnt from the clouds so far.
 constexpr std::chrono::seconds kPatience{1};
-
-std::int64_t ns_of(const builtin_interfaces_msg_dds__Time_& stamp) {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  return stamp.sec * kSecond_ns + stamp.nanosec;
-}
 
 }  // namespace
 
@@ -86,7 +82,7 @@ void CloudNode::take_clouds() {
 
 void CloudNode::look_for_gap(const dds::RosCloud& cloud) {
   if (reader_.writers() > 1) return gaps_.restart();
-  missing_ += gaps_.missing_before(ns_of(cloud.header.stamp));
+  missing_ += gaps_.missing_before(dds::ns_of(cloud.header.stamp));
 }
 
 void CloudNode::label_clouds() {
@@ -195,7 +191,7 @@ NodeScene CloudNode::empty_scene_of(const Job& job) const {
                   .cloud_frame = header.frame_id,
                   .answer_frame = header.frame_id,
                   .T_answer_vehicle = T_cloud_vehicle};
-  scene.frame.record.info.first_packet_ns = ns_of(header.stamp);
+  scene.frame.record.info.first_packet_ns = dds::ns_of(header.stamp);
   scene.frame.record.info.last_packet_ns = scene.frame.record.info.first_packet_ns;
   if (job.T_answer_cloud) {
     scene.answer_frame = answer_frame_;

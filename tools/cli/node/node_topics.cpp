@@ -16,6 +16,10 @@ namespace {
 
 using frame::Label;
 
+void keep_first_error(Status& first, Status next) {
+  if (first && !next) first = std::move(next);
+}
+
 }  // namespace
 
 Expected<std::optional<dds::TopicWriter>> open_writer(const dds::Participant& participant,
@@ -87,19 +91,18 @@ Status NodeAnswers::open_scene(const dds::Participant& participant, const Option
 
 Status NodeAnswers::write(NodeScene& scene) {
   Status first;
-  const auto keep = [&](Status written) {
-    if (first && !written) first = std::move(written);
-  };
   if (free_way_) {
-    if (!std::exchange(is_vehicle_frame_told_, true)) {
-      keep(dds::write_mount(*tf_static_, scene.mount, scene.cloud_frame, vehicle_frame_));
+    if (!is_vehicle_frame_told_) {
+      Status told = dds::write_mount(*tf_static_, scene.mount, scene.cloud_frame, vehicle_frame_);
+      is_vehicle_frame_told_ = told.has_value();
+      keep_first_error(first, std::move(told));
     }
-    keep(free_way_->write(scene.frame, vehicle_frame_));
+    keep_first_error(first, free_way_->write(scene.frame, vehicle_frame_));
   }
   if (objects_) {
-    keep(objects_->write(scene.frame.objects,
-                         {scene.answer_frame, ros_messages::stamp_ns_of(scene.frame.record),
-                          &scene.T_answer_vehicle}));
+    const std::int64_t stamp_ns = ros_messages::stamp_ns_of(scene.frame.record);
+    keep_first_error(first, objects_->write(scene.frame.objects, {scene.answer_frame, stamp_ns,
+                                                                  &scene.T_answer_vehicle}));
   }
   return first;
 }
@@ -108,8 +111,7 @@ Status NodeAnswers::write(const dds::RosCloud& cloud, std::span<const Label> lab
                           std::span<const float> heights_m, const Times& times) {
   Status first;
   const auto put = [&](dds::TopicWriter& writer, const void* message) {
-    Status written = writer.write(message);
-    if (first && !written) first = std::move(written);
+    keep_first_error(first, writer.write(message));
   };
   // Obstacles are published first, because planners stop for them.
   if (is_read(obstacles_)) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/dds/mount_transform.hpp"
 #include "ros_types.h"
 #include "tests/pipeline/dds/one_reader.hpp"
 #include "tests/tools/cli/background_program.hpp"
@@ -20,8 +21,8 @@ namespace terracut::cli {
 namespace {
 
 struct NodeScene : Cli {
-  /// Starts a node with these options, and sends it a drive as a driver does.
-  void start(const std::string& options) {
+  /// Starts a node with these options, and sends it a drive as a driver with these does.
+  void start(const std::string& options, const std::string& of_driver = "") {
     const std::string on = fmt::format("--dds-domain {} --dds-interface lo", domain_);
     node_.emplace(folder_, "node",
                   fmt::format("node {} --deadline 10000 --metrics off --name scene_{} {}", on,
@@ -30,8 +31,8 @@ struct NodeScene : Cli {
     driver_.emplace(
         folder_, "driver",
         fmt::format("replay {} --calibration {} --mount-height 1.73 --mount-roll 0 --mount-pitch 0 "
-                    "--rate 1 --loop --dds --raw {}",
-                    quoted(kDrive), quoted(kDriveCalibration), on));
+                    "--rate 1 --loop --dds --raw {} {}",
+                    quoted(kDrive), quoted(kDriveCalibration), on, of_driver));
   }
 
   const int domain_ = 1 + static_cast<int>(::getpid() % 200);
@@ -71,17 +72,28 @@ TEST_F(ObjectsOfNode, LieInTheFrameThatIsAskedFor) {
 using FreeWayOfNode = NodeScene;
 
 TEST_F(FreeWayOfNode, LiesOnTheGroundBelowTheClouds) {
+  const dds::Qos latched = dds::qos_of(dds::kTfMessage, dds::kLatched);
+  dds::OneReader<tf2_msgs_msg_dds__TFMessage_> frames(
+      *participant_, "rt/tf_static", tf2_msgs_msg_dds__TFMessage__desc, latched.get());
   dds::OneReader<sensor_msgs_msg_dds__LaserScan_> reader(*participant_, "rt/terracut/free_way",
                                                          sensor_msgs_msg_dds__LaserScan__desc);
   start(
       "--free-way --frame-id below --base-frame off --mount-height 1.73 --mount-roll 0 "
-      "--mount-pitch 0");
+      "--mount-pitch 0",
+      "--frame-id lidar_top --sensor-frame-id off");  // the driver tells of no frame
   const auto* message = reader.take();
   ASSERT_NE(message, nullptr);
   EXPECT_EQ(std::string(message->header.frame_id), "below");
   const std::span ranges(message->ranges._buffer, message->ranges._length);
   EXPECT_EQ(ranges.size(), 720U);
   EXPECT_GT(std::ranges::count_if(ranges, [](float range) { return std::isfinite(range); }), 100);
+  const auto* told = frames.take();
+  ASSERT_NE(told, nullptr);
+  ASSERT_EQ(told->transforms._length, 1U);
+  const auto& transform = told->transforms._buffer[0];
+  EXPECT_EQ(std::string(transform.header.frame_id), "lidar_top");
+  EXPECT_EQ(std::string(transform.child_frame_id), "below");
+  EXPECT_NEAR(transform.transform.translation.z, -1.73, 1e-6);
 }
 
 }  // namespace

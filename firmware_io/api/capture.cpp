@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calib/api/calibration_table.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "firmware_io/sensor/unknown_packets.hpp"
 #include "firmware_io/streams/heard_senders.hpp"
@@ -13,7 +13,7 @@
 namespace terracut {
 
 struct Capture::Engine {
-  capture::PcapSource source;
+  capture::CaptureSource source;
   Sensor sensor;
   Expected<Calibration> calibration;
 };
@@ -25,7 +25,7 @@ Capture::~Capture() = default;
 
 namespace {
 
-Expected<streams::SensorStream> sender_in(capture::PcapSource& source) {
+Expected<streams::SensorStream> sender_in(capture::CaptureSource& source) {
   const streams::HeardCapture heard = streams::hear_beginning(source, std::nullopt);
   const std::vector<streams::SensorStream> found = heard.senders.sensors();
   if (found.empty() && heard.broke_off) return tl::unexpected(*heard.broke_off);
@@ -43,11 +43,11 @@ Expected<streams::SensorStream> sender_in(capture::PcapSource& source) {
 }  // namespace
 
 Expected<Capture> Capture::open(const std::filesystem::path& file) {
-  auto all = capture::PcapSource::open(file);
+  auto all = capture::CaptureSource::open(file);
   if (!all) return tl::unexpected(all.error());
   const auto sender = sender_in(*all);
   if (!sender) return tl::unexpected(sender.error());
-  auto source = capture::PcapSource::open(
+  auto source = capture::CaptureSource::open(
       file, {.port = {},
              .source_address = sender->source_address,
              .is_of_stream = [unit = *sender](const packet::Datagram& datagram) {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
 
 namespace terracut::capture {
@@ -12,7 +12,7 @@ namespace terracut::capture {
 /// Accounts for every record of a capture, once the requested part is decoded. Each record is
 /// counted exactly once, as net::DatagramAccount counts the datagrams of a live run.
 struct CaptureAccount {
-  PcapCounters read;
+  CaptureCounters read;
   std::uint64_t before_start = 0, behind_end = 0;  ///< records outside the requested part
   std::uint64_t device_info = 0;                   ///< packets without returns
   std::uint64_t decoded = 0;

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/sensor/capture_survey.hpp"
 
-
 #include <algorithm>
 #include <memory>
 #include <tuple>
@@ -111,7 +110,7 @@ double UdpStream::rate_hz() const noexcept {
   return static_cast<double>(packets - 1) * 1e9 / static_cast<double>(span_ns);
 }
 
-CaptureSurvey survey_capture(capture::PcapSource& source,
+CaptureSurvey survey_capture(capture::CaptureSource& source,
                              const std::function<bool()>& stop_wanted) {
   CaptureSurvey survey;
   survey.name = source.name();

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "calib/sensor/sensor_model.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
 #include "firmware_io/sensor/hdl64e_survey.hpp"
 #include "firmware_io/sensor/ruby128_survey.hpp"
@@ -48,8 +48,8 @@ struct UdpStream {
 struct CaptureSurvey {
   std::string name;
   int link_type = 0;           ///< libpcap's DLT_ number; of a bag -1.
-  std::string link_type_name;  ///< As PcapSource::link_name().
-  capture::PcapCounters counters;
+  std::string link_type_name;  ///< As CaptureSource::link_name().
+  capture::CaptureCounters counters;
   std::vector<UdpStream> streams;                ///< The streams, the one with most packets first.
   std::uint64_t packets_of_further_streams = 0;  ///< Packets of streams beyond kMostStreams.
   /// Why reading ended before the file's end; empty if it did not.
@@ -61,7 +61,7 @@ struct CaptureSurvey {
 /// Reads the capture from its present position, until `stop_wanted` if given. A capture that breaks
 /// off is no failure (see CaptureSurvey::broke_off). For inspection: allocates, takes about a
 /// second per gigabyte.
-[[nodiscard]] CaptureSurvey survey_capture(capture::PcapSource& source,
+[[nodiscard]] CaptureSurvey survey_capture(capture::CaptureSource& source,
                                            const std::function<bool()>& stop_wanted = {});
 
 }  // namespace terracut::sensor

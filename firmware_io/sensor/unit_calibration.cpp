@@ -21,7 +21,7 @@
 namespace terracut::sensor {
 namespace {
 
-using capture::PcapSource;
+using capture::CaptureSource;
 
 // --- HDL-64E: the table in the status stream ---
 
@@ -37,7 +37,7 @@ struct StreamSearch {
   std::size_t holes = 0;
 };
 
-StreamSearch search_status_stream(PcapSource& source) {
+StreamSearch search_status_stream(CaptureSource& source) {
   StreamSearch search;
   hdl64e::StatusStreamReader status;
   packet::PacketAzimuths azimuths;
@@ -64,7 +64,7 @@ StreamSearch search_status_stream(PcapSource& source) {
   return search;
 }
 
-Error no_calibration(const PcapSource& source, const StreamSearch& search) {
+Error no_calibration(const CaptureSource& source, const StreamSearch& search) {
   const std::string missing =
       !search.table_error.empty()
           ? fmt::format("the table in them is not usable: {}", search.table_error)
@@ -79,7 +79,7 @@ Error no_calibration(const PcapSource& source, const StreamSearch& search) {
                   source.name(), missing, search.broke_off.empty() ? "" : "; " + search.broke_off)};
 }
 
-Expected<calib::SensorCalibration> from_packets_of_hdl64e(PcapSource& source) {
+Expected<calib::SensorCalibration> from_packets_of_hdl64e(CaptureSource& source) {
   StreamSearch search = search_status_stream(source);
   if (!search.found) return tl::unexpected(no_calibration(source, search));
   return *std::move(search.found);
@@ -90,7 +90,7 @@ Expected<calib::SensorCalibration> from_packets_of_hdl64e(PcapSource& source) {
 /// A DIFOP packet comes about once a second, after 6000 data packets (12000 in dual return mode).
 constexpr std::uint64_t kDatagramsToSearch = 60'000;
 
-Expected<ruby128::Ruby128Calibration> search_difop(PcapSource& source) {
+Expected<ruby128::Ruby128Calibration> search_difop(CaptureSource& source) {
   Ruby128DeviceReader device;
   for (std::uint64_t i = 0; i < kDatagramsToSearch && !device.has_calibration(); ++i) {
     const auto next = source.next();
@@ -100,7 +100,7 @@ Expected<ruby128::Ruby128Calibration> search_difop(PcapSource& source) {
   return device.calibration();
 }
 
-Expected<calib::SensorCalibration> from_packets_of_ruby128(PcapSource& source) {
+Expected<calib::SensorCalibration> from_packets_of_ruby128(CaptureSource& source) {
   auto found = search_difop(source);
   if (found) return *std::move(found);
   return fail(
@@ -159,7 +159,7 @@ Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& cho
 }
 
 Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
-                                                    SensorModel model, PcapSource& source) {
+                                                    SensorModel model, CaptureSource& source) {
   return unit_calibration(choice, model, [&]() -> Expected<calib::SensorCalibration> {
     if (model == SensorModel::kRuby128) return from_packets_of_ruby128(source);
     if (model == SensorModel::kHdl64eS1) return fail_for_s1(source.name());

@@ -8,7 +8,7 @@
 
 #include "calib/sensor/sensor_model.hpp"
 #include "calib/sensor_calibration.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::sensor {
@@ -45,6 +45,6 @@ using FromPackets = std::function<Expected<calib::SensorCalibration>()>;
 /// found instead. Leaves `source` at any position.
 [[nodiscard]] Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
                                                                   SensorModel model,
-                                                                  capture::PcapSource& source);
+                                                                  capture::CaptureSource& source);
 
 }  // namespace terracut::sensor

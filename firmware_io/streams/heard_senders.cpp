@@ -184,7 +184,7 @@ std::string HeardSenders::others() const {
   return text;
 }
 
-HeardCapture hear_beginning(capture::PcapSource& source,
+HeardCapture hear_beginning(capture::CaptureSource& source,
                             std::optional<sensor::SensorModel> wanted) {
   // About a second of datagrams: enough to measure the spin rate, and for a stream that begins with
   // other packets.

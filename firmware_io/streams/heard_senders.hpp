@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
@@ -108,7 +108,7 @@ struct HeardCapture {
   std::optional<Error> broke_off;
 };
 /// Reads the beginning of a capture. Leaves `source` at any position.
-[[nodiscard]] HeardCapture hear_beginning(capture::PcapSource& source,
+[[nodiscard]] HeardCapture hear_beginning(capture::CaptureSource& source,
                                           std::optional<sensor::SensorModel> wanted);
 
 }  // namespace terracut::streams

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace terracut;
-  auto source = capture::PcapSource::open_memory({data, size}, "fuzz");
+  auto source = capture::CaptureSource::open_memory({data, size}, "fuzz");
   if (!source) {
     if (source.error().message.empty()) std::abort();
     return 0;
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (auto next = source->next(); next && *next; next = source->next()) {
     for (const std::uint8_t byte : (*next)->payload) touched += byte;
   }
-  const capture::PcapCounters& counters = source->counters();
+  const capture::CaptureCounters& counters = source->counters();
   const bool all_counted =
       counters.frames == counters.delivered + counters.joined + counters.refused_total();
   if (!all_counted) std::abort();

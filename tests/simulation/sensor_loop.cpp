@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/velodyne/models.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 #include "tools/lab/packets/encoder_traits.hpp"
@@ -38,7 +38,7 @@ std::uint16_t azimuth_of(std::span<const std::uint8_t> packet) noexcept {
 std::vector<SensorLoop::Packet> turns_in(const std::filesystem::path& capture,
                                          std::size_t packets_per_turn) {
   std::vector<SensorLoop::Packet> packets;
-  auto source = value_of(capture::PcapSource::open(capture));
+  auto source = value_of(capture::CaptureSource::open(capture));
   std::uint16_t before_cdeg = 0;
   for (auto datagram = source.next(); datagram && *datagram; datagram = source.next()) {
     const auto payload = (*datagram)->payload;

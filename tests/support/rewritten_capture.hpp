@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
 
 namespace terracut::test {
@@ -17,7 +17,7 @@ namespace terracut::test {
 template <class Each>
 std::size_t rewrite_capture(const std::filesystem::path& from, const std::filesystem::path& to,
                             const Each& each) {
-  auto source = capture::PcapSource::open(from);
+  auto source = capture::CaptureSource::open(from);
   auto writer = capture::PcapWriter::create(to);
   EXPECT_TRUE(source && writer) << from << " " << to;
   const auto write = [&](const packet::Datagram& datagram) {

@@ -19,7 +19,7 @@
 
 #include "calib/mount/mount.hpp"
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/frame/each_return.hpp"
 #include "firmware_io/scan/label_file.hpp"
@@ -139,7 +139,7 @@ class DeskewedDrive : public test::InScratchFolder {
       settings.deskew_at = *at;
     }
     decode::Decoder decoder(config.calibration, config.mount, settings, memory);
-    auto source = capture::PcapSource::open(pcap());
+    auto source = capture::CaptureSource::open(pcap());
     ASSERT_TRUE(source);
     auto next_sample = samples->begin();
     for (auto datagram = source->next(); datagram && *datagram; datagram = source->next()) {
@@ -309,7 +309,7 @@ TEST_F(DeskewedDrive, WithoutSamplesTheFramesSayNoEgoMotionAndAreAsSeen) {
           image, [&](const frame::PlacedReturn& placed) { x_m.push_back(placed.point.x_m); });
     };
   };
-  auto source = capture::PcapSource::open(pcap());
+  auto source = capture::CaptureSource::open(pcap());
   ASSERT_TRUE(source);
   const auto on_frame = into(places, frame::DeskewState::kNoEgoMotion);
   const auto on_plain_frame = into(plain_places, frame::DeskewState::kOff);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "calib/mount/mount.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "tests/support/hand_out.hpp"
@@ -96,7 +96,7 @@ class SimulatedDriveDecoded : public test::InScratchFolder {
         wrong_intensities += seen[i].intensity != measured[i].wire.intensity ? 1 : 0;
       }
     };
-    auto source = capture::PcapSource::open(pcap());
+    auto source = capture::CaptureSource::open(pcap());
     EXPECT_TRUE(source);
     for (auto datagram = source->next(); datagram && *datagram; datagram = source->next()) {
       test::decode(decoder, **datagram, on_frame);

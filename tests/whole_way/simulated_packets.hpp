@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
@@ -37,7 +37,7 @@ std::vector<Packet> simulated_packets(const simulator::SimulationConfig<EncoderT
                                   column.wire.by_laser);
       }));
   EXPECT_TRUE(writer->finish());
-  auto source = capture::PcapSource::open(pcap);
+  auto source = capture::CaptureSource::open(pcap);
   EXPECT_TRUE(source);
   if (!source) return sent;
   for (auto datagram = source->next(); datagram && *datagram; datagram = source->next()) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "capture_bytes.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 
 namespace terracut::capture {
 namespace {
@@ -46,13 +46,13 @@ std::vector<Bytes> fragments_of(const Bytes& payload, std::uint8_t id) {
 
 struct Read {
   std::vector<Bytes> payloads;
-  PcapCounters counters;
+  CaptureCounters counters;
 };
 
 Read read(const std::vector<Bytes>& frames) {
   CaptureFile file;
   for (const Bytes& frame : frames) file.add(frame);
-  auto source = PcapSource::open_memory(file.bytes(), "memory", {.port = 2368});
+  auto source = CaptureSource::open_memory(file.bytes(), "memory", {.port = 2368});
   EXPECT_TRUE(source);
   Read read;
   for (auto next = source->next(); next && *next; next = source->next()) {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "capture_bytes.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/packet/udp_checksum.hpp"
 
 namespace terracut::capture {
@@ -45,7 +45,7 @@ TEST(PcapWriter, WritesWhatTheSourceReadsBack) {
   ASSERT_TRUE(writer->finish());
   EXPECT_EQ(folder.files(), 1U);
 
-  auto source = PcapSource::open(folder / "drive.pcap");
+  auto source = CaptureSource::open(folder / "drive.pcap");
   ASSERT_TRUE(source) << source.error().message;
   for (std::size_t i = 0; i < payloads.size(); ++i) {
     const auto next = source->next();
@@ -117,7 +117,7 @@ TEST(PcapWriter, RefusesStampsAndPayloadsThatNoCaptureHolds) {
   EXPECT_EQ(writer->write(datagram_of(Bytes(65508, 7))).error().code, ErrorCode::kInvalidArgument);
   EXPECT_TRUE(writer->write(datagram_of(Bytes(65507, 7), 4'294'967'295'999'999'999)));
   EXPECT_TRUE(writer->finish());
-  auto source = PcapSource::open(folder / "a.pcap");
+  auto source = CaptureSource::open(folder / "a.pcap");
   ASSERT_TRUE(source);
   const auto next = source->next();
   ASSERT_TRUE(next && *next);

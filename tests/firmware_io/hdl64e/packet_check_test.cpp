@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "random_drive.hpp"
 #include "tests/support/places.hpp"
 
@@ -167,7 +167,7 @@ class RealCapture : public testing::TestWithParam<const char*> {};
 TEST_P(RealCapture, OfAnotherModelIsRefusedAsThat) {
   const auto path = test::shared_data("pcap") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  auto source = capture::PcapSource::open(path);
+  auto source = capture::CaptureSource::open(path);
   ASSERT_TRUE(source) << source.error().message;
   std::size_t data_packets = 0;
   while (true) {

@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "calib/hdl64e/hdl64e_file.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/hdl64e/s1_reader.hpp"
 #include "firmware_io/streams/first_seconds.hpp"
 #include "random_drive.hpp"
@@ -193,7 +193,7 @@ class RealS1 : public testing::Test {
     auto table = load_hdl64e_calibration(folder / "atwall.db.xml");
     ASSERT_TRUE(table) << table.error().message;
     table_ = *table;
-    auto source = capture::PcapSource::open(folder / "atwall.pcap");
+    auto source = capture::CaptureSource::open(folder / "atwall.pcap");
     ASSERT_TRUE(source);
     for (auto next = source->next(); next && *next; next = source->next()) {
       Packet& packet = packets_.emplace_back();

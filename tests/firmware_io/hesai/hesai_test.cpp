@@ -16,7 +16,7 @@
 #include <unordered_map>
 
 #include "calib/hesai/hesai_csv.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/streams/first_seconds.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/hand_out.hpp"
@@ -298,7 +298,7 @@ struct RealCapture {
 
 std::vector<Payload> read_payloads(const std::filesystem::path& path) {
   std::vector<Payload> payloads;
-  auto source = capture::PcapSource::open(path, {});
+  auto source = capture::CaptureSource::open(path, {});
   if (!source) return payloads;
   for (auto next = source->next(); next && *next; next = source->next()) {
     payloads.push_back({{(*next)->payload.begin(), (*next)->payload.end()}, (*next)->stamp_ns});

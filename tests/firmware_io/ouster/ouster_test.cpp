@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "calib/ouster/ouster_metadata.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/ouster/head_reader.hpp"
 #include "firmware_io/packet/sensor_recognition.hpp"
@@ -357,8 +357,8 @@ class RealOuster : public testing::TestWithParam<RealCapture> {
         ouster::read_ouster_metadata(folder_ / (std::string(GetParam().metadata) + ".json"));
     ASSERT_TRUE(unit) << unit.error().message;
     unit_ = *unit;
-    auto source = capture::PcapSource::open(folder_ / (std::string(GetParam().file) + ".pcap"),
-                                            {.port = 7502});
+    auto source = capture::CaptureSource::open(folder_ / (std::string(GetParam().file) + ".pcap"),
+                                               {.port = 7502});
     ASSERT_TRUE(source);
     for (auto next = source->next(); next && *next; next = source->next()) {
       payloads_.push_back({{(*next)->payload.begin(), (*next)->payload.end()}, (*next)->stamp_ns});

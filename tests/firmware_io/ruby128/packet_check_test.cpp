@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "random_stream.hpp"
 #include "tests/support/places.hpp"
 
@@ -186,7 +186,7 @@ class RealCapture : public testing::TestWithParam<const char*> {};
 TEST_P(RealCapture, OfAnotherSensorIsRefusedByModel) {
   const std::filesystem::path path = test::shared_data("pcap") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  auto source = capture::PcapSource::open(path);
+  auto source = capture::CaptureSource::open(path);
   ASSERT_TRUE(source) << source.error().message;
   int data_packets = 0;
   while (true) {

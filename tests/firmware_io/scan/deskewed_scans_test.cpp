@@ -19,7 +19,7 @@
 
 #include "calib/mount/mount.hpp"
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/frame/each_return.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
@@ -59,7 +59,7 @@ void decode(const Drive& drive, bool deskew, Visit&& visit) {
     samples = test::samples_of(test::content_of(drive::can_log_path_of(drive.pcap)));
   }
   decode::Decoder decoder(drive.calibration, {}, config, memory);
-  auto source = capture::PcapSource::open(drive.pcap);
+  auto source = capture::CaptureSource::open(drive.pcap);
   ASSERT_TRUE(source);
   auto next = samples.begin();
   const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {

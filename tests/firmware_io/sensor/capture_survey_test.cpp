@@ -19,8 +19,8 @@ namespace {
 using test::Bytes;
 
 Expected<CaptureSurvey> survey_of(const std::filesystem::path& file) {
-  return capture::PcapSource::open(file).map(
-      [](capture::PcapSource source) { return survey_capture(source); });
+  return capture::CaptureSource::open(file).map(
+      [](capture::CaptureSource source) { return survey_capture(source); });
 }
 
 /// A unit that rotates at 10 Hz, 288 us a packet.
@@ -223,7 +223,7 @@ TEST(CaptureSurvey, BoundsTheNumberOfStreams) {
     frame.source_port = static_cast<std::uint16_t>(i);
     file.add(test::ethernet(frame.bytes()));
   }
-  auto source = capture::PcapSource::open_memory(file.bytes(), "memory");
+  auto source = capture::CaptureSource::open_memory(file.bytes(), "memory");
   ASSERT_TRUE(source);
   const CaptureSurvey survey = survey_capture(*source);
   EXPECT_EQ(survey.streams.size(), CaptureSurvey::kMostStreams);

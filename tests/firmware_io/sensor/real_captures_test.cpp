@@ -28,8 +28,8 @@ class RealCaptures : public testing::TestWithParam<RealCapture> {
 };
 
 TEST_P(RealCaptures, AreSurveyedByModelAndCount) {
-  const auto survey = capture::PcapSource::open(path_).map(
-      [](capture::PcapSource source) { return survey_capture(source); });
+  const auto survey = capture::CaptureSource::open(path_).map(
+      [](capture::CaptureSource source) { return survey_capture(source); });
   ASSERT_TRUE(survey) << survey.error().message;
   EXPECT_FALSE(survey->broke_off);
   EXPECT_EQ(survey->counters.refused_total(), 0U);
@@ -49,7 +49,7 @@ TEST_P(RealCaptures, AreSurveyedByModelAndCount) {
 }
 
 TEST_P(RealCaptures, AreFilteredByPortAndSource) {
-  auto source = capture::PcapSource::open(path_, {.port = 2368});
+  auto source = capture::CaptureSource::open(path_, {.port = 2368});
   ASSERT_TRUE(source);
   std::uint64_t packets = 0;
   std::uint32_t sender = 0;
@@ -61,7 +61,7 @@ TEST_P(RealCaptures, AreFilteredByPortAndSource) {
   EXPECT_EQ(packets, GetParam().data_packets);
   EXPECT_EQ(source->counters().other_port, GetParam().position_packets);
 
-  auto stranger = capture::PcapSource::open(path_, {.port = 2368, .source_address = sender + 1});
+  auto stranger = capture::CaptureSource::open(path_, {.port = 2368, .source_address = sender + 1});
   ASSERT_TRUE(stranger);
   const auto next = stranger->next();
   ASSERT_TRUE(next);
@@ -72,7 +72,7 @@ TEST_P(RealCaptures, AreFilteredByPortAndSource) {
 TEST_P(RealCaptures, KeepTheirPacketsWhenCutInTheMiddle) {
   const test::Bytes whole = test::read_file(path_);
   const std::span cut = std::span(whole).first(whole.size() / 2);
-  auto source = capture::PcapSource::open_memory(cut, "half");
+  auto source = capture::CaptureSource::open_memory(cut, "half");
   ASSERT_TRUE(source);
   std::uint64_t packets = 0;
   auto next = source->next();

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "calib/ruby128/nominal_ruby128.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 #include "tests/firmware_io/ruby128/random_stream.hpp"
@@ -38,7 +38,7 @@ using recorder::FlightRecorder;
 /// All datagrams of a capture, with their bytes.
 struct Replay {
   explicit Replay(const fs::path& path) {
-    auto source = capture::PcapSource::open(path);
+    auto source = capture::CaptureSource::open(path);
     if (!source) throw std::runtime_error(source.error().message);
     for (auto next = source->next(); next && *next; next = source->next()) {
       bytes.emplace_back((*next)->payload.begin(), (*next)->payload.end());

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "calib/sensor_calibration.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/visibility/visibility.hpp"
@@ -58,7 +58,7 @@ int look_at(const std::filesystem::path& file, SensorModel model) {
       ++turns;
     }
   };
-  auto source = capture::PcapSource::open(file);
+  auto source = capture::CaptureSource::open(file);
   EXPECT_TRUE(source);
   while (source) {
     const auto next = source->next();

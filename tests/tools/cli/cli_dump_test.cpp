@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "cli_fixture.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "pipeline/page/status_page.hpp"
 #include "pipeline/recorder/flight_recorder.hpp"
 #include "tools/cli/commands/dump_answer.hpp"
@@ -128,7 +128,7 @@ TEST_F(CliDump, HasTheOnlyRunningProcessWriteItsPacketsAndPrintsTheFile) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("50 datagrams of 0.05 s"));
   const std::string file = outcome.out.substr(0, outcome.out.find('\n'));
-  auto capture = capture::PcapSource::open(file);
+  auto capture = capture::CaptureSource::open(file);
   ASSERT_TRUE(capture) << capture.error().message;
   int datagrams = 0;
   for (auto next = capture->next(); next && *next; next = capture->next()) ++datagrams;

@@ -64,7 +64,7 @@ class CliSend : public Cli {
 
 TEST_F(CliSend, SendsTheDatagramsOfACaptureAsTheyAre) {
   const fs::path drive = sparse_drive();
-  auto capture = capture::PcapSource::open(drive);
+  auto capture = capture::CaptureSource::open(drive);
   ASSERT_TRUE(capture);
   std::vector<std::vector<std::uint8_t>> expected;
   while (const auto next = *capture->next()) {

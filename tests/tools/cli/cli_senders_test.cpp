@@ -31,7 +31,7 @@ class CliSenders : public Cli {
   /// the same ones, on a way of their own.
   void write_two(const std::string& name, std::size_t ahead,
                  const std::function<void(Datagram&)>& lead) const {
-    auto later = capture::PcapSource::open(kDrive);
+    auto later = capture::CaptureSource::open(kDrive);
     ASSERT_TRUE(later);
     for (std::size_t i = 0; i < ahead; ++i) ASSERT_TRUE(*later->next());
     test::rewrite_capture(kDrive, folder_ / name, [&](const auto& first, auto, auto& write) {

@@ -306,7 +306,7 @@ std::string text_of(const std::vector<streams::StreamName>& sensors) {
 
 /// Returns the sensors of a capture if there are several.
 std::vector<streams::StreamName> several_sensors_of(const CaptureOptions& options) {
-  auto source = capture::PcapSource::open(options.file, {.topic = options.topic});
+  auto source = capture::CaptureSource::open(options.file, {.topic = options.topic});
   if (!source) return {};
   const auto sensors = sensors_in(options, *source);
   return sensors.size() < 2 ? std::vector<streams::StreamName>()
@@ -360,7 +360,8 @@ ExitCode run_info(const Options& options) {
       return show_topics(options, topics);
     }
   }
-  auto source = capture::PcapSource::open(options.capture.file, {.topic = options.capture.topic});
+  auto source =
+      capture::CaptureSource::open(options.capture.file, {.topic = options.capture.topic});
   if (!source) return refuse(source.error());
   const CaptureSurvey survey = sensor::survey_capture(*source, stop_wanted);
   if (const Status whole = go_on(); !whole) return refuse_work(whole.error());

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "repeated_send.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -25,7 +25,7 @@
 namespace terracut::cli {
 namespace {
 
-using capture::PcapSource;
+using capture::CaptureSource;
 using net::Ipv4Endpoint;
 using packet::Datagram;
 using send::FaultInjector;
@@ -39,7 +39,7 @@ PacketPacer* interruptible = nullptr;
 
 /// The opened files and sockets that the command line names.
 struct Parts {
-  PcapSource source;
+  CaptureSource source;
   send::FaultScript faults;
   send::PortSenders sensor;
   std::optional<send::PortSenders> stranger;  ///< Set if foreign packets have their own sender.
@@ -48,7 +48,7 @@ struct Parts {
 Expected<Parts> open_parts(const Options& options, memory::FixedMemory& memory) {
   auto faults = send::parse_fault_script(options.send.faults);
   if (!faults) return tl::unexpected(faults.error());
-  auto source = PcapSource::open(options.capture.file, filter_of(options.capture));
+  auto source = CaptureSource::open(options.capture.file, filter_of(options.capture));
   if (!source) return tl::unexpected(source.error());
   send::UdpSenderConfig sender{.interface = options.send.interface};
   auto sensor = send::PortSenders::open(options.send.to, sender, memory);

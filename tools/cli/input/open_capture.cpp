@@ -21,7 +21,7 @@
 namespace terracut::cli {
 namespace {
 
-using capture::PcapSource;
+using capture::CaptureSource;
 
 std::int64_t nanoseconds(double seconds) {
   return static_cast<std::int64_t>(seconds * 1e9);
@@ -44,13 +44,14 @@ std::string describe(const calib::SensorCalibration& calibration) {
 }
 
 /// Opens the datagrams of one unit only: those of another would get into the same frames.
-Expected<PcapSource> open_unit(const CaptureOptions& options, const streams::SensorStream& unit) {
-  capture::PcapFilter its_own = filter_of(options);
+Expected<CaptureSource> open_unit(const CaptureOptions& options,
+                                  const streams::SensorStream& unit) {
+  capture::CaptureFilter its_own = filter_of(options);
   its_own.source_address = unit.source_address;
   its_own.is_of_stream = [unit](const packet::Datagram& datagram) {
     return unit.may_hold(datagram);
   };
-  return PcapSource::open(options.file, std::move(its_own));
+  return CaptureSource::open(options.file, std::move(its_own));
 }
 
 /// Returns what a bag says of the sensor's mount.
@@ -65,7 +66,7 @@ BagPose pose_of_bag(const CaptureOptions& options) {
 /// Calls sensor::unit_calibration(). If the packets hold no calibration, uses a file beside the
 /// capture.
 Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
-                                                  sensor::SensorModel model, PcapSource& unit) {
+                                                  sensor::SensorModel model, CaptureSource& unit) {
   sensor::CalibrationChoice choice{.file = options.calibration};
   // A Hesai's packets hold no table, so its nominal one must not come before the unit's.
   const bool is_of_hesai = sensor::row_of(model).has_unit_tables;
@@ -98,7 +99,7 @@ Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
 
 /// Chooses the sensor; where neither it nor a table is named, by an Ouster's metadata beside the
 /// capture, if there is any: some of its packets may be of several models.
-Expected<SensorChoice> choose_sensor_of(const CaptureOptions& options, PcapSource& source) {
+Expected<SensorChoice> choose_sensor_of(const CaptureOptions& options, CaptureSource& source) {
   if (!options.sensor && options.calibration.empty()) {
     CaptureOptions named = options;
     if (const auto beside = metadata_beside(options.file)) named.calibration = *beside;
@@ -114,7 +115,7 @@ Expected<SensorChoice> choose_sensor_of(const CaptureOptions& options, PcapSourc
 }  // namespace
 
 Expected<OpenCapture> open_capture(const CaptureOptions& options) {
-  auto source = PcapSource::open(options.file, filter_of(options));
+  auto source = CaptureSource::open(options.file, filter_of(options));
   if (!source) return tl::unexpected(source.error());
   auto sensor = choose_sensor_of(options, *source);
   if (!sensor) return tl::unexpected(sensor.error());
@@ -144,11 +145,11 @@ void say_what_is_read(const OpenCapture& capture) {
   say("calibration: " + capture.calibration_line);
 }
 
-Expected<PcapSource> open_again(const OpenCapture& capture, const CaptureOptions& options) {
+Expected<CaptureSource> open_again(const OpenCapture& capture, const CaptureOptions& options) {
   return open_unit(options, capture.sensor.stream);
 }
 
-void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounters& pass,
+void warn_of_other_senders(const OpenCapture& capture, const capture::CaptureCounters& pass,
                            const CaptureOptions& options) {
   const std::string unit = net::ipv4_text(capture.sensor.stream.source_address);
   if (const std::uint64_t others = pass.other_source; others > 0 && options.from.empty()) {
@@ -170,7 +171,7 @@ void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounte
   }
 }
 
-CapturePart::CapturePart(PcapSource& source, const CaptureOptions& options)
+CapturePart::CapturePart(CaptureSource& source, const CaptureOptions& options)
     : source_(source),
       start_ns_(nanoseconds(options.start_s)),
       end_ns_(options.duration_s ? start_ns_ + nanoseconds(*options.duration_s)
@@ -214,7 +215,7 @@ void CapturePart::warn_of_oddities() const {
   }
 }
 
-Error nothing_came_out(const PcapSource& source, const CapturePart& part, std::uint64_t offered,
+Error nothing_came_out(const CaptureSource& source, const CapturePart& part, std::uint64_t offered,
                        const decode::Decoder& decoder) {
   const frame::LossCounters losses = decoder.losses();
   const bool had_none =

@@ -9,7 +9,7 @@
 #include "bag_pose.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/capture/capture_clock.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "rt/error.hpp"
 #include "tools/cli/options.hpp"
@@ -19,7 +19,7 @@ namespace terracut::cli {
 
 /// A capture about to be read from its beginning, and what is needed to decode its packets.
 struct OpenCapture {
-  capture::PcapSource source;
+  capture::CaptureSource source;
   SensorChoice sensor;
   calib::SensorCalibration calibration;
   std::string sensor_line;       ///< Model, spin rate, return mode, for logs and reports.
@@ -35,12 +35,12 @@ struct OpenCapture {
 void say_what_is_read(const OpenCapture& capture);
 
 /// Opens the same unit's datagrams again, from the beginning and with separate counters.
-[[nodiscard]] Expected<capture::PcapSource> open_again(const OpenCapture& capture,
-                                                       const CaptureOptions& options);
+[[nodiscard]] Expected<capture::CaptureSource> open_again(const OpenCapture& capture,
+                                                          const CaptureOptions& options);
 
 /// Reports how many datagrams of a pass were left out because of their sender or destination,
 /// except if an option asked for that.
-void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounters& pass,
+void warn_of_other_senders(const OpenCapture& capture, const capture::CaptureCounters& pass,
                            const CaptureOptions& options);
 
 /// The datagrams of a capture between --start and --duration, by the capture's running time
@@ -49,7 +49,7 @@ void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounte
 class CapturePart {
  public:
   /// Reads `source`, which must be at its beginning and outlive this object.
-  CapturePart(capture::PcapSource& source, const CaptureOptions& options);
+  CapturePart(capture::CaptureSource& source, const CaptureOptions& options);
 
   /// Returns the next datagram, valid until the next call. Returns null at the end, where the
   /// capture breaks off, and when stop_wanted().
@@ -72,7 +72,7 @@ class CapturePart {
 
   [[nodiscard]] bool is_inside(std::int64_t since_begin_ns) noexcept;
 
-  capture::PcapSource& source_;
+  capture::CaptureSource& source_;
   std::int64_t start_ns_, end_ns_;
   capture::CaptureClock clock_;
   bool has_begun_ = false;  ///< True once the part, not only the capture, has begun.
@@ -85,7 +85,7 @@ class CapturePart {
 
 /// Returns kNothingCameOut for a part of `source` without a frame; the message names the checks
 /// that its packets failed. `offered` is the number of datagrams given to the decoder.
-[[nodiscard]] Error nothing_came_out(const capture::PcapSource& source, const CapturePart& part,
+[[nodiscard]] Error nothing_came_out(const capture::CaptureSource& source, const CapturePart& part,
                                      std::uint64_t offered, const decode::Decoder& decoder);
 
 }  // namespace terracut::cli

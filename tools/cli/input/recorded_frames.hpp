@@ -53,7 +53,7 @@ class CaptureFrames : public RecordedFrames {
   [[nodiscard]] Status look_for_mount(std::size_t most, mount::MountFinder& finder) override;
 
   /// Returns the counters of the last pass.
-  [[nodiscard]] const capture::PcapCounters& counters() const noexcept { return counters_; }
+  [[nodiscard]] const capture::CaptureCounters& counters() const noexcept { return counters_; }
   /// Returns where the capture broke off; empty if it did not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
 
@@ -66,7 +66,7 @@ class CaptureFrames : public RecordedFrames {
 
   const OpenCapture& capture_;
   const Options& options_;
-  capture::PcapCounters counters_;
+  capture::CaptureCounters counters_;
   std::string fault_;
 };
 

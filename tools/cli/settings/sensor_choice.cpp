@@ -20,7 +20,7 @@ namespace {
 
 /// Describes what was found instead of packets of the wanted sensors.
 std::string found_instead(const CaptureOptions& options, const streams::HeardSenders& senders,
-                          const capture::PcapSource& source) {
+                          const capture::CaptureSource& source) {
   std::string others = senders.others();
   if (others.empty()) return why_nothing_came(source.counters(), 0, 0, {});
   if (options.sensor) return others;
@@ -28,7 +28,7 @@ std::string found_instead(const CaptureOptions& options, const streams::HeardSen
 }
 
 /// Explains why no datagram came from a capture that has frames.
-std::string where_frames_went(const capture::PcapCounters& read) {
+std::string where_frames_went(const capture::CaptureCounters& read) {
   std::string text = fmt::format("of {} captured frames", read.frames);
   const auto add = [&](std::uint64_t count, std::string_view what) {
     if (count > 0)
@@ -45,7 +45,7 @@ std::string where_frames_went(const capture::PcapCounters& read) {
 
 }  // namespace
 
-std::string why_nothing_came(const capture::PcapCounters& read, std::uint64_t offered,
+std::string why_nothing_came(const capture::CaptureCounters& read, std::uint64_t offered,
                              std::uint64_t empty, const frame::LossCounters& losses) {
   if (read.frames == 0) return "the capture holds no packets";
   if (read.delivered == 0) return where_frames_went(read);
@@ -74,11 +74,12 @@ std::optional<sensor::SensorModel> named_model(const CaptureOptions& options) {
 }
 
 std::vector<streams::SensorStream> sensors_in(const CaptureOptions& options,
-                                              capture::PcapSource& source) {
+                                              capture::CaptureSource& source) {
   return streams::hear_beginning(source, named_model(options)).senders.sensors();
 }
 
-Expected<SensorChoice> choose_sensor(const CaptureOptions& options, capture::PcapSource& source) {
+Expected<SensorChoice> choose_sensor(const CaptureOptions& options,
+                                     capture::CaptureSource& source) {
   const std::optional<sensor::SensorModel> named = named_model(options);
   const streams::HeardCapture heard = streams::hear_beginning(source, named);
   const std::vector<streams::SensorStream> sensors = heard.senders.sensors();

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
 #include "firmware_io/sensor/sensor_probe.hpp"
 #include "firmware_io/streams/sensor_stream.hpp"
@@ -33,19 +33,20 @@ struct SensorChoice {
 /// by address or as in streams::SenderStreams. A sender of less than a hundredth of the busiest
 /// one's packets is ignored as stray. Leaves `source` at any position.
 [[nodiscard]] std::vector<streams::SensorStream> sensors_in(const CaptureOptions& options,
-                                                            capture::PcapSource& source);
+                                                            capture::CaptureSource& source);
 
 /// Reads the beginning of `source` and identifies its sensor. Fails with kUnsupported, naming what
 /// was found instead; kInvalidArgument for several sensors, naming them and the options that choose
 /// one; those of `source` if it breaks off before a sensor shows. Leaves `source` at any position;
 /// rewind it.
 [[nodiscard]] Expected<SensorChoice> choose_sensor(const CaptureOptions& options,
-                                                   capture::PcapSource& source);
+                                                   capture::CaptureSource& source);
 
 /// Explains why datagrams of a capture gave no frame: what they were, or the checks they failed.
 /// `offered` were given to a decoder; `empty` were decoded but held no return.
-[[nodiscard]] std::string why_nothing_came(const capture::PcapCounters& read, std::uint64_t offered,
-                                           std::uint64_t empty, const frame::LossCounters& losses);
+[[nodiscard]] std::string why_nothing_came(const capture::CaptureCounters& read,
+                                           std::uint64_t offered, std::uint64_t empty,
+                                           const frame::LossCounters& losses);
 
 /// Warns of options that have no effect on a sensor of that model.
 void warn_of_unused(const CaptureOptions& options, sensor::SensorModel model);

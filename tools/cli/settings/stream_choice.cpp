@@ -7,8 +7,8 @@
 
 namespace terracut::cli {
 
-capture::PcapFilter filter_of(const CaptureOptions& options) {
-  capture::PcapFilter filter{.port = options.port};
+capture::CaptureFilter filter_of(const CaptureOptions& options) {
+  capture::CaptureFilter filter{.port = options.port};
   if (const auto from = net::parse_ipv4_sender(options.from)) {
     filter.source_address = from->address;
     filter.source_port = from->port;

@@ -43,7 +43,7 @@ class PlayedCapture::Counter {
   }
 
  private:
-  Expected<capture::PcapSource> source_;
+  Expected<capture::CaptureSource> source_;
   std::optional<CapturePart> part_;
   memory::FixedMemory memory_;
   decode::Decoder decoder_;

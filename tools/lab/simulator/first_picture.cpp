@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "calib/sensor_calibration.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "pipeline/ground/stream_segmenter.hpp"
 #include "pipeline/pictures/bird_eye_picture.hpp"
 #include "pipeline/pictures/range_image_picture.hpp"
@@ -55,7 +55,7 @@ Status draw(const frame::RangeImage& image, std::span<const frame::Label> labels
 /// Labels a capture's first whole turn, and draws it.
 Status draw_first_turn(const simulator::SimulationConfig<Encoder>& config,
                        const std::filesystem::path& pcap) {
-  auto source = capture::PcapSource::open(pcap);
+  auto source = capture::CaptureSource::open(pcap);
   if (!source) return tl::unexpected(source.error());
   const calib::SensorCalibration unit(config.calibration);
   memory::FixedMemory memory;

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/frame/each_return.hpp"
 #include "firmware_io/scan/label_file.hpp"
@@ -74,7 +74,7 @@ decode::Decoder::Config decoder_config(int columns) {
 /// Estimates the mount as a run does, from the first ten frames of the drive.
 Expected<mount::FoundMount> mount_of(const fs::path& capture,
                                      const calib::SensorCalibration& calibration, int columns) {
-  auto source = capture::PcapSource::open(capture);
+  auto source = capture::CaptureSource::open(capture);
   if (!source) return tl::unexpected(source.error());
   memory::FixedMemory memory;
   decode::Decoder decoder(calibration, mount::kAtTheSensor, decoder_config(columns), memory);
@@ -113,7 +113,7 @@ class DriveEvaluation {
         on_frame_done_(std::move(on_frame_done)) {}
 
   Status run(const fs::path& capture, const std::function<bool()>& stop_wanted) {
-    auto source = capture::PcapSource::open(capture);
+    auto source = capture::CaptureSource::open(capture);
     if (!source) return tl::unexpected(source.error());
     while (!stop_wanted() && !keeper_.failure()) {
       const auto next = source->next();

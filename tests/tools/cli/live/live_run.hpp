@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "pipeline/page/status_page.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
@@ -132,7 +132,7 @@ class Sensors {
   };
 
   void play() {
-    auto capture = capture::PcapSource::open(capture_);
+    auto capture = capture::CaptureSource::open(capture_);
     if (!capture) throw std::runtime_error(capture.error().message);
     send::PassStamps stamps;
     std::int64_t held_back_ns = 0;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "firmware_io/ruby128/difop_angles.hpp"
@@ -103,7 +103,7 @@ class DriveRoundTrip : public terracut::test::InScratchFolder {
         last_number = labels[i] >> 8;
       }
     };
-    auto source = capture::PcapSource::open(pcap(), {.port = test::data_port<Written>()});
+    auto source = capture::CaptureSource::open(pcap(), {.port = test::data_port<Written>()});
     ASSERT_TRUE(source) << source.error().message;
     while (true) {
       const auto datagram = source->next();
@@ -205,7 +205,7 @@ TEST_F(Ruby128Drive, SendsADevicePacketFirstAndThenOnceASecond) {
   packets::Ruby128EncoderTraits::Config config;
   config.unit = {.rpm = 601, .serial = {1, 2, 3, 4, 5, 6}};
   write(columns, config);
-  auto source = capture::PcapSource::open(pcap());
+  auto source = capture::CaptureSource::open(pcap());
   ASSERT_TRUE(source);
   std::vector<std::int64_t> heard_ns;
   std::uint64_t others = 0;
@@ -300,7 +300,7 @@ TEST_F(Hdl64eDrive, OneRevolutionIsOneFrame) {
 TEST_F(Hdl64eDrive, TheCaptureCarriesTheCalibration) {
   write(test::random_columns<Hdl64e>(
       {.last_cdeg = 37'000 + 13 * 36'000.0, .share_of_returns = 0.01}));
-  auto source = capture::PcapSource::open(pcap());
+  auto source = capture::CaptureSource::open(pcap());
   ASSERT_TRUE(source);
   std::array<std::uint8_t, hdl64e::kStreamTableBytes> table{};
   std::size_t written = 0;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/frame/each_return.hpp"
 #include "firmware_io/scan/label_file.hpp"
@@ -113,7 +113,7 @@ TEST(ScanPackets, BringBackEveryEncodedReturnInItsFrameAtItsPlace) {
     decode::Decoder::Config config;
     config.columns = drive.spin.firings();
     decode::Decoder decoder(drive.calibration, {kSensorHeight_m, 0, 0}, config, memory);
-    auto source = capture::PcapSource::open(drive.pcap);
+    auto source = capture::CaptureSource::open(drive.pcap);
     ASSERT_TRUE(source);
     std::uint32_t frames = 0;
     std::size_t returns = 0, overflow = 0;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "calib/ouster/ouster_geometry.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 #include "tests/support/reference/ouster_reference.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/tools/lab/drive/made_drive.hpp"
@@ -50,7 +50,7 @@ TEST_P(OusterPackets, AreReadByASecondDecoderReturnByReturn) {
   EXPECT_EQ(told->rate_hz, unit.rate_hz);
   const reference::OusterReference second(*told);
   const int count_mm = ouster::row_of(GetParam()).range_mm;
-  auto source = capture::PcapSource::open(pcap, {.port = ouster::kDataPort});
+  auto source = capture::CaptureSource::open(pcap, {.port = ouster::kDataPort});
   ASSERT_TRUE(source);
   auto column = columns.begin();
   std::size_t wrong = 0, read = 0;

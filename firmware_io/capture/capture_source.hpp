@@ -23,7 +23,7 @@
 namespace terracut::capture {
 
 /// Selects datagrams of a capture; an empty filter passes all. Most fields are those of Datagram.
-struct PcapFilter {
+struct CaptureFilter {
   std::optional<std::uint16_t> port{};            ///< UDP destination port.
   std::optional<std::uint32_t> source_address{};  ///< IPv4 of the sender, host byte order.
   std::optional<std::uint16_t> source_port{};
@@ -36,7 +36,7 @@ struct PcapFilter {
 };
 
 /// Counts the frames of a capture; frames == delivered + joined + left_out().
-struct PcapCounters {
+struct CaptureCounters {
   std::uint64_t frames = 0;     ///< Records read from the file; of a bag, packets.
   std::uint64_t delivered = 0;  ///< Datagrams returned by next().
   /// IP fragments of datagrams that a later fragment completed.
@@ -57,17 +57,18 @@ struct PcapCounters {
 /// Reads UDP datagrams of a capture file (pcap with micro- or nanosecond stamps in either byte
 /// order, or pcapng), or the packets in a topic of a bag, in file order. Stamps are always
 /// nanoseconds. Not thread-safe.
-class PcapSource {
+class CaptureSource {
  public:
   /// Opens the file. Fails with kNotFound, kUnreadable, kMalformed (an empty file or no capture;
   /// the message says what it looks like) or kUnsupported (a link layer without IP); for a bag, as
   /// bag::BagPackets::open() does.
-  [[nodiscard]] static Expected<PcapSource> open(std::filesystem::path path,
-                                                 PcapFilter filter = {});
+  [[nodiscard]] static Expected<CaptureSource> open(std::filesystem::path path,
+                                                    CaptureFilter filter = {});
 
   /// Reads from memory, which must outlive the source; `name` stands for the path in messages.
-  [[nodiscard]] static Expected<PcapSource> open_memory(std::span<const std::uint8_t> capture,
-                                                        std::string name, PcapFilter filter = {});
+  [[nodiscard]] static Expected<CaptureSource> open_memory(std::span<const std::uint8_t> capture,
+                                                           std::string name,
+                                                           CaptureFilter filter = {});
 
   /// Returns the next datagram that passes the filter; nothing at the end. Frames without a UDP
   /// datagram are counted and skipped; fragments are put together. The payload is valid until the
@@ -82,7 +83,7 @@ class PcapSource {
   /// Goes back to the first packet, by opening the file again. Counters keep their values.
   [[nodiscard]] Status rewind();
 
-  [[nodiscard]] const PcapCounters& counters() const noexcept { return counters_; }
+  [[nodiscard]] const CaptureCounters& counters() const noexcept { return counters_; }
   /// DLT_ number of libpcap; for a bag -1.
   [[nodiscard]] int link_type() const noexcept;
   /// "EN10MB"; for a bag "velodyne_msgs/msg/VelodyneScan in /velodyne_packets".
@@ -92,10 +93,11 @@ class PcapSource {
  private:
   using File = std::variant<PcapFile, bag::BagPackets>;
 
-  PcapSource(File file, PcapFilter filter) : file_(std::move(file)), filter_(std::move(filter)) {}
+  CaptureSource(File file, CaptureFilter filter)
+      : file_(std::move(file)), filter_(std::move(filter)) {}
   /// Checks the filter's conditions other than port and sender.
   [[nodiscard]] bool is_in_stream(const packet::Datagram& datagram) const;
-  [[nodiscard]] static Expected<PcapSource> over(Expected<PcapFile> file, PcapFilter filter);
+  [[nodiscard]] static Expected<CaptureSource> over(Expected<PcapFile> file, CaptureFilter filter);
   /// Returns the next datagram of the file; of a frame without one, the reason.
   [[nodiscard]] Expected<std::optional<tl::expected<packet::Datagram, packet::FrameReject>>> read();
 
@@ -104,8 +106,8 @@ class PcapSource {
       int link_type, std::span<const std::uint8_t> frame, std::int64_t stamp_ns);
 
   File file_;
-  PcapFilter filter_;
-  PcapCounters counters_;
+  CaptureFilter filter_;
+  CaptureCounters counters_;
   FragmentJoiner fragments_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 
 #include <fmt/format.h>
 #include <pcap/pcap.h>
@@ -24,29 +24,29 @@ Status check_link_type(const PcapFile& file) {
 
 }  // namespace
 
-std::uint64_t PcapCounters::refused_total() const noexcept {
+std::uint64_t CaptureCounters::refused_total() const noexcept {
   return std::accumulate(refused.begin(), refused.end(), std::uint64_t{0});
 }
 
-Expected<PcapSource> PcapSource::open(std::filesystem::path path, PcapFilter filter) {
+Expected<CaptureSource> CaptureSource::open(std::filesystem::path path, CaptureFilter filter) {
   if (!bag::is_bag(path)) return over(PcapFile::open(std::move(path)), std::move(filter));
   auto packets = bag::BagPackets::open(path, filter.topic);
   if (!packets) return tl::unexpected(packets.error());
-  return PcapSource(*std::move(packets), std::move(filter));
+  return CaptureSource(*std::move(packets), std::move(filter));
 }
 
-Expected<PcapSource> PcapSource::open_memory(std::span<const std::uint8_t> capture,
-                                             std::string name, PcapFilter filter) {
+Expected<CaptureSource> CaptureSource::open_memory(std::span<const std::uint8_t> capture,
+                                                   std::string name, CaptureFilter filter) {
   return over(PcapFile::open_memory(capture, std::move(name)), std::move(filter));
 }
 
-Expected<PcapSource> PcapSource::over(Expected<PcapFile> file, PcapFilter filter) {
+Expected<CaptureSource> CaptureSource::over(Expected<PcapFile> file, CaptureFilter filter) {
   if (!file) return tl::unexpected(file.error());
   if (Status valid = check_link_type(*file); !valid) return tl::unexpected(valid.error());
-  return PcapSource(*std::move(file), std::move(filter));
+  return CaptureSource(*std::move(file), std::move(filter));
 }
 
-Expected<std::optional<tl::expected<packet::Datagram, packet::FrameReject>>> PcapSource::read() {
+Expected<std::optional<tl::expected<packet::Datagram, packet::FrameReject>>> CaptureSource::read() {
   if (auto* const packets = std::get_if<bag::BagPackets>(&file_)) {
     const auto packet = packets->next();
     if (!packet) return tl::unexpected(packet.error());
@@ -63,7 +63,7 @@ Expected<std::optional<tl::expected<packet::Datagram, packet::FrameReject>>> Pca
   return join(file.link_type(), (*record)->bytes, (*record)->stamp_ns);
 }
 
-tl::expected<packet::Datagram, packet::FrameReject> PcapSource::join(
+tl::expected<packet::Datagram, packet::FrameReject> CaptureSource::join(
     int link_type, std::span<const std::uint8_t> frame, std::int64_t stamp_ns) {
   const auto fragment = packet::parse_ip_fragment(link_type, frame);
   if (!fragment) return tl::unexpected(packet::FrameReject::kShortCapture);
@@ -76,7 +76,7 @@ tl::expected<packet::Datagram, packet::FrameReject> PcapSource::join(
   return packet::parse_udp(joined->whole, stamp_ns);
 }
 
-Expected<std::optional<packet::Datagram>> PcapSource::next() {
+Expected<std::optional<packet::Datagram>> CaptureSource::next() {
   for (;;) {
     const auto read = this->read();
     if (!read) return tl::unexpected(read.error());
@@ -98,7 +98,7 @@ Expected<std::optional<packet::Datagram>> PcapSource::next() {
   }
 }
 
-bool PcapSource::is_in_stream(const packet::Datagram& datagram) const {
+bool CaptureSource::is_in_stream(const packet::Datagram& datagram) const {
   const auto is_it = [](const auto& wanted, auto value) { return !wanted || *wanted == value; };
   return is_it(filter_.source_port, datagram.source_port) &&
          is_it(filter_.source_mac, datagram.source_mac) &&
@@ -107,19 +107,19 @@ bool PcapSource::is_in_stream(const packet::Datagram& datagram) const {
          (!filter_.is_of_stream || filter_.is_of_stream(datagram));
 }
 
-Status PcapSource::rewind() {
+Status CaptureSource::rewind() {
   fragments_.clear();
   Status rewound = std::visit([](auto& file) { return file.rewind(); }, file_);
   const auto* const file = std::get_if<PcapFile>(&file_);
   return rewound && file != nullptr ? check_link_type(*file) : rewound;
 }
 
-int PcapSource::link_type() const noexcept {
+int CaptureSource::link_type() const noexcept {
   const auto* const file = std::get_if<PcapFile>(&file_);
   return file == nullptr ? -1 : file->link_type();
 }
 
-std::string PcapSource::link_name() const {
+std::string CaptureSource::link_name() const {
   if (const auto* const packets = std::get_if<bag::BagPackets>(&file_)) {
     return packets->topic().type + " in " + packets->topic().name;
   }
@@ -127,7 +127,7 @@ std::string PcapSource::link_name() const {
   return name == nullptr ? "unknown" : name;
 }
 
-const std::string& PcapSource::name() const noexcept {
+const std::string& CaptureSource::name() const noexcept {
   return std::visit([](const auto& file) -> const std::string& { return file.name(); }, file_);
 }
 

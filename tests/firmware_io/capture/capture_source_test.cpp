@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/capture_source.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using test::little32;
 using testing::HasSubstr;
 
 /// Reads to the end; stops at an error.
-std::vector<Bytes> payloads_of(PcapSource& source, std::optional<Error>* error = nullptr) {
+std::vector<Bytes> payloads_of(CaptureSource& source, std::optional<Error>* error = nullptr) {
   std::vector<Bytes> payloads;
   while (true) {
     auto next = source.next();
@@ -41,11 +41,11 @@ IpFrame frame_to(std::uint16_t port, Bytes source = {192, 168, 3, 43}) {
   return frame;
 }
 
-std::uint64_t refused(const PcapSource& source, packet::FrameReject reason) {
+std::uint64_t refused(const CaptureSource& source, packet::FrameReject reason) {
   return source.counters().refused[static_cast<std::size_t>(reason)];
 }
 
-TEST(PcapSource, CountsEveryFrameByWhatBecameOfIt) {
+TEST(CaptureSource, CountsEveryFrameByWhatBecameOfIt) {
   IpFrame fragment;
   fragment.fragment_field = 0x2000;
   CaptureFile file;
@@ -56,11 +56,11 @@ TEST(PcapSource, CountsEveryFrameByWhatBecameOfIt) {
       .add(ethernet(Bytes(28, 0), 0x0806))
       .add(ethernet(IpFrame{}.bytes()), 40)
       .add(ethernet(frame_to(2368).bytes()));
-  auto source =
-      PcapSource::open_memory(file.bytes(), "memory", {.port = 2368, .source_address = 0xC0A8032B});
+  auto source = CaptureSource::open_memory(file.bytes(), "memory",
+                                           {.port = 2368, .source_address = 0xC0A8032B});
   ASSERT_TRUE(source) << source.error().message;
   EXPECT_EQ(payloads_of(*source).size(), 2U);
-  const PcapCounters& counters = source->counters();
+  const CaptureCounters& counters = source->counters();
   EXPECT_EQ(counters.frames, 7U);
   EXPECT_EQ(counters.delivered, 2U);
   EXPECT_EQ(counters.other_port, 1U);
@@ -71,15 +71,15 @@ TEST(PcapSource, CountsEveryFrameByWhatBecameOfIt) {
   EXPECT_EQ(counters.refused_total(), 3U);
 }
 
-TEST(PcapSource, CountsWhatTheRestOfItsFilterKeepsOut) {
+TEST(CaptureSource, CountsWhatTheRestOfItsFilterKeepsOut) {
   IpFrame from_elsewhere;
   from_elsewhere.source_port = 444;
   CaptureFile file;
   file.add(ethernet(IpFrame{}.bytes()))
       .add(ethernet(from_elsewhere.bytes()))
       .add(ethernet(IpFrame{}.bytes(), 0x0800, {0x8100}));
-  const auto delivered = [&](PcapFilter filter) {
-    auto source = PcapSource::open_memory(file.bytes(), "memory", std::move(filter));
+  const auto delivered = [&](CaptureFilter filter) {
+    auto source = CaptureSource::open_memory(file.bytes(), "memory", std::move(filter));
     const std::size_t payloads = payloads_of(*source).size();
     EXPECT_EQ(payloads + source->counters().other_stream, 3U);
     EXPECT_EQ(source->counters().frames,
@@ -98,7 +98,7 @@ TEST(PcapSource, CountsWhatTheRestOfItsFilterKeepsOut) {
       1U);
 }
 
-TEST(PcapSource, ReadsMicroAndNanosecondStampsInEitherByteOrder) {
+TEST(CaptureSource, ReadsMicroAndNanosecondStampsInEitherByteOrder) {
   const Bytes frame = ethernet(IpFrame{}.bytes());
   const CaptureFile micro = CaptureFile(1, 0xA1B2C3D4).add(frame);
   const CaptureFile nano = CaptureFile(1, 0xA1B23C4D).add(frame);
@@ -112,7 +112,7 @@ TEST(PcapSource, ReadsMicroAndNanosecondStampsInEitherByteOrder) {
                                                   {nano.bytes(), 1'001'000'000'250},
                                                   {big, 1'001'000'250'000}};
   for (const auto& [bytes, stamp_ns] : cases) {
-    auto source = PcapSource::open_memory(bytes, "memory");
+    auto source = CaptureSource::open_memory(bytes, "memory");
     ASSERT_TRUE(source) << source.error().message;
     const auto next = source->next();
     ASSERT_TRUE(next && *next);
@@ -120,13 +120,13 @@ TEST(PcapSource, ReadsMicroAndNanosecondStampsInEitherByteOrder) {
   }
 }
 
-TEST(PcapSource, AllocatesNothingAPacket) {
+TEST(CaptureSource, AllocatesNothingAPacket) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer replaces the allocator";
   CaptureFile file;
   for (int i = 0; i < 100; ++i) {
     file.add(ethernet(IpFrame{}.bytes())).add(ethernet(Bytes(28, 0), 0x0806));
   }
-  auto source = PcapSource::open_memory(file.bytes(), "memory");
+  auto source = CaptureSource::open_memory(file.bytes(), "memory");
   ASSERT_TRUE(source);
   ASSERT_TRUE(source->next());  // the first read brings stdio's buffer
   const std::uint64_t before = test::allocations_of_this_thread();
@@ -136,12 +136,12 @@ TEST(PcapSource, AllocatesNothingAPacket) {
   EXPECT_EQ(packets, 100U);
 }
 
-TEST(PcapSource, BeginsAgainAfterRewind) {
+TEST(CaptureSource, BeginsAgainAfterRewind) {
   const test::ScratchFolder folder;
   const CaptureFile file =
       CaptureFile().add(ethernet(IpFrame{}.bytes())).add(ethernet(IpFrame{}.bytes()));
   test::write_file(folder / "a.pcap", file.bytes());
-  auto source = PcapSource::open(folder / "a.pcap");
+  auto source = CaptureSource::open(folder / "a.pcap");
   ASSERT_TRUE(source);
   EXPECT_EQ(payloads_of(*source).size(), 2U);
   EXPECT_FALSE(source->next()->has_value());
@@ -154,13 +154,13 @@ TEST(PcapSource, BeginsAgainAfterRewind) {
   EXPECT_FALSE(source->next());
 }
 
-TEST(PcapSource, AHeaderWithoutPacketsIsAnEmptyCapture) {
-  auto source = PcapSource::open_memory(CaptureFile().bytes(), "memory");
+TEST(CaptureSource, AHeaderWithoutPacketsIsAnEmptyCapture) {
+  auto source = CaptureSource::open_memory(CaptureFile().bytes(), "memory");
   ASSERT_TRUE(source);
   EXPECT_TRUE(payloads_of(*source).empty());
 }
 
-TEST(PcapSource, KeepsWhatCameBeforeAFileBreaksOff) {
+TEST(CaptureSource, KeepsWhatCameBeforeAFileBreaksOff) {
   CaptureFile file;
   std::vector<std::size_t> record_ends{file.bytes().size()};
   for (int i = 0; i < 3; ++i) {
@@ -169,7 +169,7 @@ TEST(PcapSource, KeepsWhatCameBeforeAFileBreaksOff) {
   }
   for (std::size_t size = 0; size <= file.bytes().size(); ++size) {
     const Bytes cut(file.bytes().begin(), file.bytes().begin() + static_cast<std::ptrdiff_t>(size));
-    auto source = PcapSource::open_memory(cut, "cut.pcap");
+    auto source = CaptureSource::open_memory(cut, "cut.pcap");
     if (size < record_ends[0]) {
       ASSERT_FALSE(source) << size;
       EXPECT_EQ(source.error().code, ErrorCode::kMalformed);
@@ -194,23 +194,23 @@ TEST(PcapSource, KeepsWhatCameBeforeAFileBreaksOff) {
   }
 }
 
-TEST(PcapSource, BreaksOffAtARecordOfImpossibleLength) {
+TEST(CaptureSource, BreaksOffAtARecordOfImpossibleLength) {
   CaptureFile file;
   file.add(ethernet(IpFrame{}.bytes()));
   Bytes bytes = test::joined({file.bytes(), little32(1), little32(2), little32(0x7FFFFFFF),
                               little32(0x7FFFFFFF), Bytes(100, 0)});
-  auto source = PcapSource::open_memory(bytes, "memory");
+  auto source = CaptureSource::open_memory(bytes, "memory");
   ASSERT_TRUE(source);
   std::optional<Error> error;
   EXPECT_EQ(payloads_of(*source, &error).size(), 1U);
   EXPECT_TRUE(error);
 }
 
-TEST(PcapSource, SaysWhatAFileIsThatIsNoCapture) {
+TEST(CaptureSource, SaysWhatAFileIsThatIsNoCapture) {
   const test::ScratchFolder folder;
   const auto message_for = [&](std::string_view content) {
     test::write_file(folder / "x", Bytes(content.begin(), content.end()));
-    const auto source = PcapSource::open(folder / "x");
+    const auto source = CaptureSource::open(folder / "x");
     EXPECT_FALSE(source);
     EXPECT_EQ(source.error().code, ErrorCode::kMalformed);
     return source.error().message;
@@ -227,24 +227,24 @@ TEST(PcapSource, SaysWhatAFileIsThatIsNoCapture) {
     EXPECT_THAT(message_for(cloud), HasSubstr("`terracut segment` labels clouds"));
   }
   test::write_file(folder / "000000.bin", Bytes(64, 1));
-  EXPECT_THAT(PcapSource::open(folder / "000000.bin").error().message,
+  EXPECT_THAT(CaptureSource::open(folder / "000000.bin").error().message,
               HasSubstr("A cloud by its name? `terracut segment`"));
 }
 
-TEST(PcapSource, SaysWhyAFileCannotBeOpened) {
+TEST(CaptureSource, SaysWhyAFileCannotBeOpened) {
   const test::ScratchFolder folder;
-  const auto missing = PcapSource::open(folder / "missing.pcap");
+  const auto missing = CaptureSource::open(folder / "missing.pcap");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);
   EXPECT_THAT(missing.error().message, HasSubstr("missing.pcap"));
-  const auto a_folder = PcapSource::open(folder / ".");
+  const auto a_folder = CaptureSource::open(folder / ".");
   ASSERT_FALSE(a_folder);
   EXPECT_EQ(a_folder.error().code, ErrorCode::kUnreadable);
   EXPECT_THAT(a_folder.error().message, HasSubstr("folder"));
 }
 
-TEST(PcapSource, RefusesALinkLayerWithoutIpByName) {
-  const auto source = PcapSource::open_memory(CaptureFile(227).bytes(), "can.pcap");
+TEST(CaptureSource, RefusesALinkLayerWithoutIpByName) {
+  const auto source = CaptureSource::open_memory(CaptureFile(227).bytes(), "can.pcap");
   ASSERT_FALSE(source);
   EXPECT_EQ(source.error().code, ErrorCode::kUnsupported);
   EXPECT_THAT(source.error().message, HasSubstr("CAN_SOCKETCAN"));
@@ -273,22 +273,22 @@ Bytes enhanced_packet(std::uint32_t interface_id, std::uint64_t stamp_ns, const 
                        little32(size), frame, Bytes((4 - size % 4) % 4, 0)}));
 }
 
-TEST(PcapSource, ReadsPcapngWithNanoseconds) {
+TEST(CaptureSource, ReadsPcapngWithNanoseconds) {
   const Bytes file =
       test::joined({section_header(), interface(1),
                     enhanced_packet(0, 1'700'000'000'123'456'789, ethernet(IpFrame{}.bytes()))});
-  auto source = PcapSource::open_memory(file, "a.pcapng");
+  auto source = CaptureSource::open_memory(file, "a.pcapng");
   ASSERT_TRUE(source) << source.error().message;
   const auto next = source->next();
   ASSERT_TRUE(next && *next);
   EXPECT_EQ((*next)->stamp_ns, 1'700'000'000'123'456'789);
 }
 
-TEST(PcapSource, NamesPcapngWithMixedLinkTypes) {
+TEST(CaptureSource, NamesPcapngWithMixedLinkTypes) {
   const Bytes frame = ethernet(IpFrame{}.bytes());
   const Bytes file = test::joined({section_header(), interface(1), enhanced_packet(0, 1, frame),
                                    interface(113), enhanced_packet(1, 2, frame)});
-  auto source = PcapSource::open_memory(file, "mixed.pcapng");
+  auto source = CaptureSource::open_memory(file, "mixed.pcapng");
   ASSERT_TRUE(source) << source.error().message;
   std::optional<Error> error;
   EXPECT_EQ(payloads_of(*source, &error).size(), 1U);
@@ -297,18 +297,18 @@ TEST(PcapSource, NamesPcapngWithMixedLinkTypes) {
   EXPECT_THAT(error->message, HasSubstr("tshark"));
 }
 
-TEST(PcapSource, HoldsAbsurdPcapngStampsInRange) {
+TEST(CaptureSource, HoldsAbsurdPcapngStampsInRange) {
   const Bytes file =
       test::joined({section_header(), interface(1),
                     enhanced_packet(0, ~std::uint64_t{0}, ethernet(IpFrame{}.bytes()))});
-  auto source = PcapSource::open_memory(file, "a.pcapng");
+  auto source = CaptureSource::open_memory(file, "a.pcapng");
   ASSERT_TRUE(source);
   const auto next = source->next();
   ASSERT_TRUE(next && *next);
   EXPECT_GE((*next)->stamp_ns, 0);
 }
 
-TEST(PcapSource, SurvivesFlippedBitsAndRandomBytes) {
+TEST(CaptureSource, SurvivesFlippedBitsAndRandomBytes) {
   CaptureFile file;
   for (int i = 0; i < 4; ++i) file.add(ethernet(IpFrame{}.bytes(), 0x0800, {0x8100}));
   std::mt19937 random(7);
@@ -321,10 +321,10 @@ TEST(PcapSource, SurvivesFlippedBitsAndRandomBytes) {
     for (int flip = 0; flip < 3; ++flip) {
       bytes[random() % bytes.size()] ^= static_cast<std::uint8_t>(1U << (random() % 8));
     }
-    auto source = PcapSource::open_memory(bytes, "memory");
+    auto source = CaptureSource::open_memory(bytes, "memory");
     if (!source) continue;
     payloads_of(*source);
-    const PcapCounters& counters = source->counters();
+    const CaptureCounters& counters = source->counters();
     ASSERT_EQ(counters.frames, counters.delivered + counters.refused_total());
   }
 }

@@ -45,6 +45,11 @@ constexpr bool planted(int number) noexcept {
 }  // namespace terracut::mutants
 """
 
+STRANGE = ("array-bounds", "bool-operation", "conversion", "empty-body", "extra", "float-conversion", "int-in-bool-context",
+           "maybe-uninitialized", "misleading-indentation", "parentheses", "return-type", "sign-compare", "stringop-overflow",
+           "type-limits", "uninitialized", "unused-but-set-variable", "unused-function", "unused-parameter", "unused-value",
+           "unused-variable")  # fmt: skip
+
 
 def sample(sites, count, seed):
     """Draws sites that do not overlap; the same seed draws the same ones."""
@@ -88,8 +93,10 @@ def plant(repository, tree, numbered):
         by_file[site.file].append((site.begin, site.end, site.shape.format(id=number)))
     header = tree / "build/planted.hpp"
     put(header, HEADER.encode())
-    # Included by those that need it alone: before a precompiled header it would make that useless.
-    first = f'#include "{header}"\n'.encode()
+    # Included by those that need it alone: before a precompiled header it would make that useless. What the compiler finds
+    # strange about a mistake is no error: tests are to notice it.
+    quiet = "".join(f'#pragma GCC diagnostic ignored "-W{name}"\n' for name in STRANGE)
+    first = f'#include "{header}"\n{quiet}'.encode()
     for name, places in by_file.items():
         content = (repository / name).read_bytes()
         for begin, end, text in sorted(places, reverse=True):

@@ -43,6 +43,7 @@ enum class SensorModel : std::uint8_t {
   kPandarXt32,
   kPandarXt32m,
   kOt128,
+  kPandar128,
   kOuster32,  ///< OS0, OS1 or OS2; which of them, only the unit's metadata says.
   kOuster64,
   kOuster128
@@ -172,6 +173,15 @@ inline constexpr std::array kSensorTable{
               .lasers = kOt128Lasers,
               .has_unit_tables = true,
               .most_packets_per_second = 36'001,  // each packet holds one firing
+              .longest_packet_bytes = 893},
+    SensorRow{.model = SensorModel::kPandar128,
+              .name = "Hesai Pandar128",
+              .sensor = Sensor::kPandar128,
+              .word = "pandar128",
+              .stream_number = 18,
+              .lasers = kPandar128Lasers,
+              .has_unit_tables = true,
+              .most_packets_per_second = 36'001,
               .longest_packet_bytes = 893},
     SensorRow{.model = SensorModel::kOuster32,
               .name = "32-row Ouster",

@@ -22,7 +22,8 @@ enum class Sensor : std::uint8_t {
   kPandarXt32,
   kPandarXt32m,
   kOt128,
-  kOuster32,  ///< An OS0, OS1 or OS2 with 32 rows.
+  kPandar128,  ///< Pandar128E3X; a Pandar128E4X is an OT128.
+  kOuster32,   ///< An OS0, OS1 or OS2 with 32 rows.
   kOuster64,
   kOuster128
 };

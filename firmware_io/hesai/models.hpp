@@ -140,9 +140,33 @@ struct Ot128 : ModelOf<sensor::SensorModel::kOt128> {
   }
 };
 
+/// Pandar128. As of an OT128, but that the lasers of all 16 times are spread over the rows; its two
+/// kinds of blocks differ by at most 0.7 us. Some of the lasers fire a second time for what is
+/// nearer than 2.85 m, up to 17 us later, which is not corrected.
+struct Pandar128 : ModelOf<sensor::SensorModel::kPandar128> {
+  static constexpr int kDefaultColumns = 1800;  ///< Firings a frame at 10 Hz.
+  static constexpr std::size_t kGroups = 16;
+  [[nodiscard]] static constexpr std::size_t group(std::size_t channel) noexcept {
+    constexpr std::array<std::uint8_t, 128> kGroup{
+        2,  8,  0,  1,  2,  9,  3,  10, 11, 0,  1,  3,  8,  11, 9,  8,  10, 3,  10, 0,  1,  9,
+        11, 10, 2,  13, 14, 4,  14, 6,  6,  12, 4,  4,  13, 15, 5,  15, 14, 14, 6,  5,  4,  7,
+        12, 7,  13, 13, 7,  12, 12, 6,  4,  4,  15, 15, 5,  7,  5,  14, 13, 14, 5,  5,  12, 6,
+        6,  13, 15, 13, 7,  4,  13, 14, 7,  12, 6,  5,  12, 6,  15, 15, 15, 5,  7,  12, 4,  7,
+        14, 1,  0,  2,  3,  11, 9,  0,  8,  1,  1,  2,  10, 8,  9,  3,  2,  9,  8,  10, 3,  11,
+        11, 10, 0,  2,  10, 1,  9,  11, 0,  8,  2,  3,  11, 9,  1,  0,  3,  8};
+    return kGroup[channel];
+  }
+  [[nodiscard]] static constexpr std::int32_t group_ns(std::size_t group) noexcept {
+    constexpr std::array<std::int32_t, kGroups> kFired_ns{
+        0,      1'830,  3'660,  5'490,  11'890, 16'460, 18'745, 21'030,
+        27'778, 29'608, 31'438, 33'268, 35'098, 37'383, 41'953, 51'093};
+    return kFired_ns[group];
+  }
+};
+
 /// All models above, for code that folds over models.
 using Models = table::ModelList<Pandar40p, Pandar64, PandarQt64, PandarQt128, PandarXt16,
-                                PandarXt32, PandarXt32m, Ot128>;
+                                PandarXt32, PandarXt32m, Ot128, Pandar128>;
 /// A macro for code that needs the preprocessor: expands to DO(Template<model>) for each model
 /// above.
 #define TERRACUT_FOR_HESAI_MODELS(DO, Template) \
@@ -153,6 +177,7 @@ using Models = table::ModelList<Pandar40p, Pandar64, PandarQt64, PandarQt128, Pa
   DO(Template<terracut::hesai::PandarXt16>)     \
   DO(Template<terracut::hesai::PandarXt32>)     \
   DO(Template<terracut::hesai::PandarXt32m>)    \
-  DO(Template<terracut::hesai::Ot128>)
+  DO(Template<terracut::hesai::Ot128>)          \
+  DO(Template<terracut::hesai::Pandar128>)
 
 }  // namespace terracut::hesai

@@ -127,7 +127,15 @@ inline constexpr std::array kLayouts{
                  .column_ns = 55'556,
                  .least_count = 4,
                  .least_version = 128,
-                 .most_version = 136}};
+                 .most_version = 136},
+    PacketLayout{.model = sensor::SensorModel::kPandar128,
+                 .lasers = 128,
+                 .blocks = 2,
+                 .return_bytes = 3,
+                 .tail = kOt128Tail,
+                 .extra_bytes = 32,
+                 .column_ns = 55'556,
+                 .most_version = 127}};
 
 [[nodiscard]] constexpr const PacketLayout& layout_of(sensor::SensorModel model) noexcept {
   return *std::ranges::find(kLayouts, model, &PacketLayout::model);

@@ -45,7 +45,8 @@ TEST(SensorTable, KeepsTheWordsAndTheNumbersOnTheWire) {
                                                  {"ouster32", 14},
                                                  {"ouster64", 15},
                                                  {"ouster128", 16},
-                                                 {"ot128", 17}}));
+                                                 {"ot128", 17},
+                                                 {"pandar128", 18}}));
 }
 
 TEST(SensorTable, TellsModelsApartByWordAndProductNumber) {

@@ -137,17 +137,19 @@ TEST(SensorRecognition, BelievesTheNamedModelWhereTheProductIsNotKnown) {
   EXPECT_EQ(recognise_sensor_as(SensorModel::kVlp16, hdl32e), SensorModel::kHdl32e);
 }
 
-TEST(SensorRecognition, TellsAnOt128ByItsVersionOrItsName) {
+TEST(SensorRecognition, TellsAnOt128FromAPandar128ByTheVersionOrTheName) {
   Bytes payload(861);
   std::ranges::copy(Bytes{0xEE, 0xFF, 1, 4, 0, 0, 128, 2, 0, 4}, payload.begin());
-  for (const auto& [version, model] : {std::pair(0, SensorModel::kUnknown),
-                                       {127, SensorModel::kUnknown},
+  for (const auto& [version, model] : {std::pair(0, SensorModel::kPandar128),
+                                       {127, SensorModel::kPandar128},
                                        {128, SensorModel::kOt128},
                                        {136, SensorModel::kOt128},
                                        {137, SensorModel::kUnknown}}) {
     payload[4] = static_cast<std::uint8_t>(version);
     EXPECT_EQ(recognise_sensor(payload), model) << version;
     EXPECT_EQ(recognise_sensor_as(SensorModel::kOt128, payload), SensorModel::kOt128) << version;
+    EXPECT_EQ(recognise_sensor_as(SensorModel::kPandar128, payload), SensorModel::kPandar128)
+        << version;
     EXPECT_EQ(recognise_sensor_as(SensorModel::kPandarQt128, payload), model) << version;
   }
 }

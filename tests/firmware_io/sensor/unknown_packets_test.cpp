@@ -46,12 +46,12 @@ std::vector<std::uint8_t> beginning_with(std::vector<std::uint8_t> bytes, std::s
 }
 
 TEST(GuessOfUnknown, ReadsTheHeaderOfHesaisOtherModelsAndNamesTheNearest) {
-  const auto ot128 = beginning_with({0xEE, 0xFF, 1, 4, 0, 0, 128, 2, 0, 4}, 861);
+  const auto later = beginning_with({0xEE, 0xFF, 1, 4, 200, 0, 128, 2, 0, 4}, 861);
   EXPECT_EQ(
-      guess_of_unknown({.payload = ot128, .destination_port = 2368}),
+      guess_of_unknown({.payload = later, .destination_port = 2368}),
       "of a Hesai that is not read: 128 lasers in 2 blocks, protocol 1.4, the size of a "
       "Hesai OT128 or Pandar128's; of as many lasers are read: Hesai PandarQT128 (1095 bytes), "
-      "Hesai OT128 (861 bytes)");
+      "Hesai OT128 (861 bytes), Hesai Pandar128 (861 bytes)");
   const auto at128 = beginning_with({0xEE, 0xFF, 4, 3, 0, 0, 128, 2, 0, 4}, 1118);
   EXPECT_THAT(guess_of_unknown({.payload = at128}), HasSubstr("Hesai AT128"));
   const auto other = beginning_with({0xEE, 0xFF, 9, 9, 0, 0, 7, 3, 0, 4}, 500);

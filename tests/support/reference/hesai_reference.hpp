@@ -38,7 +38,7 @@ struct HesaiSheet {
     return first_block + block * block_bytes() + (blocks_have_a_start ? 2 : 0);
   }
 };
-/// Of an OT128, also at high resolution.
+/// Of an OT128 or a Pandar128, also at high resolution.
 [[nodiscard]] const HesaiSheet& hesai_sheet_of(sensor::SensorModel model, bool is_high = false);
 
 /// A plain, slow decoder of Hesai's data packets, single and dual return, written from the manuals,

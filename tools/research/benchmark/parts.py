@@ -87,6 +87,7 @@ MODELS = {
     "pandarxt32": ("PandarXT-32", "real, dual return"),
     "pandarxt32m": ("PandarXT-32M", "made"),
     "ot128": ("OT128", "made"),
+    "pandar128": ("Pandar128", "made"),
     "ouster32": ("Ouster, 32 rows", "made"),
     "ouster64": ("Ouster, 64 rows", "real, legacy profile"),
     "ouster128": ("Ouster, 128 rows", "four real, RNG19, RNG15 and FUSA dual profiles"),

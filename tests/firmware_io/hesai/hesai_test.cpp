@@ -16,147 +16,23 @@
 #include <unordered_map>
 
 #include "calib/hesai/hesai_csv.hpp"
-#include "firmware_io/capture/capture_source.hpp"
-#include "firmware_io/streams/first_seconds.hpp"
-#include "tests/support/allocation_counter.hpp"
+#include "tests/support/capture_payloads.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/places.hpp"
-#include "tests/support/reference/agreement.hpp"
+#include "tests/support/reference/decode_beside.hpp"
 #include "tests/support/reference/sensors.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace terracut::reference {
 namespace {
 
-/// What both decoders make of a stream.
-struct Both {
-  std::string difference;
-  frame::LossCounters losses;
-  std::vector<frame::FrameInfo> frames;
-  std::uint64_t decoded = 0;
-  bool dual_return = false;
-};
-
-Both decode_both(const std::vector<Payload>& payloads, const beams::BeamTable& table, int columns) {
-  const mount::Mount mount{.height_m = 1.9, .roll_rad = -0.02, .pitch_rad = 0.04};
-  HesaiReference reference(table);
-  ExpectedFrames expected(Velodyne<velodyne::Vlp16>::elevations(table), mount, columns);
-  Frames frames;
-  memory::FixedMemory memory;
-  decode::Decoder::Config config;
-  config.columns = columns;
-  config.returns_per_cell = 4;
-  decode::Decoder decoder(table, mount, config, memory);
-  HandedFrames handed;
-  Both both;
-  const auto keep = handed.keep();
-  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
-    both.frames.push_back(info);
-    keep(info, image);
-  };
-  for (const Payload& payload : payloads) {
-    const Packet plain = reference.decode(payload.bytes);
-    const auto reason = test::decode(
-        decoder, packet::Datagram{.payload = payload.bytes, .stamp_ns = payload.stamp_ns},
-        on_frame);
-    EXPECT_EQ(reason.has_value(), plain.refusal != Refusal::kNone);
-    if (plain.refusal == Refusal::kNone) expected.add(plain, frames.unwrap(plain));
-  }
-  both.dual_return = decoder.dual_return();
-  test::end_stream(decoder, on_frame);
-  both.difference = first_difference(expected, handed, columns);
-  both.losses = decoder.losses();
-  both.decoded = decoder.packets_decoded();
-  return both;
-}
-
 template <class Sensor>
 class HesaiStream : public testing::Test {};
 template <class... Model>
-using SensorsOf = testing::Types<Hesai<Model>..., Hesai<hesai::Ot128, true>>;
+using SensorsOf =
+    testing::Types<Hesai<Model>..., Hesai<hesai::Ot128, true>, Hesai<hesai::Pandar128, true>>;
 using Sensors = hesai::Models::In<SensorsOf>;
 TYPED_TEST_SUITE(HesaiStream, Sensors);
-
-TYPED_TEST(HesaiStream, AgreesWithAPlainSlowDecoderAtEverySpinAndInEitherReturnMode) {
-  for (const bool dual_return : {false, true}) {
-    for (const double spin_hz : {5.0, 9.3, 10.0, 20.0}) {
-      SCOPED_TRACE(testing::Message() << spin_hz << " Hz, dual " << dual_return);
-      std::mt19937 random(7);
-      const auto unit = TypeParam::random_unit(random);
-      const double firings = 1e6 / TypeParam::firing_us(dual_return) / spin_hz;
-      RotatingHead head{.spin_hz = spin_hz, .dual_return = dual_return, .seed = 3};
-      head.packets = static_cast<int>(3.2 * firings / TypeParam::firings_per_packet(dual_return));
-      auto payloads = TypeParam::payloads(head);
-      HesaiReference reference(unit);
-      for (Payload& payload : payloads) {
-        erase_returns_on_the_seam<TypeParam>(payload.bytes, reference.decode(payload.bytes));
-      }
-      const Both both = decode_both(payloads, unit, static_cast<int>(std::lround(firings)));
-      EXPECT_EQ(both.difference, "");
-      EXPECT_EQ(both.decoded, payloads.size());
-      EXPECT_EQ(both.dual_return, dual_return);
-      EXPECT_EQ(both.losses.network_gap_packets, 0U);
-      EXPECT_EQ(both.losses.azimuth_hole_columns, 0U);
-      EXPECT_EQ(both.losses.overflow_full_returns, 0U);
-      EXPECT_EQ(both.losses.clock_jumps, 0U);
-      ASSERT_GE(both.frames.size(), 4U);
-      for (std::size_t n = 1; n + 1 < both.frames.size(); ++n) {
-        EXPECT_TRUE(both.frames[n].complete) << n;
-      }
-    }
-  }
-}
-
-TYPED_TEST(HesaiStream, CountsLostPacketsByTheDevicesStamps) {
-  std::mt19937 random(7);
-  const auto payloads = TypeParam::payloads({.packets = 400});
-  for (const std::size_t lost : {1U, 3U, 50U}) {
-    std::vector<Payload> arrived = payloads;
-    arrived.erase(arrived.begin() + 200, arrived.begin() + 200 + static_cast<std::ptrdiff_t>(lost));
-    const Both both = decode_both(arrived, TypeParam::random_unit(random), 1800);
-    EXPECT_EQ(both.losses.network_gap_packets, lost);
-    EXPECT_EQ(both.losses.azimuth_hole_columns,
-              lost * static_cast<std::size_t>(TypeParam::kColumns));
-  }
-}
-
-TYPED_TEST(HesaiStream, ColumnsAreCompleteAsTheHeadPassesThem) {
-  std::mt19937 random(7);
-  const auto unit = TypeParam::random_unit(random);
-  for (const bool dual_return : {false, true}) {
-    const double firings = 1e5 / TypeParam::firing_us(dual_return);
-    RotatingHead head{.dual_return = dual_return};
-    head.packets = static_cast<int>(2.5 * firings / TypeParam::firings_per_packet(dual_return));
-    memory::FixedMemory memory;
-    decode::Decoder::Config config;
-    config.columns = static_cast<int>(std::lround(firings));
-    decode::Decoder decoder(unit, {}, config, memory);
-    int frames = 0, complete = 0, most_at_once = 0;
-    const auto on_frame = [&](const frame::FrameInfo&, const frame::MeasuredReturns&) noexcept {
-      ++frames;
-    };
-    for (const Payload& payload : TypeParam::payloads(head)) {
-      test::decode(decoder, {.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, on_frame);
-      const int now = decoder.arriving().complete_columns;
-      // The first frame begins wherever the stream does.
-      if (frames > 0) most_at_once = std::max(most_at_once, now - complete);
-      complete = now;
-    }
-    EXPECT_GE(frames, 2);
-    EXPECT_GT(complete, 0);
-    EXPECT_LE(most_at_once, 48);
-  }
-}
-
-TYPED_TEST(HesaiStream, HasNoHolesWherePacketsCameLateAndSwapped) {
-  std::mt19937 random(7);
-  auto payloads = TypeParam::payloads({.packets = 400});
-  std::swap(payloads[200], payloads[202]);
-  const Both both = decode_both(payloads, TypeParam::random_unit(random), 1800);
-  EXPECT_EQ(both.decoded, payloads.size());
-  EXPECT_EQ(both.losses.network_gap_packets, 0U);
-  EXPECT_EQ(both.losses.azimuth_hole_columns, 0U);
-}
 
 TYPED_TEST(HesaiStream, LosesNothingInASectorThatItIsBlindInAndCountsWhatIsLostBesideIt) {
   constexpr std::size_t kLearnt = 5, kLost = 3;
@@ -242,50 +118,6 @@ TYPED_TEST(HesaiStream, GoesOnAcrossTheEndsOfDaysMonthsAndYears) {
   }
 }
 
-TYPED_TEST(HesaiStream, IsDecodedWithoutAllocating) {
-  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
-  for (const bool dual_return : {false, true}) {
-    auto payloads = TypeParam::payloads({.dual_return = dual_return, .packets = 500});
-    payloads.erase(payloads.begin() + 200, payloads.begin() + 210);
-    std::swap(payloads[300], payloads[301]);
-    TypeParam::set_azimuth(payloads[400].bytes, 0, 36'000);
-    memory::FixedMemory memory;
-    decode::Decoder decoder(beams::built_in_table(TypeParam::sheet().model), {}, {}, memory);
-    const auto on_frame = [](const frame::FrameInfo&, const frame::MeasuredReturns&) noexcept {};
-    const std::size_t planned = memory.total_bytes();
-    const std::uint64_t before = test::allocations_of_this_thread();
-    for (const Payload& payload : payloads) {
-      test::decode(decoder, {.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, on_frame);
-    }
-    test::end_stream(decoder, on_frame);
-    EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
-    EXPECT_EQ(memory.total_bytes(), planned);
-    EXPECT_EQ(decoder.packets_decoded(), 489U);
-  }
-}
-
-TYPED_TEST(HesaiStream, IsFoundByItselfWithItsNominalTable) {
-  for (const bool dual_return : {false, true}) {
-    streams::FirstSeconds::Config config;
-    config.place = "0.0.0.0:2368";
-    streams::FirstSeconds first(config);
-    RotatingHead head{.dual_return = dual_return, .share_of_returns = 0.1};
-    head.packets = static_cast<int>(0.5e6 / TypeParam::firing_us(dual_return) /
-                                    TypeParam::firings_per_packet(dual_return));
-    for (const Payload& payload : TypeParam::payloads(head)) {
-      first.add({.payload = payload.bytes, .stamp_ns = payload.stamp_ns});
-    }
-    ASSERT_TRUE(first.is_enough()) << first.waits_for();
-    const auto found = first.conclude();
-    ASSERT_TRUE(found) << found.error().message;
-    EXPECT_EQ(found->model, TypeParam::sheet().model);
-    EXPECT_NEAR(found->spin_hz, 10, 0.03);
-    EXPECT_EQ(found->dual_return, dual_return);
-    EXPECT_NEAR(found->columns, 1e5 / TypeParam::firing_us(dual_return), 1);
-    EXPECT_TRUE(calib::origin_of(found->calibration).starts_with("nominal table of the Hesai"));
-  }
-}
-
 // --- Real captures ---
 
 struct RealCapture {
@@ -295,16 +127,6 @@ struct RealCapture {
   std::uint64_t packets;
   std::size_t points;  ///< In nebula's cloud.
 };
-
-std::vector<Payload> read_payloads(const std::filesystem::path& path) {
-  std::vector<Payload> payloads;
-  auto source = capture::CaptureSource::open(path, {});
-  if (!source) return payloads;
-  for (auto next = source->next(); next && *next; next = source->next()) {
-    payloads.push_back({{(*next)->payload.begin(), (*next)->payload.end()}, (*next)->stamp_ns});
-  }
-  return payloads;
-}
 
 struct Point {
   float x_m = 0, y_m = 0, z_m = 0;
@@ -368,7 +190,7 @@ class RealHesai : public testing::TestWithParam<RealCapture> {
         hesai::read_hesai_csv(folder / (std::string(GetParam().table) + ".csv"), GetParam().model);
     ASSERT_TRUE(table) << table.error().message;
     table_ = *table;
-    payloads_ = read_payloads(folder / (std::string(GetParam().file) + ".pcap"));
+    payloads_ = test::payloads_of(folder / (std::string(GetParam().file) + ".pcap"));
     ASSERT_EQ(payloads_.size(), GetParam().packets);
   }
   beams::BeamTable table_;
@@ -403,7 +225,7 @@ TEST_P(RealHesai, HasEveryPointThatNebulaFindsWithin2Mm) {
 }
 
 TEST_P(RealHesai, EqualsAPlainSlowDecoderAndLosesNothing) {
-  const Both both = decode_both(payloads_, table_, 1800);
+  const Beside both = decode_beside<HesaiReference>(payloads_, table_, elevations_of(table_), 1800);
   EXPECT_EQ(both.difference, "");
   EXPECT_EQ(both.decoded, GetParam().packets);
   EXPECT_TRUE(both.dual_return);

@@ -17,16 +17,16 @@
 #include <vector>
 
 #include "calib/ouster/ouster_metadata.hpp"
-#include "firmware_io/capture/capture_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/ouster/head_reader.hpp"
 #include "firmware_io/packet/sensor_recognition.hpp"
 #include "firmware_io/streams/first_seconds.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/capture_payloads.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/md5.hpp"
 #include "tests/support/places.hpp"
-#include "tests/support/reference/agreement.hpp"
+#include "tests/support/reference/decode_beside.hpp"
 #include "tests/support/reference/ouster_reference.hpp"
 
 namespace terracut::reference {
@@ -41,44 +41,11 @@ std::vector<double> elevations(const OusterCalibration& unit) {
   return elevations;
 }
 
-/// What both decoders make of a stream.
-struct Both {
-  std::string difference;
-  frame::LossCounters losses;
-  std::vector<frame::FrameInfo> frames;
-  std::uint64_t decoded = 0, returns = 0;
-  bool dual_return = false;
-};
-
-Both decode_both(const std::vector<Payload>& payloads, const OusterCalibration& unit) {
-  const mount::Mount mount{.height_m = 1.9, .roll_rad = -0.02, .pitch_rad = 0.04};
-  const OusterReference reference(unit);
-  ExpectedFrames expected(elevations(unit), mount, unit.columns_per_frame);
+Beside decode_both(const std::vector<Payload>& payloads, const OusterCalibration& unit) {
   Frames frames;
-  memory::FixedMemory memory;
-  decode::Decoder decoder(unit, mount, {}, memory);
-  HandedFrames handed;
-  Both both;
-  const auto keep = handed.keep();
-  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
-    both.frames.push_back(info);
-    both.returns += info.returns;
-    keep(info, image);
-  };
-  for (const Payload& payload : payloads) {
-    const Packet plain = reference.decode(payload.bytes);
-    const auto reason = test::decode(
-        decoder, packet::Datagram{.payload = payload.bytes, .stamp_ns = payload.stamp_ns},
-        on_frame);
-    EXPECT_EQ(as_refusal(reason), plain.refusal);
-    if (plain.refusal == Refusal::kNone) expected.add(plain, frames.unwrap(plain));
-  }
-  both.dual_return = decoder.dual_return();
-  test::end_stream(decoder, on_frame);
-  both.difference = first_difference(expected, handed, unit.columns_per_frame);
-  both.losses = decoder.losses();
-  both.decoded = decoder.packets_decoded();
-  return both;
+  return decode_beside<OusterReference>(
+      payloads, unit, elevations(unit), {}, unit.columns_per_frame,
+      [&](const Payload&, const Packet& packet) { return frames.unwrap(packet); });
 }
 
 struct Made {
@@ -113,7 +80,7 @@ TEST_P(OusterStream, AgreesWithAPlainSlowDecoderInEveryMode) {
     const int packets = static_cast<int>(3.2 * columns / 16);
     const auto payloads =
         ouster_payloads(made, {.packets = packets, .share_of_returns = 0.5, .seed = 3});
-    const Both both = decode_both(payloads, made);
+    const Beside both = decode_both(payloads, made);
     EXPECT_EQ(both.difference, "");
     EXPECT_EQ(both.decoded, payloads.size());
     EXPECT_EQ(both.dual_return, ouster_sheet_of(GetParam().profile).is_dual);
@@ -134,7 +101,7 @@ TEST_P(OusterStream, CountsLostPacketsByTheUnitsStamps) {
   for (const std::size_t lost : {1U, 3U, 40U}) {
     std::vector<Payload> arrived = payloads;
     arrived.erase(arrived.begin() + 100, arrived.begin() + 100 + static_cast<std::ptrdiff_t>(lost));
-    const Both both = decode_both(arrived, made);
+    const Beside both = decode_both(arrived, made);
     EXPECT_EQ(both.losses.network_gap_packets, lost);
     EXPECT_EQ(both.losses.azimuth_hole_columns, lost * 16);
   }
@@ -144,7 +111,7 @@ TEST_P(OusterStream, HasNoHolesWherePacketsCameLateAndSwapped) {
   const OusterCalibration made = usual();
   auto payloads = ouster_payloads(made, {.packets = 200, .share_of_returns = 0.1});
   std::swap(payloads[100], payloads[102]);
-  const Both both = decode_both(payloads, made);
+  const Beside both = decode_both(payloads, made);
   EXPECT_EQ(both.decoded, payloads.size());
   EXPECT_EQ(both.losses.network_gap_packets, 0U);
   EXPECT_EQ(both.losses.azimuth_hole_columns, 0U);
@@ -197,7 +164,7 @@ TEST_P(OusterStream, BelievesPacketsThatContradictItsMetadatasWindow) {
   told.window = {256, 767};
   const auto payloads =
       ouster_payloads(usual(), {.first_deg = 0, .packets = 6 * 64, .share_of_returns = 0.2});
-  const Both both = decode_both(payloads, told);
+  const Beside both = decode_both(payloads, told);
   EXPECT_EQ(both.difference, "");
   EXPECT_EQ(both.decoded, payloads.size());
   EXPECT_EQ(both.losses.network_gap_packets, 0U);
@@ -217,7 +184,7 @@ TEST_P(OusterStream, LeavesInvalidColumnsOutAndDecodesTheRest) {
   // An invalid column may be empty but for its place.
   const auto at = payloads[80].bytes.begin() + sheet.column_at(made.format.rows, 1);
   std::fill(at, at + sheet.column_bytes(made.format.rows), std::uint8_t{0});
-  const Both both = decode_both(payloads, made);
+  const Beside both = decode_both(payloads, made);
   EXPECT_EQ(both.difference, "");
   EXPECT_EQ(both.decoded, payloads.size());
   EXPECT_EQ(both.losses.network_gap_packets, 0U);
@@ -357,12 +324,7 @@ class RealOuster : public testing::TestWithParam<RealCapture> {
         ouster::read_ouster_metadata(folder_ / (std::string(GetParam().metadata) + ".json"));
     ASSERT_TRUE(unit) << unit.error().message;
     unit_ = *unit;
-    auto source = capture::CaptureSource::open(folder_ / (std::string(GetParam().file) + ".pcap"),
-                                               {.port = 7502});
-    ASSERT_TRUE(source);
-    for (auto next = source->next(); next && *next; next = source->next()) {
-      payloads_.push_back({{(*next)->payload.begin(), (*next)->payload.end()}, (*next)->stamp_ns});
-    }
+    payloads_ = test::payloads_of(folder_ / (std::string(GetParam().file) + ".pcap"), 7502);
     ASSERT_EQ(payloads_.size(), GetParam().packets);
   }
   std::filesystem::path folder_;
@@ -371,7 +333,7 @@ class RealOuster : public testing::TestWithParam<RealCapture> {
 };
 
 TEST_P(RealOuster, EqualsTheMakersFormulaWithin1MmAndLosesNothing) {
-  const Both both = decode_both(payloads_, unit_);
+  const Beside both = decode_both(payloads_, unit_);
   EXPECT_EQ(both.difference, "");
   EXPECT_EQ(both.decoded, GetParam().packets);
   EXPECT_EQ(both.returns, GetParam().returns);

@@ -89,6 +89,13 @@ struct Ruby128 {
   }
 };
 
+/// Of each laser.
+inline std::vector<double> elevations_of(const beams::BeamTable& table) {
+  std::vector<double> elevations;
+  for (const beams::TableBeam& laser : table.lasers) elevations.push_back(laser.elevation_rad);
+  return elevations;
+}
+
 /// Of Velodyne's smaller models.
 template <class Model>
 struct Velodyne {
@@ -98,6 +105,7 @@ struct Velodyne {
   static constexpr int kLasers = Model::kLasers;
   static constexpr int kColumns = Model::kLayout.columns(false) * Model::kChannels / kLasers;
   static constexpr int kFirstBlock = 0, kBlockBytes = 100, kBlocks = 12;
+  static constexpr int kImageColumns = Model::kLayout.columns(false);  ///< That a packet fills.
 
   static const VelodyneSheet& sheet() { return sheet_of(Model::kModel); }
   static double firing_us(bool) { return sheet().firing_us; }
@@ -108,9 +116,7 @@ struct Velodyne {
     return random_table(Model::kModel, random);
   }
   static std::vector<double> elevations(const Calibration& calibration) {
-    std::vector<double> elevations;
-    for (const auto& laser : calibration.lasers) elevations.push_back(laser.elevation_rad);
-    return elevations;
+    return elevations_of(calibration);
   }
   static std::vector<Payload> payloads(const RotatingHead& head) {
     return velodyne_payloads(sheet(), head);
@@ -136,7 +142,7 @@ using Hdl32e = Velodyne<velodyne::Hdl32e>;
 using Vlp32c = Velodyne<velodyne::Vlp32c>;
 using Vls128 = Velodyne<velodyne::Vls128>;
 
-/// Of Hesai's models; the OT128 also at high resolution.
+/// Of Hesai's models; the OT128 and the Pandar128 also at high resolution.
 template <class Model, bool kIsHigh = false>
 struct Hesai {
   using Decoder = decode::Decoder;
@@ -145,7 +151,7 @@ struct Hesai {
   static constexpr int kLasers = Model::kLasers, kColumns = Model::kLayout.blocks;
   static constexpr int kFirstBlock = static_cast<int>(Model::kLayout.header_bytes);
   static constexpr int kBlockBytes = static_cast<int>(Model::kLayout.block_at(1)) - kFirstBlock;
-  static constexpr int kBlocks = Model::kLayout.blocks;
+  static constexpr int kBlocks = Model::kLayout.blocks, kImageColumns = kBlocks;
 
   static const HesaiSheet& sheet() { return hesai_sheet_of(Model::kModel, kIsHigh); }
   static double firing_us(bool) { return sheet().block_us; }
@@ -156,7 +162,7 @@ struct Hesai {
     return random_table(Model::kModel, random);
   }
   static std::vector<double> elevations(const Calibration& calibration) {
-    return Velodyne<velodyne::Vlp16>::elevations(calibration);
+    return elevations_of(calibration);
   }
   static std::vector<Payload> payloads(const RotatingHead& head) {
     return hesai_payloads(sheet(), head);

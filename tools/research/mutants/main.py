@@ -148,7 +148,7 @@ class Trial:
             survivors = []
             for number in open_ones:
                 part = [name for name in reached_by[number] if shortest <= seconds[name] < longest]
-                noticed = self.suites.run(part, number, limit_s=20 + 5 * max(map(seconds.get, part))) if part else None
+                noticed = self.suites.run(part, number, limit_s=20 + 5 * sum(map(seconds.get, part))) if part else None
                 if noticed:
                     yield self.numbered[number], noticed
                 else:

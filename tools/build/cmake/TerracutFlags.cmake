@@ -50,7 +50,7 @@ endif()
 # What every test and replayed fuzzer may include is precompiled for all of them (terracut_test_places).
 target_link_libraries(terracut_test_flags INTERFACE GTest::gtest GTest::gmock)
 
-# Only GCC precompiles: what clang makes of it names the checkout, so no compiler cache may pass it on.
-if(NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
+# Clang's precompiled headers would hold the hour they were made, which no compiler cache knows again.
+if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+  target_compile_options(terracut_flags INTERFACE "SHELL:-Xclang -fno-pch-timestamp")
 endif()

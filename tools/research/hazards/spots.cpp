@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "local_ground.hpp"
 
@@ -21,7 +22,10 @@ Spots::Spots(const LabelledFrame& frame) : frame_(frame), places_(frame) {
     }
   }
   for (auto& of_kind : candidates_) {
-    for (auto& of_bin : of_kind) std::ranges::stable_sort(of_bin, {}, &Candidate::range_m);
+    for (auto& of_bin : of_kind) {
+      std::ranges::sort(of_bin, {},
+                        [](const Candidate& one) { return std::pair(one.range_m, one.index); });
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "calib/beams/angle.hpp"
+#include "calib/ouster/ouster_product.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -114,6 +115,9 @@ TEST(OusterMetadata, NamesWhatIsWrongWithIt) {
   EXPECT_NE(refusal(bent("\"pixels_per_column\": 32", "\"pixels_per_column\": 64"))
                 .find("32 beams for 64 rows"),
             std::string::npos);
+  EXPECT_NE(refusal(bent("[22.5, ", "[22.5, 22.4, "))
+                .find("33 beam_altitude_angles and 32 beam_azimuth_angles"),
+            std::string::npos);
   EXPECT_NE(refusal(bent("[22.5, ", "[90.5, ")).find("beam 1"), std::string::npos);
   EXPECT_NE(refusal(bent("[22.5, ", "[null, ")).find("beam_altitude_angles"), std::string::npos);
   EXPECT_NE(refusal(bent("\"lidar_to_sensor_transform\": [-1", "\"lidar_to_sensor_transform\": [1"))
@@ -160,6 +164,16 @@ TEST(OusterMetadata, OfRealUnitsIsRead) {
     EXPECT_NEAR(unit->beam_origin_m, wanted.origin_m, 1e-9);
     EXPECT_EQ(unit->columns_per_frame, 1024);
     EXPECT_EQ(unit->rate_hz, 10);
+  }
+}
+
+TEST(OusterProduct, HasBeamsFromItsHighestToAsFarBelow) {
+  for (const auto& [product, highest_deg] :
+       {std::pair(Product::kOs0, 45.0), {Product::kOs1, 22.5}, {Product::kOs2, 11.25}}) {
+    const OusterCalibration unit = nominal_product(product, sensor::SensorModel::kOuster64);
+    ASSERT_EQ(unit.lasers.size(), 64U);
+    EXPECT_NEAR(beams::rad_to_deg(unit.lasers.front().elevation_rad), highest_deg, 1e-9);
+    EXPECT_NEAR(beams::rad_to_deg(unit.lasers.back().elevation_rad), -highest_deg, 1e-9);
   }
 }
 

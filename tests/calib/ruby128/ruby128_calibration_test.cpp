@@ -144,8 +144,12 @@ TEST(Ruby128Calibration, RefusesATableWithoutAzimuthOffsets) {
   EXPECT_THAT(
       validated([](auto& c) {
         for (Ruby128Channel& channel : c.channels) channel.azimuth_offset_rad = 0;
+        c.channels[10].azimuth_offset_rad = beams::deg_to_rad(-0.5);
+        c.channels[20].azimuth_offset_rad = beams::deg_to_rad(0.5);
       }),
-      calib::IsRefusedWith(ErrorCode::kMalformed, HasSubstr("all azimuth offsets lie between")));
+      calib::IsRefusedWith(ErrorCode::kMalformed,
+                           HasSubstr("all azimuth offsets lie between -0.500 deg (channel 11) and "
+                                     "0.500 deg (channel 21)")));
 }
 
 TEST(Ruby128Calibration, RefusesATableSortedByElevation) {

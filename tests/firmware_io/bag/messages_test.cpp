@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "firmware_io/bag/cdr_reader.hpp"
 #include "firmware_io/bag/packet_messages.hpp"
@@ -114,6 +115,33 @@ TEST(TransformTree, KeepsTheNewestThatIsSetAndNoneThatIsNotFinite) {
   const auto T = tree.transform("b", "a");
   ASSERT_TRUE(T);
   EXPECT_EQ((*T)[11], 2);
+}
+
+TEST(TransformTree, TurnsPointsAsTheQuaternionDoes) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> any;
+  for (int n = 0; n < 20; ++n) {
+    const std::array<double, 4> xyzw{any(random), any(random), any(random), any(random)};
+    const std::array<double, 3> v{any(random), any(random), any(random)};
+    TransformTree tree;
+    tree.set("a", "b", {1, 2, 3}, xyzw);
+    const auto T = tree.transform("b", "a");
+    ASSERT_TRUE(T);
+    const auto turned = mount::apply(*T, v[0], v[1], v[2]);
+    // v + 2 u x (u x v + w v), u and w those of the unit quaternion.
+    const double norm = std::hypot(std::hypot(xyzw[0], xyzw[1]), std::hypot(xyzw[2], xyzw[3]));
+    const auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+      return std::array{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                        a[0] * b[1] - a[1] * b[0]};
+    };
+    const std::array u{xyzw[0] / norm, xyzw[1] / norm, xyzw[2] / norm};
+    auto inner = cross(u, v);
+    for (std::size_t i = 0; i < 3; ++i) inner[i] += xyzw[3] / norm * v[i];
+    const auto half = cross(u, inner);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(turned[i], v[i] + 2 * half[i] + 1.0 + static_cast<double>(i), 1e-12);
+    }
+  }
 }
 
 TEST(TransformTree, FollowsNoCircle) {

@@ -228,5 +228,16 @@ TEST_F(FrameBuilderTest, KeepsThePacketStampsOfEachFrame) {
   EXPECT_EQ(handed[0].info.packets + handed[1].info.packets, 4U);
 }
 
+TEST(FrameBuilderConfig, MayHaveOneRowAndOneColumnButNotNone) {
+  memory::FixedMemory memory;
+  FrameBuilder::Config config = small();
+  config.shape = {.rows = 1, .columns = 1};
+  EXPECT_NO_THROW(FrameBuilder(config, memory));
+  config.shape = {.rows = 0, .columns = 1};
+  EXPECT_THROW(FrameBuilder(config, memory), std::invalid_argument);
+  config.shape = {.rows = 1, .columns = 0};
+  EXPECT_THROW(FrameBuilder(config, memory), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace terracut::decode

@@ -35,6 +35,12 @@ TEST(SensorProbe, GivesAHeadThatKeepsNoNominalRateColumnsOfItsOwn) {
   EXPECT_EQ(columns_of(9.8, 48'000), 2083);
 }
 
+TEST(SensorProbe, GivesAModelItHasNotHeardTheColumnsOfTenTurnsASecond) {
+  EXPECT_EQ(SensorProbe().columns(SensorModel::kHdl64e), 2083);
+  EXPECT_EQ(SensorProbe().columns(SensorModel::kRuby128), 1800);
+  EXPECT_EQ(SensorProbe().columns(SensorModel::kPandarXt32), 2000);
+}
+
 TEST(SensorProbe, IsNotDeceivedByLostPackets) {
   EXPECT_EQ(columns_of(10, 48'000, 2), 2083);
 }

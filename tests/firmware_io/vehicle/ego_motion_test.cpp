@@ -197,7 +197,9 @@ TEST_F(EgoMotionTest, WhatAReaderThatWasAwayMissesIsCountedAndOldValuesAreNotUse
 TEST_F(EgoMotionTest, SettingsOutsideTheirRangeAreRefused) {
   EXPECT_THROW(EgoMotion({.max_age_ns = 0}, memory_), std::invalid_argument);
   EXPECT_THROW(EgoMotion({.max_age_ns = 1'000'000'001}, memory_), std::invalid_argument);
-  EXPECT_THROW(EgoMotion({.sensor_ahead_m = 1e9}, memory_), std::invalid_argument);
+  EXPECT_THROW(EgoMotion({.sensor_ahead_m = -100.5}, memory_), std::invalid_argument);
+  EXPECT_THROW(EgoMotion({.sensor_left_m = 100.5}, memory_), std::invalid_argument);
+  EXPECT_NO_THROW(EgoMotion({.sensor_ahead_m = 100, .sensor_left_m = -100}, memory_));
   EXPECT_THROW(EgoMotion({.waiting = 0}, memory_), std::invalid_argument);
   EXPECT_THROW(EgoMotion({.kept = 1}, memory_), std::invalid_argument);
 }

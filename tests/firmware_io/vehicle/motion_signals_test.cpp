@@ -265,8 +265,21 @@ TEST(MotionSignals, RefusesWhatCannotBeMeantByName) {
   EXPECT_THAT(refused([](auto& c) { c.max_age_s = 0; }), HasSubstr("max_age 0 s"));
   EXPECT_THAT(refused([](auto& c) { c.max_age_s = NAN; }), HasSubstr("max_age nan s"));
   EXPECT_THAT(refused([](auto& c) { c.timeout_s = 0.05; }), HasSubstr("timeout 0.05 s"));
+  EXPECT_THAT(refused([](auto& c) { c.max_age_s = c.timeout_s = 10.5; }),
+              HasSubstr("max_age 10.5 s: expected a time from 0.001 to 10 s"));
+  EXPECT_THAT(refused([](auto& c) { c.timeout_s = 60.5; }), HasSubstr("timeout 60.5 s"));
   EXPECT_THAT(refused([](auto& c) { c.speed.signals = {"m"}; }, ErrorCode::kUnsupported),
               HasSubstr("multiplexed"));
+}
+
+TEST(MotionSignals, TheShortestAndTheLongestTimesAreTaken) {
+  MotionSignalsConfig config = plain();
+  config.max_age_s = config.timeout_s = 0.001;
+  EXPECT_TRUE(make(config));
+  config.max_age_s = config.timeout_s = 10;
+  EXPECT_TRUE(make(config));
+  config.timeout_s = 60;
+  EXPECT_TRUE(make(config));
 }
 
 TEST(MotionUnits, KnowsTheUnitsOfCarsInTheirSpellings) {

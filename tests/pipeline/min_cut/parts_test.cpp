@@ -338,5 +338,14 @@ TEST(TestProblem, HasSymmetricWeights) {
   expect_symmetric_weights(problem.shape, problem.seeds, problem.weights());
 }
 
+TEST(CutReport, CountsTheOperationsOfAllItsSteps) {
+  min_cut::CutReport report;
+  report.persistency_ops = 1;
+  report.greedy_push_ops = 10;
+  report.boykov_kolmogorov_ops = 100;
+  report.push_relabel_ops = 1000;
+  EXPECT_EQ(report.operations(), 1111);
+}
+
 }  // namespace
 }  // namespace terracut::test

@@ -234,6 +234,18 @@ TEST_F(DumpFolderTest, RefusesAFolderThatIsNone) {
   EXPECT_TRUE(fs::is_directory(wrong.folder));
 }
 
+TEST_F(DumpFolderTest, RefusesToKeepNothing) {
+  DumpFolderLimits bad = limits();
+  bad.most_dumps = 0;
+  EXPECT_THROW(DumpFolder{bad}, std::invalid_argument);
+  bad = limits();
+  bad.most_bytes = 0;
+  EXPECT_THROW(DumpFolder{bad}, std::invalid_argument);
+  bad = limits();
+  bad.folder.clear();
+  EXPECT_THROW(DumpFolder{bad}, std::invalid_argument);
+}
+
 TEST_F(DumpFolderTest, RefusesNamesThatAreNoPartOfAFileName) {
   for (const char* name : {"", "a/b", "../a", "a b", "\n"}) {
     DumpFolderLimits bad = limits();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware_io/bag/cdr_reader.hpp"
 #include "pipeline/ros_messages/cdr_writer.hpp"
 #include "pipeline/ros_messages/diagnostic_array.hpp"
 #include "pipeline/ros_messages/point_cloud.hpp"
@@ -71,6 +72,43 @@ TEST(PointCloud, HoldsThePointsThatBelongToIt) {
   EXPECT_EQ(width_of(CloudOf::kGround), 2U) << "road and other ground";
   EXPECT_EQ(width_of(CloudOf::kRoad), 1U);
   EXPECT_EQ(width_of(CloudOf::kObstacles), 1U);
+}
+
+TEST(PointCloud, DescribesItsFieldsAsASensorMsgsPointCloud2Does) {
+  publish::LabelledFrame frame = small_frame();
+  for (const bool with_height : {false, true}) {
+    if (with_height) frame.heights_m.assign(frame.points.size(), 0.5F);
+    Bytes message;
+    write_point_cloud(frame, CloudOf::kAll, "vehicle", message);
+    bag::CdrReader from(message);
+    EXPECT_EQ(from.number<std::int32_t>(), 5);
+    EXPECT_EQ(from.number<std::uint32_t>(), 250'000'000U);
+    EXPECT_EQ(from.text(), "vehicle");
+    EXPECT_EQ(from.number<std::uint32_t>(), 1U) << "rows";
+    EXPECT_EQ(from.number<std::uint32_t>(), 4U) << "columns";
+    std::vector<std::string> fields;
+    for (std::size_t left = from.length(1); left > 0; --left) {
+      std::string field(from.text());
+      field += " " + std::to_string(from.number<std::uint32_t>());
+      field += " " + std::to_string(from.number<std::uint8_t>());
+      field += " " + std::to_string(from.number<std::uint32_t>());
+      fields.push_back(field);
+    }
+    std::vector<std::string> expected{"x 0 7 1",          "y 4 7 1",     "z 8 7 1",
+                                      "intensity 12 7 1", "ring 16 4 1", "label 18 2 1",
+                                      "time 20 7 1"};
+    if (with_height) expected.emplace_back("height_above_ground 24 7 1");
+    EXPECT_EQ(fields, expected);
+    EXPECT_EQ(from.number<bool>(), false) << "little-endian";
+    const std::size_t step = from.number<std::uint32_t>();
+    EXPECT_EQ(step, with_height ? 28U : 24U);
+    EXPECT_EQ(from.number<std::uint32_t>(), 4 * step);
+    EXPECT_EQ(from.byte_sequence().size(), 4 * step);
+    (void)from.number<bool>();  // is_dense
+    EXPECT_FALSE(from.failed());
+    (void)from.bytes(1);
+    EXPECT_TRUE(from.failed()) << "nothing follows";
+  }
 }
 
 /// Of a cloud that ends with it.

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <set>
 
+#include "firmware_io/bag/cdr_reader.hpp"
+
 namespace terracut::ros_messages {
 namespace {
 
@@ -101,8 +103,54 @@ TEST(ObjectMessages, AreAsLongAsTheirDefinitionsSay) {
   const std::size_t first = 16 + 4 + (16 + 4) + 80 + 6;
   const std::size_t second = (first + 2) + (16 + 4) + 4 + 80 + 6;
   EXPECT_EQ(message.size(), 4 + second);
+}
+
+TEST(ObjectMessages, MarkersAreReadToTheirEndAsVisualizationMsgsDefineThem) {
+  publish::LabelledFrame frame;
+  frame.objects = {box_turned(0), box_turned(1)};
+  std::vector<std::byte> message;
   write_object_markers(frame, "abc", message);
-  EXPECT_GT(message.size(), 2 * 24 * 24U);
+  bag::CdrReader from(message);
+  const auto header = [&] {
+    (void)from.number<std::int32_t>();
+    (void)from.number<std::uint32_t>();
+    return from.text();
+  };
+  std::size_t places = 0;
+  for (std::size_t left = from.length(1); left > 0; --left) {
+    EXPECT_EQ(header(), "abc");
+    EXPECT_FALSE(from.text().empty()) << "its namespace";
+    (void)from.number<std::int32_t>();          // id
+    EXPECT_EQ(from.number<std::int32_t>(), 5);  // LINE_LIST
+    EXPECT_EQ(from.number<std::int32_t>(), 0);  // ADD
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(from.number<double>(), 0);
+    EXPECT_EQ(from.number<double>(), 1) << "not turned";
+    EXPECT_GT(from.number<double>(), 0) << "the lines' width";
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(from.number<double>(), 0);
+    for (int i = 0; i < 3; ++i) (void)from.number<float>();
+    EXPECT_GT(from.number<float>(), 0) << "to be seen";
+    EXPECT_EQ(from.number<std::int32_t>(), 0);  // lifetime
+    EXPECT_EQ(from.number<std::uint32_t>(), 0U);
+    EXPECT_FALSE(from.number<bool>());  // frame_locked
+    const std::size_t points = from.length(24);
+    for (std::size_t i = 0; i < 3 * points; ++i) (void)from.number<double>();
+    places += points;
+    EXPECT_EQ(from.length(1), 0U) << "colours";
+    EXPECT_EQ(from.text(), "") << "texture";
+    EXPECT_EQ(header(), "");
+    EXPECT_EQ(from.text(), "");
+    EXPECT_EQ(from.length(1), 0U);
+    EXPECT_EQ(from.length(1), 0U) << "its coordinates";
+    EXPECT_EQ(from.text(), "");
+    EXPECT_EQ(from.text(), "") << "mesh";
+    EXPECT_EQ(from.text(), "");
+    EXPECT_EQ(from.length(1), 0U);
+    EXPECT_FALSE(from.number<bool>());
+  }
+  EXPECT_EQ(places, 2 * (24 + 6U));
+  EXPECT_FALSE(from.failed());
+  (void)from.bytes(1);
+  EXPECT_TRUE(from.failed()) << "nothing follows";
 }
 
 }  // namespace

@@ -40,6 +40,12 @@ TEST_F(NewsOfAView, SayOnceWhatIsInTheWayAndOnceThatItIsGone) {
   EXPECT_EQ(look(16, kClear).text, "");
 }
 
+TEST_F(NewsOfAView, SayThatATroubleIsOverAfterFiveSecondsAndNotBefore) {
+  EXPECT_NE(look(0, kSpray).text, "");
+  EXPECT_EQ(look(4.999, kClear).text, "");
+  EXPECT_NE(look(5, kClear).text, "");
+}
+
 TEST_F(NewsOfAView, TakeWhatComesAndGoesForOneTrouble) {
   EXPECT_NE(look(0, kSpray).text, "");
   for (double at_s = 1; at_s < 60; at_s += 2) {

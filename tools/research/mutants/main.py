@@ -10,7 +10,7 @@ Mistakes are made by rule, from clang's syntax tree: a comparison off by its bou
 a constant off by one, a sign or negation lost, a statement dropped, two arguments of one type swapped, a function that returns at
 once. All drawn ones are compiled into one program, in a copy of the tree (build/mutants/tree); a number in the environment makes
 one of them. The suites of `./tools/test` run once without any, which shows whom each is reached by; then, for each mistake, those
-that reach it, until one fails: first the quick ones for all mistakes, then the slower ones for those not noticed yet. Verdicts go into
+that reach it, until one fails: first the likeliest ones for all mistakes, then others for those not noticed yet. Verdicts go into
 build/mutants/verdicts.json as they fall, and a run that broke off goes on there. Exit code 1 where a mistake was not noticed.
 
 A mistake that survives may change nothing anyone can see (a bound that is never met): look before you write a test.
@@ -23,6 +23,7 @@ import math
 import re
 import subprocess
 import sys
+from collections import Counter
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
@@ -33,8 +34,8 @@ from .suites import Failed, Suites
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 FOLDER = REPOSITORY / "build/mutants"
-# Suites in parts by how long they take: most mistakes are noticed by the first.
-PARTS_S = (0, 0.5, 2, 5, 10, math.inf)
+# Seconds of suites that each mistake is tried with in turn: most are noticed by the first.
+BUDGETS_S = (3, 10, 30, 100, math.inf)
 
 
 def arguments(given):
@@ -119,7 +120,12 @@ class Trial:
             planting.plant(REPOSITORY, self.tree, self.numbered)
 
     def reach(self):
-        """Which suites reach each mistake, and how long each takes, without a mistake."""
+        """Which suites reach each mistake, and how long each takes, without a mistake. Known already where nothing was built since."""
+        kept = FOLDER / "reached.json"
+        if kept.exists() and not self.suites.has_built:
+            known = json.loads(kept.read_text())
+            return known["seconds"], {int(number): names for number, names in known["reached_by"].items()}
+        kept.unlink(missing_ok=True)
         self.suites.make_fixtures()
 
         def look(name):
@@ -135,31 +141,49 @@ class Trial:
             looked = {name: each for name, each in zip(names, pool.map(look, names)) if each[0] is not None}
         if failing := [name for name in names if name not in looked]:
             print(f"left out, they fail without a mistake: {' '.join(failing)}", flush=True)
-        names = list(looked)
         seconds = {name: each[0] for name, each in looked.items()}
-        reached_by = {number: sorted((name for name in names if number in looked[name][1]), key=seconds.get) for number in self.numbered}
+        reached_by = {number: [name for name in looked if number in looked[name][1]] for number in self.numbered}
+        write_whole_file(kept, json.dumps({"seconds": seconds, "reached_by": reached_by}))
         return seconds, reached_by
 
     def judge(self, seconds, reached_by, verdicts):
-        """Yields (site, verdict) as they fall; those in `verdicts` are not tried again. All mistakes are tried with the quick suites
-        before any is tried with the slower ones."""
+        """Yields (site, verdict) as they fall; those in `verdicts` are not tried again. All mistakes are tried with the likeliest suites
+        before any is tried with the others."""
         open_ones = [number for number, site in self.numbered.items() if site.key() not in verdicts]
-        for shortest, longest in zip(PARTS_S, PARTS_S[1:]):
+        reaches = Counter(name for names in reached_by.values() for name in names)
+        left = {number: likeliest_first(reached_by[number], seconds, reaches) for number in open_ones}
+        for budget_s in BUDGETS_S:
             survivors = []
             for number in open_ones:
-                part = [name for name in reached_by[number] if shortest <= seconds[name] < longest]
+                part, left[number] = of_budget(left[number], seconds, budget_s)
                 noticed = self.suites.run(part, number, limit_s=20 + 5 * sum(map(seconds.get, part))) if part else None
                 if noticed:
                     yield self.numbered[number], noticed
                 else:
                     survivors.append(number)
             open_ones = survivors
-            if open_ones and longest < PARTS_S[-1]:
-                print(f"{len(open_ones)} not noticed by suites below {longest} s:", flush=True)
+            if open_ones and budget_s < BUDGETS_S[-1]:
+                print(f"{len(open_ones)} not noticed by suites of {budget_s} s:", flush=True)
                 for number in open_ones:
                     print(f"  {described(self.numbered[number])}", flush=True)
         for number in open_ones:
             yield self.numbered[number], "" if reached_by[number] else "reached by no suite"
+
+
+def likeliest_first(names, seconds, reaches):
+    """A suite that reaches few mistakes looks at them more closely, and one that is quick costs little."""
+    return sorted(names, key=lambda name: (seconds[name] + 0.2) * reaches[name])
+
+
+def of_budget(names, seconds, budget_s):
+    """The first suites that take no longer than the budget, one at least, and the others."""
+    taken, count = 0, 0
+    for name in names:
+        taken += seconds[name]
+        if count and taken > budget_s:
+            break
+        count += 1
+    return names[:count], names[count:]
 
 
 def described(site):

@@ -21,6 +21,7 @@ class Suites:
     def __init__(self, tree, jobs):
         self.tree, self.jobs = tree, jobs
         self.folder = tree / "build/release"
+        self.has_built = False
 
     def configure(self):
         # What no mistake touches comes from the cache of the tree itself.
@@ -30,6 +31,7 @@ class Suites:
     def build(self):
         """Builds all. Returns the numbers of mistakes that do not compile; raises Failed for anything else."""
         built = subprocess.run(["ninja", "-C", self.folder, "-k0", f"-j{self.jobs}"], capture_output=True, text=True)
+        self.has_built |= "ninja: no work to do." not in built.stdout
         if built.returncode == 0:
             return set()
         errors = [part for part in built.stdout.split("FAILED: ")[1:] if "error:" in part]
@@ -50,9 +52,9 @@ class Suites:
         return names
 
     def make_fixtures(self):
-        self._ctest("-L", "unit", "-R", "ForTheOtherTests")
+        self._ctest("-R", "ForTheOtherTests")
 
-    def run(self, names, number=0, limit_s=600, reached=None):
+    def run(self, names, number=0, limit_s=200, reached=None):
         """Runs suites, stopping at the first that fails. Returns its name, or that none ended within the limit; None if all pass."""
         environment = dict(os.environ, TERRACUT_MUTANT=str(number), TERRACUT_SHARED=str(self.shared()))
         if reached is not None:

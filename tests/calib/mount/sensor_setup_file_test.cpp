@@ -89,7 +89,7 @@ TEST(SensorSetup, GoesIntoAProfileOfTheSameNumberOfRings) {
   SensorSetup setup{{.height_m = 2.2}, std::vector<double>(64, 7.5)};
   ASSERT_TRUE(apply_setup(setup, profile));
   EXPECT_EQ(profile.mount.height_m, 2.2);
-  EXPECT_EQ(profile.rings[40].ground_distance_m, 7.5);
+  for (const Ring& ring : profile.rings) EXPECT_EQ(ring.ground_distance_m, 7.5);
   setup.ring_ground_distance_m.pop_back();
   EXPECT_THAT(apply_setup(setup, profile),
               calib::IsRefusedWith(ErrorCode::kInvalidArgument, HasSubstr("64 rings, found 63")));

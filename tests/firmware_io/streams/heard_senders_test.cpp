@@ -100,6 +100,17 @@ TEST_F(HeardSendersTest, WhatIsNoPacketOfASensorIsCounted) {
             "12 datagrams of no sensor known here, 100 bytes to port 0, from 192.168.1.7");
 }
 
+TEST_F(HeardSendersTest, SendersOfDataPacketsAreNamedFirstAndFourInAll) {
+  const std::vector<std::uint8_t> bytes(100);
+  for (std::uint32_t n = 0; n < 5; ++n) {
+    senders_.add({.payload = bytes, .source_address = 0x0A000000 + n});
+  }
+  hear(std::span(packets_).first(1), kOther);
+  const std::string others = senders_.others();
+  EXPECT_THAT(others, testing::StartsWith("1 data packets of Velodyne HDL-64E (S2/S3) from "));
+  EXPECT_THAT(others, HasSubstr("from 10.0.0.2; 2 others"));
+}
+
 TEST_F(HeardSendersTest, WhatAModelThatIsNotReadIsLikeIsNamed) {
   std::vector<std::uint8_t> helios(1248), hesai(861);
   std::ranges::copy(std::array<std::uint8_t, 4>{0x55, 0xAA, 0x05, 0x5A}, helios.begin());

@@ -159,6 +159,24 @@ TEST_F(MotionSignalsTest, MakesNoSampleOfWhatItsOwnSignalCallsInvalid) {
   EXPECT_EQ(counters().samples, 2U);
 }
 
+TEST_F(MotionSignalsTest, MakesNoSampleWhereWhatCallsItValidIsTooOld) {
+  auto config = plain();
+  config.max_age_s = 0.1;
+  config.speed.signals = {"FLOAT_SPEED"};
+  config.yaw_rate.valid = "QUALITY";  // in a frame of its own
+  config.yaw_rate.valid_value = 3;
+  open(config);
+  const auto speed = [&](std::int64_t ms) {
+    return motion_->take(data_frame(kOther, {0, 0, 0x20, 0x41}, ms * kMillisecond_ns));
+  };
+  wheels(0, 0, 0, 0, 0, 3);
+  speed(1);
+  EXPECT_TRUE(yaw(2, 100));
+  speed(200);
+  EXPECT_FALSE(yaw(201, 100));
+  EXPECT_EQ(counters().stale, 1U);
+}
+
 TEST_F(MotionSignalsTest, MakesNoSampleOfASpeedThatIsNoNumber) {
   auto config = plain();
   config.speed.signals = {"FLOAT_SPEED"};

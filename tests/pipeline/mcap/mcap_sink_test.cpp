@@ -197,6 +197,14 @@ TEST_F(McapSinkTest, OneThatNobodyWatchesOverLeavesRoomToOthersAndIsWhole) {
   EXPECT_EQ(outcome, test::InChild::kAsExpected);
 }
 
+TEST_F(McapSinkTest, MetadataNameFilesWithQuotesAndBackslashesAsYamlDoes) {
+  const auto sink = open({.path = folder_ / "a\"b\\c"});
+  put_frames(*sink, 0, 1, 10);
+  ASSERT_TRUE(sink->finish());
+  EXPECT_THAT(content_of(folder_ / "a\"b\\c/metadata.yaml"),
+              testing::HasSubstr(R"("a\"b\\c_0.mcap")"));
+}
+
 TEST_F(McapSinkTest, FiguresAreDiagnostics) {
   const auto sink = open({.path = folder_ / "drive", .points_alone = true});
   put_frames(*sink, 0, 1, 10);

@@ -25,7 +25,8 @@ using Numbers = std::vector<std::uint32_t>;
 struct Watched {
   std::mutex mutex;
   std::condition_variable changed;
-  bool is_open = true;  ///< Closed: put() waits in it.
+  bool is_open = true;                   ///< Closed: put() waits in it.
+  std::size_t closes_behind = SIZE_MAX;  ///< After so many frames.
   bool fails = false, throws = false;
   std::chrono::milliseconds frame_takes{0};  ///< put() takes so long
   Numbers begun, done;
@@ -58,6 +59,7 @@ class WatchedSink final : public FrameSink {
     if (watched_.fails) return fail(ErrorCode::kWriteFailed, "no room on the disk");
     watched_.rooms.insert(frame.points.data());
     watched_.done.push_back(frame.record.info.number);
+    if (watched_.done.size() == watched_.closes_behind) watched_.is_open = false;
     watched_.changed.notify_all();
     return {};
   }
@@ -282,6 +284,20 @@ TEST_F(PublisherTest, OneThatNeverAnswersIsGivenUp) {
   put(publisher, 0);
   slow_.wait_until([&] { return slow_.begun.size() == 1; });
   EXPECT_FALSE(publisher.finish(std::chrono::milliseconds(1)));
+  slow_.set_open(true);
+}
+
+TEST_F(PublisherTest, OneThatStopsAnsweringWhileItFinishesIsGivenUp) {
+  Publisher& publisher = make(WhenFull::kDropOldest);
+  slow_.closes_behind = 1;
+  slow_.set_open(false);
+  put(publisher, 0);
+  slow_.wait_until([&] { return slow_.begun.size() == 1; });
+  put(publisher, 1);
+  put(publisher, 2);
+  slow_.set_open(true);
+  EXPECT_FALSE(publisher.finish(std::chrono::milliseconds(50)));
+  slow_.wait_until([&] { return !slow_.done.empty(); });
   slow_.set_open(true);
 }
 

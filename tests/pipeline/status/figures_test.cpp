@@ -66,6 +66,21 @@ TEST(Figures, StandEachInOnePlaceOfJson) {
   EXPECT_GT(places.size(), 50U);
 }
 
+TEST(Figures, SayThatTheViewIsBeingLearntAndThenHowItIs) {
+  WholeRun run;
+  const auto state = [&] {
+    for (const Figure& figure : figures_of(run.figures())) {
+      if (figure.group != "sight" || figure.key != "state") continue;
+      const auto& value = std::get<State>(figure.value);
+      return value.names[value.index];
+    }
+    return std::string_view();
+  };
+  EXPECT_EQ(state(), "clear");
+  run.figures().sight.has_learnt = 0;
+  EXPECT_EQ(state(), "learning");
+}
+
 TEST(Figures, NameTheUnitOfTimesInJsonAndInMetrics) {
   WholeRun run;
   for (const Figure& figure : figures_of(run.figures())) {

@@ -10,7 +10,7 @@ import signal
 import subprocess
 import time
 
-LEFT_OUT = re.compile("slow|install|documents")
+LEFT_OUT = re.compile("slow|install")
 
 
 class Failed(Exception):

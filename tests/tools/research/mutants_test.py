@@ -25,6 +25,8 @@ enum class Kind { kOne = 1 };
 int calls = 0;
 void count() { ++calls; }
 int difference(int a, int b) { return a - b; }
+int max(int a, int b);  // swapped arguments would change nothing
+inline int most(int a, int b) { return max(a, b); }
 bool is_small(int value) {
   return value < 10 && value != 5;
 }

@@ -11,6 +11,7 @@ from clang.cindex import Index, TypeKind
 
 ROOMS = ("calib", "firmware_io", "pipeline", "rt")
 
+SYMMETRIC = {"max", "min", "minmax", "hypot"}  # swapped arguments change nothing
 COMPARISONS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "=="}
 LOGIC = {"&&": "||", "||": "&&"}
 ARITHMETIC = {"+": "-", "-": "+", "*": "+", "/": "*", "%": "+"}
@@ -109,6 +110,8 @@ def _statement(source, cursor):
 
 
 def _swapped(source, cursor):
+    if cursor.spelling in SYMMETRIC:
+        return
     arguments = list(cursor.get_arguments())
     for one, other in zip(arguments, arguments[1:]):
         if one is None or other is None:

@@ -96,7 +96,9 @@ TYPED_TEST(TableSensorStream, ColumnsAreCompleteAsTheHeadPassesThem) {
     }
     EXPECT_GE(frames, 2);
     EXPECT_GT(complete, 0);
-    EXPECT_LE(most_at_once, 50);
+    // Of the models whose packets have most firings, two packets' and one.
+    EXPECT_LE(most_at_once,
+              std::max(48, static_cast<int>(2 * TypeParam::firings_per_packet(false) + 1)));
   }
 }
 
@@ -119,16 +121,24 @@ TYPED_TEST(TableSensorStream, IsDecodedWithoutAllocating) {
     TypeParam::set_azimuth(payloads[400].bytes, 0, 36'000);
     memory::FixedMemory memory;
     decode::Decoder decoder(beams::built_in_table(TypeParam::sheet().model), {}, {}, memory);
-    const auto on_frame = [](const frame::FrameInfo&, const frame::MeasuredReturns&) noexcept {};
+    std::uint64_t returns = 0, decoded = 0;
+    const auto on_frame = [&](const frame::FrameInfo& info,
+                              const frame::MeasuredReturns&) noexcept { returns += info.returns; };
     const std::size_t planned = memory.total_bytes();
     const std::uint64_t before = test::allocations_of_this_thread();
-    for (const Payload& payload : payloads) {
-      test::decode(decoder, {.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, on_frame);
+    for (int loop = 0; loop < 3; ++loop) {
+      for (const Payload& payload : payloads) {
+        test::decode(decoder, {.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, on_frame);
+      }
+      if (loop == 0) decoded = decoder.packets_decoded();
     }
     test::end_stream(decoder, on_frame);
     EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
     EXPECT_EQ(memory.total_bytes(), planned);
-    EXPECT_EQ(decoder.packets_decoded(), 489U);
+    EXPECT_EQ(decoded, 489U);
+    // A Hesai's packets of some models have few lasers.
+    EXPECT_GT(returns,
+              sensor::row_of(TypeParam::sheet().model).has_unit_tables ? 50'000U : 80'000U);
   }
 }
 
@@ -148,7 +158,7 @@ TYPED_TEST(TableSensorStream, IsFoundByItselfWithItsTable) {
     ASSERT_TRUE(found) << found.error().message;
     const sensor::SensorModel model = TypeParam::sheet().model;
     EXPECT_EQ(found->model, model);
-    EXPECT_NEAR(found->spin_hz, 10, 0.03);
+    EXPECT_NEAR(found->spin_hz, 10, sensor::row_of(model).has_unit_tables ? 0.03 : 0.02);
     EXPECT_EQ(found->dual_return, dual_return);
     EXPECT_NEAR(found->columns, 1e5 / TypeParam::firing_us(dual_return), 1);
     EXPECT_EQ(calib::fingerprint(found->calibration), fingerprint(beams::built_in_table(model)));

@@ -56,6 +56,7 @@ Beside decode_beside(const std::vector<Payload>& payloads, const Unit& unit,
       }
     }
     EXPECT_EQ(reason.has_value(), plain.refusal != Refusal::kNone);
+    EXPECT_EQ(as_refusal(reason), plain.refusal);
     if (plain.refusal == Refusal::kNone) expected.add(plain, unwrap(payload, plain));
   }
   both.dual_return = decoder.dual_return();

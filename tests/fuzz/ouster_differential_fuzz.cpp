@@ -22,12 +22,6 @@ using namespace terracut;
 
 using fuzz::require;
 
-std::vector<double> elevations(const ouster::OusterCalibration& unit) {
-  std::vector<double> elevations;
-  for (const beams::TableBeam& beam : unit.lasers) elevations.push_back(beam.elevation_rad);
-  return elevations;
-}
-
 /// Decodes a stretch of packets of one unit, which follow each other by the unit's clock.
 class Stretch {
  public:
@@ -37,7 +31,7 @@ class Stretch {
         unit_(made(input, random_)),
         mount_(reference::random_mount(random_)),
         reference_(unit_),
-        expected_(elevations(unit_), mount_, unit_.columns_per_frame),
+        expected_(reference::elevations_of(unit_.lasers), mount_, unit_.columns_per_frame),
         decoder_(unit_, mount_, {}, memory_) {}
 
   void run() {

@@ -225,7 +225,8 @@ TEST_P(RealHesai, HasEveryPointThatNebulaFindsWithin2Mm) {
 }
 
 TEST_P(RealHesai, EqualsAPlainSlowDecoderAndLosesNothing) {
-  const Beside both = decode_beside<HesaiReference>(payloads_, table_, elevations_of(table_), 1800);
+  const Beside both =
+      decode_beside<HesaiReference>(payloads_, table_, elevations_of(table_.lasers), 1800);
   EXPECT_EQ(both.difference, "");
   EXPECT_EQ(both.decoded, GetParam().packets);
   EXPECT_TRUE(both.dual_return);

@@ -35,16 +35,10 @@ namespace {
 using ouster::OusterCalibration;
 using ouster::Profile;
 
-std::vector<double> elevations(const OusterCalibration& unit) {
-  std::vector<double> elevations;
-  for (const beams::TableBeam& beam : unit.lasers) elevations.push_back(beam.elevation_rad);
-  return elevations;
-}
-
 Beside decode_both(const std::vector<Payload>& payloads, const OusterCalibration& unit) {
   Frames frames;
   return decode_beside<OusterReference>(
-      payloads, unit, elevations(unit), {}, unit.columns_per_frame,
+      payloads, unit, elevations_of(unit.lasers), {}, unit.columns_per_frame,
       [&](const Payload&, const Packet& packet) { return frames.unwrap(packet); });
 }
 

@@ -99,7 +99,8 @@ TEST_P(RealVelodyne, EqualsAPlainSlowDecoderAndLosesNothing) {
   const auto payloads = test::payloads_of(path, 2368);
   ASSERT_EQ(payloads.size(), GetParam().packets);
   const beams::BeamTable table = beams::built_in_table(GetParam().model);
-  const Beside both = decode_beside<VelodyneReference>(payloads, table, elevations_of(table), 1808);
+  const Beside both =
+      decode_beside<VelodyneReference>(payloads, table, elevations_of(table.lasers), 1808);
   EXPECT_EQ(both.difference, "");
   EXPECT_EQ(both.returns, GetParam().returns);
   EXPECT_EQ(both.decoded, GetParam().packets);
@@ -134,7 +135,7 @@ TEST(RealVlp32c, IsDecodedOnBothSidesOfItsBlindSector) {
   decode::Decoder::Config config;
   config.columns = 1808;
   const Beside both =
-      decode_beside<VelodyneReference>(payloads, table, elevations_of(table), config, 1808,
+      decode_beside<VelodyneReference>(payloads, table, elevations_of(table.lasers), config, 1808,
                                        [&](const Payload& payload, const Packet& packet) {
                                          return unwrap_by_time(payloads, payload, packet, 10.0);
                                        });

@@ -69,6 +69,12 @@ double seam_distance_deg(double beam_deg) {
   return std::abs(beam_deg - 360.0 * std::round(beam_deg / 360.0));
 }
 
+std::vector<double> elevations_of(std::span<const beams::TableBeam> beams) {
+  std::vector<double> elevations;
+  for (const beams::TableBeam& beam : beams) elevations.push_back(beam.elevation_rad);
+  return elevations;
+}
+
 std::vector<int> rank_of_elevation(const std::vector<double>& elevations) {
   std::vector<int> ranks;
   for (std::size_t i = 0; i < elevations.size(); ++i) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "calib/beams/beam_table.hpp"
+
 namespace terracut::reference {
 
 /// One return as a reference decoder reads it. Lengths in metres in the sensor frame: x forward,
@@ -85,6 +87,9 @@ struct Cell {
 
 /// How far a beam is from the nearest border between two frames.
 [[nodiscard]] double seam_distance_deg(double beam_deg);
+
+/// The elevation of each beam.
+[[nodiscard]] std::vector<double> elevations_of(std::span<const beams::TableBeam> beams);
 
 /// The rank of each elevation, 0 for the lowest; of equal ones the earlier is the lower.
 [[nodiscard]] std::vector<int> rank_of_elevation(const std::vector<double>& elevations);

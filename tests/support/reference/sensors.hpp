@@ -89,13 +89,6 @@ struct Ruby128 {
   }
 };
 
-/// Of each laser.
-inline std::vector<double> elevations_of(const beams::BeamTable& table) {
-  std::vector<double> elevations;
-  for (const beams::TableBeam& laser : table.lasers) elevations.push_back(laser.elevation_rad);
-  return elevations;
-}
-
 /// Of Velodyne's smaller models.
 template <class Model>
 struct Velodyne {
@@ -116,7 +109,7 @@ struct Velodyne {
     return random_table(Model::kModel, random);
   }
   static std::vector<double> elevations(const Calibration& calibration) {
-    return elevations_of(calibration);
+    return elevations_of(calibration.lasers);
   }
   static std::vector<Payload> payloads(const RotatingHead& head) {
     return velodyne_payloads(sheet(), head);
@@ -162,7 +155,7 @@ struct Hesai {
     return random_table(Model::kModel, random);
   }
   static std::vector<double> elevations(const Calibration& calibration) {
-    return elevations_of(calibration);
+    return elevations_of(calibration.lasers);
   }
   static std::vector<Payload> payloads(const RotatingHead& head) {
     return hesai_payloads(sheet(), head);

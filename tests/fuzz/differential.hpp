@@ -28,7 +28,7 @@ class Differential {
         reference_(calibration_),
         config_(config(input)),
         decoder_(calibration_, mount_, config_, memory_),
-        packet_(Sensor::payloads({.packets = 1, .share_of_returns = 0})[0].bytes) {}
+        packet_(empty_packet()) {}
 
   void run() {
     while (!input_.empty()) {
@@ -45,6 +45,7 @@ class Differential {
         case 3:
           dual_return_ = !dual_return_;
           late_ = input_.below(2);
+          packet_ = empty_packet();
           break;
         case 4:
           set_returns();
@@ -76,10 +77,16 @@ class Differential {
     return config;
   }
 
+  [[nodiscard]] reference::PayloadBytes empty_packet() const {
+    return Sensor::payloads({.dual_return = dual_return_, .packets = 1, .share_of_returns = 0})[0]
+        .bytes;
+  }
+
   void set_returns() {
     const auto returns = input_.next(1) % 16;
     for (unsigned n = 0; n < returns; ++n) {
-      const int column = input_.below(Sensor::kColumns), laser = input_.below(Sensor::kLasers);
+      const auto columns = static_cast<unsigned>(Sensor::columns(dual_return_));
+      const int column = input_.below(columns), laser = input_.below(Sensor::kLasers);
       const unsigned raw = input_.next(2);
       Sensor::set_return(packet_, column, laser, raw, input_.next(1));
     }
@@ -88,9 +95,10 @@ class Differential {
   /// The next columns of the head into the packet.
   void keep_rotating() {
     const int pairing = dual_return_ ? 2 : 1;
-    for (int column = 0; column < Sensor::kColumns; ++column) {
+    const int in_block = Sensor::columns_a_block();
+    for (int column = 0; column < Sensor::columns(dual_return_); column += in_block) {
       if ((reading_++ + late_) % pairing == 0) {
-        azimuth_cdeg_ += step_cdeg_;
+        azimuth_cdeg_ += step_cdeg_ * in_block;
         if (jitter_cdeg_ > 0) azimuth_cdeg_ += input_.below(static_cast<unsigned>(jitter_cdeg_));
         azimuth_cdeg_ %= 36'000;
       }
@@ -166,10 +174,10 @@ class Differential {
   typename Sensor::Decoder::Config config_;
   memory::FixedMemory memory_;
   typename Sensor::Decoder decoder_;
+  bool dual_return_ = false;
   reference::PayloadBytes packet_;
 
   int step_cdeg_ = 18, jitter_cdeg_ = 0, azimuth_cdeg_ = 0, late_ = 0, reading_ = 0;
-  bool dual_return_ = false;
   std::int64_t stamp_ns_ = 1'767'225'600'000'000'000;
   reference::Frames frames_;
   reference::ExpectedFrames expected_{{}, {}, 1};

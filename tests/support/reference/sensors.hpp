@@ -30,6 +30,8 @@ struct Hdl64e {
   static constexpr int kColumns = 6, kLasers = 64;
   static constexpr int kFirstBlock = 0, kBlockBytes = 100, kBlocks = 12;
 
+  static int columns(bool) { return kColumns; }
+  static int columns_a_block() { return 1; }
   static double firing_us(bool dual_return) { return dual_return ? 57.6 : 48.0; }
   static double firings_per_packet(bool dual_return) { return dual_return ? 3 : 6; }
   static Calibration random_unit(std::mt19937& random) { return random_hdl64e(random); }
@@ -63,6 +65,8 @@ struct Ruby128 {
   static constexpr int kColumns = 3, kLasers = 128;
   static constexpr int kFirstBlock = 80, kBlockBytes = 388, kBlocks = 3;
 
+  static int columns(bool) { return kColumns; }
+  static int columns_a_block() { return 1; }
   static double firing_us(bool) { return 55.55; }
   static double firings_per_packet(bool dual_return) { return dual_return ? 1.5 : 3; }
   static Calibration random_unit(std::mt19937& random) { return random_ruby128(random); }
@@ -101,6 +105,11 @@ struct Velodyne {
   static constexpr int kImageColumns = Model::kLayout.columns(false);  ///< That a packet fills.
 
   static const VelodyneSheet& sheet() { return sheet_of(Model::kModel); }
+  /// Of a packet; in dual return those of both blocks of a pair count.
+  static int columns(bool dual_return) {
+    return dual_return ? layout().columns(true) * Model::kChannels / kLasers : kColumns;
+  }
+  static int columns_a_block() { return sheet().firings_a_block; }
   static double firing_us(bool) { return sheet().firing_us; }
   static double firings_per_packet(bool dual_return) {
     return dual_return ? layout().pace.firings(true) * sheet().firings_a_block : kColumns;
@@ -147,6 +156,8 @@ struct Hesai {
   static constexpr int kBlocks = Model::kLayout.blocks, kImageColumns = kBlocks;
 
   static const HesaiSheet& sheet() { return hesai_sheet_of(Model::kModel, kIsHigh); }
+  static int columns(bool) { return kColumns; }
+  static int columns_a_block() { return 1; }
   static double firing_us(bool) { return sheet().block_us; }
   static double firings_per_packet(bool dual_return) {
     return static_cast<double>(sheet().blocks) / (dual_return ? 2 : 1);

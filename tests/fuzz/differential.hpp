@@ -107,6 +107,10 @@ class Differential {
   }
 
   void rotating_head(int packets) {
+    // A packet of one firing shows no step, so that the first ones have the one of the stretch
+    // before; far from the seam no frame ends too early by it.
+    const bool shows_no_step = Sensor::firings_per_packet(dual_return_) == 1;
+    if (shows_no_step && (azimuth_cdeg_ + 3'000) % 36'000 < 6'000) azimuth_cdeg_ = 9'000;
     stretch([&] {
       for (int n = 0; n < packets; ++n) {
         keep_rotating();

@@ -8,6 +8,7 @@
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/hesai/hesai_csv.hpp"
 #include "calib/ouster/ouster_metadata.hpp"
+#include "calib/robosense/unit_table.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "calib/text/bounded_file.hpp"
 
@@ -26,6 +27,10 @@ Expected<Calibration> Calibration::load(const std::filesystem::path& file) {
       return hesai::parse_hesai_csv(*text, file.string()).map([](const auto& table) {
         return calibration_of(table);
       });
+    }
+    if (text) {
+      const auto table = robosense::parse_unit_csv(*text, file.string());
+      if (table) return calibration_of(*table);
     }
     return ruby128::read_ruby128_csv(file).map(
         [](const auto& unit) { return calibration_of(unit); });

@@ -91,7 +91,7 @@ Expected<beams::BeamTable> parse_hesai_csv(std::span<const char> text, const std
   }
   double nearest_deg = kFarthest_deg;
   for (const sensor::SensorRow& row : sensor::kSensorTable) {
-    if (!row.has_unit_tables) continue;
+    if (!sensor::is_hesai(row.model)) continue;
     if (const double apart_deg = distance_deg(table, row); apart_deg < nearest_deg) {
       nearest_deg = apart_deg;
       table.model = row.model;

@@ -10,14 +10,10 @@
 
 namespace terracut::ruby128 {
 
-/// Reads the maker's angle file, `angle.csv`: 128 lines in the order of channels, each
-/// `elevation,azimuth offset` in degrees with a decimal point, no header. Start-up only: allocates.
-///
-/// A byte order mark, CR LF, blank lines at the end, spaces around numbers and `+` are accepted.
-/// Refused: any other number of lines; text, NaN and infinity; semicolons and decimal commas; lines
-/// without azimuth offset (some programs take it for zero, but beams point up to 6 degrees off the
-/// head). The result is validated. Fails with kNotFound, kUnreadable, kMalformed or kUnsupported;
-/// the message names the file, and the line if one line is at fault. Files above 4 MiB are refused.
+/// Reads the maker's angle file (robosense::parse_angle_csv), of 128 channels. Start-up only:
+/// allocates. The result is validated. Fails with kNotFound, kUnreadable, kMalformed or
+/// kUnsupported; the message names the file, and the line if one line is at fault. Files above
+/// 4 MiB are refused.
 [[nodiscard]] Expected<Ruby128Calibration> read_ruby128_csv(const std::filesystem::path& path);
 
 /// Parses the content of an `angle.csv`; `name` stands for the file in errors and becomes the

@@ -12,6 +12,7 @@
 
 #include "calib/sensor/factory_lasers.hpp"
 #include "calib/sensor/hesai_lasers.hpp"
+#include "calib/sensor/robosense_lasers.hpp"
 #include "terracut/sensor.hpp"
 
 namespace terracut::sensor {
@@ -31,6 +32,8 @@ enum class SensorModel : std::uint8_t {
   /// Not a data packet: 512 bytes with NMEA text, from models below the HDL-64E.
   kVelodynePosition,
   kRuby128,              ///< RS-Ruby128.
+  kRs32,                 ///< RS-LiDAR-32.
+  kHelios,               ///< An RS-Helios with 32 lasers: 5515, 1615 or 1610.
   kRubyPlus,             ///< Has the RS-Ruby128's layout, but other angles and firing times.
   kRubyLite,             ///< Ruby Lite / Ruby 80: packets have four blocks of 80 channels.
   kOtherRoboSense,       ///< A RoboSense data packet of another model.
@@ -61,7 +64,7 @@ struct SensorRow {
   std::uint8_t stream_number = 0;
   /// The lasers of every unit, or nominal ones; empty: there is no table but the unit's own.
   std::span<const FactoryLaser> lasers{};
-  /// True if `lasers` are nominal: each unit comes with a table of its own.
+  /// True if `lasers` are nominal: each unit has a table of its own.
   bool has_unit_tables = false;
   /// Highest packet rate, in dual return. The default is an RS-Ruby128's, which is above that of
   /// models without a figure of their own.
@@ -87,6 +90,20 @@ inline constexpr std::array kSensorTable{
               .sensor = Sensor::kRuby128,
               .word = "ruby128",
               .stream_number = 2},
+    SensorRow{.model = SensorModel::kRs32,
+              .name = "RoboSense RS-LiDAR-32",
+              .sensor = Sensor::kRs32,
+              .word = "rs32",
+              .stream_number = 19,
+              .lasers = kRs32Lasers,
+              .has_unit_tables = true},
+    SensorRow{.model = SensorModel::kHelios,
+              .name = "RoboSense RS-Helios",
+              .sensor = Sensor::kHelios,
+              .word = "helios",
+              .stream_number = 20,
+              .lasers = kHeliosLasers,
+              .has_unit_tables = true},
     SensorRow{.model = SensorModel::kVlp16,
               .name = "Velodyne VLP-16",
               .sensor = Sensor::kVlp16,
@@ -236,6 +253,14 @@ inline constexpr std::array kSensorTable{
 /// True if all units of `model` have one table, which is built in.
 [[nodiscard]] constexpr bool has_factory_table(SensorModel model) noexcept {
   return has_built_in_table(model) && !row_of(model).has_unit_tables;
+}
+/// True for a decoded RoboSense, whose units send their tables in DIFOP packets.
+[[nodiscard]] constexpr bool is_robosense(SensorModel model) noexcept {
+  return model >= SensorModel::kRuby128 && model <= SensorModel::kHelios;
+}
+/// True for a Hesai, whose units have tables of their own in files only.
+[[nodiscard]] constexpr bool is_hesai(SensorModel model) noexcept {
+  return model >= SensorModel::kPandar40p && model <= SensorModel::kPandar128;
 }
 /// True for an Ouster, whose packets need the unit's metadata to be decoded.
 [[nodiscard]] constexpr bool is_ouster(SensorModel model) noexcept {

@@ -33,15 +33,15 @@ struct FoundMount {
 /// The calibration table of one unit. Cheap to copy: copies share the table.
 class Calibration {
  public:
-  /// Reads an HDL-64E's table (Velodyne's db.xml or the ROS driver's yaml), an RS-Ruby128's
-  /// (RoboSense's angle.csv), a Hesai's (the CSV file that comes with the unit) or an Ouster's (its
+  /// Reads an HDL-64E's table (Velodyne's db.xml or the ROS driver's yaml), a RoboSense's
+  /// (angle.csv), a Hesai's (the CSV file that comes with the unit) or an Ouster's (its
   /// metadata, .json). Fails with kNotFound, kUnreadable, kMalformed or kUnsupported; the message
   /// names file and line or field.
   [[nodiscard]] static Expected<Calibration> load(const std::filesystem::path& file);
   /// Returns the model's table, for use if the unit's own is not at hand. Heights of an HDL-64E, an
-  /// RS-Ruby128 and a Hesai are then some centimetres off; an Ouster's packets cannot be decoded
-  /// with it (their profile and its angles are the unit's). Units of the other models have no table
-  /// of their own.
+  /// RS-Ruby128 and a Hesai are then some centimetres off. Other RoboSenses and Ousters cannot be
+  /// decoded with it (angles are the unit's, as is an Ouster's profile). Units of the other models
+  /// have no table of their own.
   [[nodiscard]] static Calibration nominal(Sensor sensor);
 
   [[nodiscard]] Sensor sensor() const noexcept;

@@ -25,7 +25,9 @@ enum class Sensor : std::uint8_t {
   kPandar128,  ///< Pandar128E3X; a Pandar128E4X is an OT128.
   kOuster32,   ///< An OS0, OS1 or OS2 with 32 rows.
   kOuster64,
-  kOuster128
+  kOuster128,
+  kRs32,   ///< RS-LiDAR-32.
+  kHelios  ///< An RS-Helios with 32 lasers.
 };
 
 }  // namespace terracut

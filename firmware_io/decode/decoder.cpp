@@ -37,6 +37,11 @@ auto with_trait(const calib::SensorCalibration& calibration, const Decoder::Conf
       return use(std::type_identity<hesai::HesaiSensor<Model>>{}, table, config.hesai);
     });
   }
+  if (robosense::Models::has(table.model)) {
+    return robosense::Models::with(table.model, [&]<class Model>(std::type_identity<Model>) {
+      return use(std::type_identity<robosense::RoboSenseSensor<Model>>{}, table, config.ruby128);
+    });
+  }
   return velodyne::Models::with(table.model, [&]<class Model>(std::type_identity<Model>) {
     return use(std::type_identity<velodyne::VelodyneSensor<Model>>{}, table, config.velodyne);
   });

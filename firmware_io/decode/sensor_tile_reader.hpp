@@ -8,9 +8,9 @@
 #include <span>
 
 #include "firmware_io/decode/sensor_trait.hpp"
+#include "firmware_io/decode/step_advances.hpp"
 #include "firmware_io/packet/firing_returns.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
-#include "firmware_io/packet/step_advances.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -45,7 +45,7 @@ class SensorTileReader final : public frame::TileReader {
           packet::fill_rows(of.sin, found.sin_advance[0].data());
           packet::fill_rows(of.cos, found.cos_advance[0].data());
         },
-        [&found](const Directions& of, const packet::FiringMask& mask) noexcept {
+        [&found](const Directions& of, const FiringMask& mask) noexcept {
           packet::spread_rows(of.sin, mask, found.sin_advance[0].data());
           packet::spread_rows(of.cos, mask, found.cos_advance[0].data());
         });
@@ -76,7 +76,7 @@ class SensorTileReader final : public frame::TileReader {
 
   Sensor sensor_;
   std::span<packet::GroupHeads<Sensor::kGroups>> heads_;  ///< A span of one element.
-  packet::StepAdvances<Directions> advances_;
+  StepAdvances<Directions> advances_;
   frame::TileDistances distances_{};
 };
 

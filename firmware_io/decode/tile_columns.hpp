@@ -9,9 +9,9 @@
 
 #include "calib/beams/angle.hpp"
 #include "firmware_io/decode/sensor_trait.hpp"
+#include "firmware_io/decode/step_advances.hpp"
 #include "firmware_io/packet/firing_returns.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
-#include "firmware_io/packet/step_advances.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -60,7 +60,7 @@ class TileColumns {
           packet::fill_rows(of.whole, advance_column_[0].data());
           packet::fill_rows(of.rest, advance_rest_[0].data());
         },
-        [this](const Columns& of, const packet::FiringMask& mask) noexcept {
+        [this](const Columns& of, const FiringMask& mask) noexcept {
           packet::spread_rows(of.whole, mask, advance_column_[0].data());
           packet::spread_rows(of.rest, mask, advance_rest_[0].data());
         });
@@ -81,7 +81,7 @@ class TileColumns {
   std::array<packet::ColumnAngle, static_cast<std::size_t>(Sensor::kChannels)>
       offset_;  ///< Beam offsets from the head.
   std::span<frame::TileRow<std::int32_t>> advance_column_, advance_rest_;  ///< Indexed by group.
-  packet::StepAdvances<Columns> advances_;
+  StepAdvances<Columns> advances_;
 };
 
 }  // namespace terracut::decode

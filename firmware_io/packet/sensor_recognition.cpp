@@ -11,6 +11,7 @@
 #include "calib/ouster/ouster_calibration.hpp"
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/hesai_wire.hpp"
+#include "firmware_io/packet/robosense_wire.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
 
 namespace terracut::sensor {
@@ -62,6 +63,9 @@ bool is_ruby_plus(Bytes payload) noexcept {
 
 SensorModel robosense_model(Bytes payload) noexcept {
   if (starts_with(payload, kDifopStart)) return SensorModel::kRoboSenseDeviceInfo;
+  for (const robosense::PacketLayout& layout : robosense::kLayouts) {
+    if (is_surely_of(layout, payload)) return layout.model;
+  }
   if (starts_with(payload, kOlderMsopStart)) return SensorModel::kOtherRoboSense;
   if (!starts_with(payload, ruby128::kRubyMagic)) return SensorModel::kUnknown;
   // Only the first byte of a block's head is the id; the second is the number of the return.
@@ -130,8 +134,11 @@ std::string_view other_robosense(Bytes payload) noexcept {
   if (has_blocks(8, 4 + 3 * 48)) return "8 blocks of 48 channels, an Airy's";
   if (!has_blocks(12, 4 + 3 * 32)) return {};
   return starts_with(payload, kOlderMsopStart)
-             ? "12 blocks of 32 channels, an RS-16's, RS-32's or Bpearl's"
-             : "12 blocks of 32 channels, a Helios's";
+             ? "12 blocks of 32 channels, an RS-16's, RS-32's or Bpearl's; an RS-32 has to be "
+               "named "
+               "with --sensor"
+             : "12 blocks of 32 channels, a Helios's; one with 32 lasers has to be named with "
+               "--sensor";
 }
 
 }  // namespace
@@ -159,6 +166,10 @@ SensorModel recognise_sensor_as(std::optional<SensorModel> named, Bytes payload)
       named ? std::ranges::find(hesai::kLayouts, *named, &hesai::PacketLayout::model)
             : hesai::kLayouts.end();
   if (hesai != hesai::kLayouts.end() && hesai::is_of(*hesai, payload)) return *named;
+  const auto* const robosense =
+      named ? std::ranges::find(robosense::kLayouts, *named, &robosense::PacketLayout::model)
+            : robosense::kLayouts.end();
+  if (robosense != robosense::kLayouts.end() && is_of(*robosense, payload)) return *named;
   // The VLS-128 needs no name: its block ids identify it.
   const bool may_be_named = model == SensorModel::kOtherVelodyne && named &&
                             has_factory_table(*named) && *named != SensorModel::kVls128;
@@ -177,6 +188,9 @@ std::string describe_sensor_hints(Bytes payload) {
   switch (model) {
     case SensorModel::kOtherRoboSense:
       return std::string(other_robosense(payload));
+    case SensorModel::kRs32:
+    case SensorModel::kHelios:
+      return fmt::format("type bytes {:02X} {:02X} {:02X}", payload[30], payload[31], payload[32]);
     case SensorModel::kRuby128:
     case SensorModel::kRubyPlus:
     case SensorModel::kRubyLite:

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include "calib/beams/beam_table.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
 #include "firmware_io/ruby128/difop.hpp"
 #include "rt/error.hpp"
@@ -14,8 +15,15 @@ namespace terracut::ruby128 {
 /// message says what to do. Allocates.
 [[nodiscard]] Expected<Ruby128Calibration> calibration_of(const ruby128_wire::Difop& difop);
 
+/// The same for a RoboSense with 32 lasers (robosense::kLayouts), whose angles take the place of
+/// the first 64 elevations.
+[[nodiscard]] Expected<beams::BeamTable> table_of(const ruby128_wire::Difop& difop,
+                                                  sensor::SensorModel model);
+
 /// Writes the angles into the packet, rounded by angle_cdeg(). Angles beyond 655.35 degrees, and
 /// NaN, are written as that limit.
 void set_calibration(ruby128_wire::Difop& difop, const Ruby128Calibration& calibration) noexcept;
+/// The same for a RoboSense with 32 lasers, rounded to its unit.
+void set_table(ruby128_wire::Difop& difop, const beams::BeamTable& table) noexcept;
 
 }  // namespace terracut::ruby128

@@ -17,7 +17,7 @@ std::array<std::int32_t, kRubyBlocksPerPacket> block_azimuths(
 
 Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount,
                              const Config& config)
-    : given_timestamp_(config.timestamp),
+    : clock_(config.timestamp),
       offsets_(calibration),
       kernel_(calibration.channels, mount, kRuby128LensAhead_m),
       rows_(mount::rows_upward(rows_by_elevation(calibration), mount)) {}
@@ -35,13 +35,7 @@ std::optional<frame::Reject> Ruby128Sensor::check(const packet::Datagram& datagr
   const auto* packet = packet_in(payload);
   if (!is_of_this_sensor || packet == nullptr) return reason;
 
-  const RubyTimestamp detected = timestamp_.add(packet->stamp);
-  const RubyTimestamp encoding = given_timestamp_.value_or(detected);
-  // In about one start in a thousand the first packet's stamp is read in the wrong unit of UTC, and
-  // a later packet corrects the encoding.
-  azimuths.clock_restarts = encoding != last_encoding_.value_or(encoding);
-  last_encoding_ = encoding;
-  const std::int64_t stamp_ns = read_ruby_timestamp(packet->stamp, encoding);
+  const std::int64_t stamp_ns = clock_.read(packet->stamp, azimuths);
   azimuths.device_stamp_us = ruby_even_stamp_us(stamp_ns, azimuths, !reason);
   return reason;
 }

@@ -30,10 +30,7 @@ namespace terracut::ruby128 {
 class Ruby128Sensor {
  public:
   using Calibration = Ruby128Calibration;
-  struct Config {
-    /// Encoding of the device stamps; empty: found out from the packets.
-    std::optional<RubyTimestamp> timestamp;
-  };
+  using Config = RubyClockConfig;
   static constexpr int kRows = kRuby128Lasers, kChannels = kRows;
   static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
   static constexpr std::size_t kGroups = kRubyGroups;
@@ -82,12 +79,12 @@ class Ruby128Sensor {
     return rows_;
   }
 
-  [[nodiscard]] const RubyTimestampDetector& timestamp() const noexcept { return timestamp_; }
+  [[nodiscard]] const RubyTimestampDetector& timestamp() const noexcept {
+    return clock_.detector();
+  }
 
  private:
-  std::optional<RubyTimestamp> given_timestamp_;
-  RubyTimestampDetector timestamp_;
-  std::optional<RubyTimestamp> last_encoding_;
+  RubyClock clock_;
   Ruby128BeamOffsets offsets_;
   packet::StraightPointKernel kernel_;
   HeldFiring held_;

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <limits>
 
-
 namespace terracut::ruby128 {
 namespace {
 
@@ -122,6 +121,17 @@ RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp
   constexpr std::uint32_t kShortestPacket_ns = 50'000;
   if (fraction - before < kShortestPacket_ns) return finalize(RubyTimestamp::kUtcMicroseconds);
   return encoding_ = RubyTimestamp::kUtcNanoseconds;
+}
+
+std::int64_t RubyClock::read(std::span<const std::uint8_t, 10> stamp,
+                             packet::PacketAzimuths& azimuths) noexcept {
+  const RubyTimestamp detected = detector_.add(stamp);
+  const RubyTimestamp encoding = given_.value_or(detected);
+  azimuths.clock_restarts = encoding != last_.value_or(encoding);
+  last_ = encoding;
+  const std::int64_t stamp_ns = read_ruby_timestamp(stamp, encoding);
+  azimuths.device_stamp_us = stamp_ns / 1000;
+  return stamp_ns;
 }
 
 }  // namespace terracut::ruby128

@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::ruby128 {
@@ -53,6 +54,28 @@ class RubyTimestampDetector {
   bool complete_ = false;
   bool has_last_ = false;
   std::uint32_t last_sub_second_ = 0;
+};
+
+struct RubyClockConfig {
+  std::optional<RubyTimestamp> timestamp;  ///< The stamps' encoding; empty: found out.
+};
+
+/// Reads the stamps of one stream. Real-time safe; one thread.
+class RubyClock {
+ public:
+  explicit RubyClock(std::optional<RubyTimestamp> given) noexcept : given_(given) {}
+
+  /// Fills in the stamp, and that the clock starts anew if its encoding turned out to be another:
+  /// in about one start in a thousand the first packet's stamp is read in the wrong unit of UTC,
+  /// and a later packet corrects that. Returns nanoseconds since 1970.
+  std::int64_t read(std::span<const std::uint8_t, 10> stamp,
+                    packet::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
+
+  [[nodiscard]] const RubyTimestampDetector& detector() const noexcept { return detector_; }
+
+ private:
+  std::optional<RubyTimestamp> given_, last_;
+  RubyTimestampDetector detector_;
 };
 
 }  // namespace terracut::ruby128

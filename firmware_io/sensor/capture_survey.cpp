@@ -51,7 +51,7 @@ struct StreamUnderSurvey {
   // Surveys are some kilobytes each, so they are made on demand.
   std::unique_ptr<Hdl64eSurvey> hdl64e;
   std::unique_ptr<Ruby128Survey> ruby128;
-  std::unique_ptr<Ruby128DeviceReader> device;
+  std::unique_ptr<DeviceReader> device;
   std::map<SensorModel, HeadSurvey> heads;
 
   void add(const packet::Datagram& datagram) {
@@ -78,7 +78,7 @@ struct StreamUnderSurvey {
       if (!ruby128) ruby128 = std::make_unique<Ruby128Survey>();
       ruby128->add(datagram.payload, datagram.stamp_ns);
     } else if (model == SensorModel::kRoboSenseDeviceInfo) {
-      if (!device) device = std::make_unique<Ruby128DeviceReader>();
+      if (!device) device = std::make_unique<DeviceReader>();
       device->add(datagram.payload);
     } else if (is_decoded(model)) {
       heads[model].add(model, datagram);

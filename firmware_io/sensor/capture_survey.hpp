@@ -38,7 +38,7 @@ struct UdpStream {
   std::optional<Hdl64eFacts> hdl64e;    ///< Set if any packet is from an HDL-64E.
   std::optional<Ruby128Facts> ruby128;  ///< Set if any packet is an RS-Ruby128's data packet.
   std::optional<StreamFacts> head;      ///< Set if most packets are from another decoded model.
-  std::optional<Ruby128DeviceReader> device;  ///< Set if any packet is a DIFOP packet.
+  std::optional<DeviceReader> device;   ///< Set if any packet is a DIFOP packet.
 
   /// Returns packets a second by the capture stamps; 0 for fewer than two packets.
   [[nodiscard]] double rate_hz() const noexcept;

@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "firmware_io/ruby128/difop_angles.hpp"
+
 namespace terracut::sensor {
 namespace {
 
@@ -13,9 +15,15 @@ bool same_angles(const ruby128::ruby128_wire::Difop& a,
          std::memcmp(&a.azimuth_offsets, &b.azimuth_offsets, sizeof(a.azimuth_offsets)) == 0;
 }
 
+Expected<calib::SensorCalibration> calibration_in(const ruby128::ruby128_wire::Difop& difop,
+                                                  SensorModel model) {
+  if (model == SensorModel::kRuby128) return ruby128::calibration_of(difop);
+  return ruby128::table_of(difop, model);
+}
+
 }  // namespace
 
-bool Ruby128DeviceReader::add(std::span<const std::uint8_t> payload) {
+bool DeviceReader::add(std::span<const std::uint8_t> payload) {
   const std::optional<ruby128::ruby128_wire::Difop> difop = ruby128::read_difop(payload);
   if (!difop) return false;
   ++counters_.packets;
@@ -25,8 +33,21 @@ bool Ruby128DeviceReader::add(std::span<const std::uint8_t> payload) {
     if (newest_->serial != difop->serial) ++counters_.serial_changes;
   }
   newest_ = difop;
-  if (new_angles && !has_calibration()) calibration_ = ruby128::calibration_of(*difop);
+  if (!new_angles) return true;
+  for (const SensorModel model : kDecodedModels) {
+    if (!is_robosense(model) || has_calibration(model)) continue;
+    calibrations_.insert_or_assign(model, calibration_in(*difop, model));
+  }
   return true;
+}
+
+const Expected<calib::SensorCalibration>& DeviceReader::calibration(SensorModel model) const {
+  static const Expected<calib::SensorCalibration> kNone =
+      fail(ErrorCode::kNoCalibration,
+           "no DIFOP packet has come; they come about once a second, by factory setting to UDP "
+           "port 7788");
+  const auto found = calibrations_.find(model);
+  return found == calibrations_.end() ? kNone : found->second;
 }
 
 }  // namespace terracut::sensor

@@ -25,6 +25,9 @@ std::optional<frame::Reject> HeadReader::read(SensorModel model, const packet::D
   for (hesai::PacketReader& reader : hesai_.of_models) {
     if (reader.model() == model) return reader.read(datagram.payload, azimuths);
   }
+  for (robosense::PacketReader& reader : robosense_.of_models) {
+    if (reader.model() == model) return reader.read(datagram.payload, azimuths);
+  }
   if (is_ouster(model)) {
     return ouster_.read(datagram.payload, ouster::rows_of(model), azimuths);
   }

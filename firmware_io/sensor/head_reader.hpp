@@ -13,6 +13,8 @@
 #include "firmware_io/ouster/head_reader.hpp"
 #include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/robosense/models.hpp"
+#include "firmware_io/robosense/packet_reader.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/velodyne/models.hpp"
 #include "firmware_io/velodyne/packet_reader.hpp"
@@ -45,6 +47,12 @@ class HeadReader {
         hesai::PacketReader(Model::kLayout)...};
   };
   hesai::Models::In<HesaiReaders> hesai_;
+  template <class... Model>
+  struct RoboSenseReaders {
+    std::array<robosense::PacketReader, sizeof...(Model)> of_models{
+        robosense::PacketReader(Model::kLayout)...};
+  };
+  robosense::Models::In<RoboSenseReaders> robosense_;
   ouster::HeadReader ouster_;
 };
 

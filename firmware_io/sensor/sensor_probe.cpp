@@ -27,6 +27,7 @@ double firing_s(SensorModel model, bool fires_slowly) {
   if (model == SensorModel::kRuby128) return ruby128::kRubyBlock_ns * 1e-9;
   if (const auto* layout = velodyne::layout_of(model)) return layout->firing_ns * 1e-9;
   if (hesai::Models::has(model)) return hesai::layout_of(model).column_ns * 1e-9;
+  if (robosense::Models::has(model)) return robosense::layout_of(model).column_ns * 1e-9;
   if (model == SensorModel::kHdl64eS1) return hdl64e::kS1UpperFiring_ns * 1e-9;
   return (fires_slowly ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48).column_ns * 1e-9;
 }

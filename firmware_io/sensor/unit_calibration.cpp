@@ -11,6 +11,7 @@
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
 #include "calib/hesai/hesai_csv.hpp"
 #include "calib/ouster/ouster_metadata.hpp"
+#include "calib/robosense/unit_table.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
@@ -85,34 +86,36 @@ Expected<calib::SensorCalibration> from_packets_of_hdl64e(CaptureSource& source)
   return *std::move(search.found);
 }
 
-// --- RS-Ruby128: the angles in DIFOP ---
+// --- RoboSense: the angles in DIFOP ---
 
-/// A DIFOP packet comes about once a second, after 6000 data packets (12000 in dual return mode).
+/// A DIFOP packet comes about once a second, after up to 12000 data packets.
 constexpr std::uint64_t kDatagramsToSearch = 60'000;
 
-Expected<ruby128::Ruby128Calibration> search_difop(CaptureSource& source) {
-  Ruby128DeviceReader device;
-  for (std::uint64_t i = 0; i < kDatagramsToSearch && !device.has_calibration(); ++i) {
+Expected<calib::SensorCalibration> from_packets_of_robosense(CaptureSource& source,
+                                                             SensorModel model) {
+  DeviceReader device;
+  for (std::uint64_t i = 0; i < kDatagramsToSearch && !device.has_calibration(model); ++i) {
     const auto next = source.next();
     if (!next || !*next) break;
     device.add((*next)->payload);
   }
-  return device.calibration();
-}
-
-Expected<calib::SensorCalibration> from_packets_of_ruby128(CaptureSource& source) {
-  auto found = search_difop(source);
-  if (found) return *std::move(found);
-  return fail(
-      ErrorCode::kNoCalibration,
-      fmt::format("{}: no calibration: none was given, and the packets do not hold one: {}. "
-                  "Give the unit's angle.csv with --calibration FILE, or consent to the "
-                  "model's table, which is off by some hundredths of a degree, with "
-                  "--nominal-calibration",
-                  source.name(), found.error().message));
+  const auto& found = device.calibration(model);
+  if (found) return found;
+  return fail(ErrorCode::kNoCalibration,
+              fmt::format("{}: no calibration: none was given, and the packets do not hold one: "
+                          "{}. {}",
+                          source.name(), found.error().message, what_to_give(model)));
 }
 
 }  // namespace
+
+std::string what_to_give(SensorModel model) {
+  return fmt::format("Give the unit's angle.csv with --calibration FILE{}",
+                     model == SensorModel::kRuby128
+                         ? ", or consent to the model's table, which is off by some hundredths of "
+                           "a degree, with --nominal-calibration"
+                         : "");
+}
 
 tl::unexpected<Error> fail_for_s1(const std::string& place) {
   return fail(
@@ -139,7 +142,7 @@ Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& cho
   if (is_ouster(model) && !choice.file.empty()) {
     return ouster::read_ouster_metadata(choice.file, model);
   }
-  if (row_of(model).has_unit_tables) {  // a Hesai, whose packets do not hold its table
+  if (is_hesai(model)) {
     if (choice.file.empty()) return beams::built_in_table(model);
     return hesai::read_hesai_csv(choice.file, model);
   }
@@ -151,6 +154,7 @@ Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& cho
   }
   if (!choice.file.empty()) {
     if (ruby128) return ruby128::read_ruby128_csv(choice.file);
+    if (is_robosense(model)) return robosense::read_unit_csv(choice.file, model);
     return hdl64e::load_hdl64e_calibration(choice.file);
   }
   auto calibration = from_packets();
@@ -161,7 +165,7 @@ Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& cho
 Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
                                                     SensorModel model, CaptureSource& source) {
   return unit_calibration(choice, model, [&]() -> Expected<calib::SensorCalibration> {
-    if (model == SensorModel::kRuby128) return from_packets_of_ruby128(source);
+    if (is_robosense(model)) return from_packets_of_robosense(source, model);
     if (model == SensorModel::kHdl64eS1) return fail_for_s1(source.name());
     if (is_ouster(model)) return fail_for_ouster(source.name());
     return from_packets_of_hdl64e(source);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "calib/sensor/sensor_model.hpp"
 #include "calib/sensor_calibration.hpp"
@@ -17,7 +18,7 @@ namespace terracut::sensor {
 struct CalibrationChoice {
   /// A calibration known already; must be of the model.
   std::optional<calib::SensorCalibration> unit{};
-  /// File of an HDL-64E (xml or yaml), an RS-Ruby128 or a Hesai (csv), or an Ouster (json); empty:
+  /// File of an HDL-64E (xml or yaml), a RoboSense or a Hesai (csv), or an Ouster (json); empty:
   /// none.
   std::filesystem::path file{};
   bool allows_nominal = false;  ///< Allows the nominal table of an RS-Ruby128 as the last resort.
@@ -35,6 +36,8 @@ using FromPackets = std::function<Expected<calib::SensorCalibration>()>;
                                                                   SensorModel model,
                                                                   const FromPackets& from_packets);
 
+/// Returns what to do for a RoboSense whose packets do not hold its angles: "Give ...".
+[[nodiscard]] std::string what_to_give(SensorModel model);
 /// Fails with kNoCalibration for an HDL-64E S1 heard at `place`: its packets never contain one.
 [[nodiscard]] tl::unexpected<Error> fail_for_s1(const std::string& place);
 /// The same for an Ouster without metadata.

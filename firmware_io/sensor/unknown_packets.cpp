@@ -109,9 +109,10 @@ std::string robosense_header(Bytes payload) {
   }
   if (!std::ranges::equal(payload.first(3), kRotating)) return {};
   return fmt::format(
-      "of a RoboSense that is not read; of the rotating ones' 1248 bytes only the "
-      "{}'s are",
-      to_string(SensorModel::kRuby128));
+      "of a RoboSense that is not read; of the rotating ones' 1248 bytes only those of a {}, {} or "
+      "{} are",
+      to_string(SensorModel::kRuby128), to_string(SensorModel::kRs32),
+      to_string(SensorModel::kHelios));
 }
 
 /// Describes a packet of a known model that lies inside the payload, between other bytes.

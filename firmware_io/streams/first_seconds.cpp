@@ -31,8 +31,11 @@ bool is_sent_by(const net::Sender& sender, const SensorStream& sensor) {
 }  // namespace
 
 bool FirstSeconds::wants_device_port() const {
-  return senders_.wants(sensor::SensorModel::kRuby128) && !config_.calibration.is_given() &&
-         config_.device_port != 0;
+  return std::ranges::any_of(sensor::kDecodedModels,
+                             [this](sensor::SensorModel model) {
+                               return sensor::is_robosense(model) && senders_.wants(model);
+                             }) &&
+         !config_.calibration.is_given() && config_.device_port != 0;
 }
 
 bool FirstSeconds::is_enough() const {
@@ -103,7 +106,7 @@ std::string FirstSeconds::other_sensors() const {
 
 std::string FirstSeconds::wanted_name() const {
   return config_.model ? std::string(to_string(*config_.model))
-                       : "a Velodyne, RS-Ruby128, Hesai or Ouster";
+                       : "a Velodyne, RoboSense, Hesai or Ouster";
 }
 
 std::string FirstSeconds::heard_instead() const {
@@ -128,15 +131,14 @@ Error FirstSeconds::nobody(std::optional<double> patience_s) const {
 
 Expected<calib::SensorCalibration> FirstSeconds::from_packets(sensor::SensorModel model,
                                                               std::uint32_t address) const {
-  if (model == sensor::SensorModel::kRuby128) {
-    auto told = senders_.ruby128_device(address).calibration();
-    if (told) return *std::move(told);
+  if (sensor::is_robosense(model)) {
+    const auto& told = senders_.device(address).calibration(model);
+    if (told) return told;
     return fail(ErrorCode::kNoCalibration,
-                fmt::format("no angles of this RS-Ruby128: none were given, and what it says of "
-                            "itself to port {} does not hold them: {}. Give the unit's angle.csv "
-                            "with --calibration FILE, or consent to the model's table with "
-                            "--nominal-calibration",
-                            config_.device_port, told.error().message));
+                fmt::format("no angles of this {}: none were given, and what it says of itself to "
+                            "port {} does not hold them: {}. {}",
+                            to_string(model), config_.device_port, told.error().message,
+                            sensor::what_to_give(model)));
   }
   if (model == sensor::SensorModel::kHdl64eS1) return sensor::fail_for_s1(config_.place);
   if (sensor::is_ouster(model)) return sensor::fail_for_ouster(config_.place);

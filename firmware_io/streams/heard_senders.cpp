@@ -29,7 +29,7 @@ void HeardSenders::Sender::add(const packet::Datagram& datagram,
   if (foreign_hints.empty() && !sensor::is_decoded(model)) {
     foreign_hints = sensor::describe_sensor_hints(datagram.payload);
   }
-  (void)ruby128_device.add(datagram.payload);
+  (void)device.add(datagram.payload);
   const auto* packet = hdl64e::packet_in(datagram.payload);
   if (packet != nullptr && hdl64e::is_hdl64e(*packet)) {
     hdl64e_status.add(packet->status_type, packet->status_value, packet->stamp_us.value());
@@ -127,11 +127,11 @@ std::vector<SensorStream> HeardSenders::steady() const {
 }
 
 bool HeardSenders::has_told(const SensorStream& sensor) const {
+  const Sender& sender = senders_.at(sensor.source_address);
+  if (sensor::is_robosense(sensor.model)) return sender.device.has_calibration(sensor.model);
   // A table of this model is built in, or in a file, and its packets hold none.
   if (sensor::has_built_in_table(sensor.model) || sensor::is_ouster(sensor.model)) return true;
-  const Sender& sender = senders_.at(sensor.source_address);
-  return sensor.model == sensor::SensorModel::kRuby128 ? sender.ruby128_device.has_calibration()
-                                                       : sender.hdl64e_status.has_table();
+  return sender.hdl64e_status.has_table();
 }
 
 std::string HeardSenders::describe(const Sender& sender) const {

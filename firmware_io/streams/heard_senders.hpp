@@ -56,8 +56,8 @@ class HeardSenders {
   [[nodiscard]] const hdl64e::StatusStreamReader& hdl64e_status(std::uint32_t address) const {
     return senders_.at(address).hdl64e_status;
   }
-  [[nodiscard]] const sensor::Ruby128DeviceReader& ruby128_device(std::uint32_t address) const {
-    return senders_.at(address).ruby128_device;
+  [[nodiscard]] const sensor::DeviceReader& device(std::uint32_t address) const {
+    return senders_.at(address).device;
   }
   /// Returns, for people, what came instead of a rotating sensor: "12 datagrams of no sensor known
   /// here, 100 bytes to port 2368, from 192.168.1.7; HDL-64E, whose head does not rotate, from
@@ -80,7 +80,7 @@ class HeardSenders {
     std::string first_unknown;  ///< "1218 bytes to port 2368: ..."; empty: none.
     std::string foreign_hints;  ///< Of the first packet that is known and not decoded.
     hdl64e::StatusStreamReader hdl64e_status;
-    sensor::Ruby128DeviceReader ruby128_device;
+    sensor::DeviceReader device;
     std::int64_t newest_ns = 0;
 
     void add(const packet::Datagram& datagram, std::optional<sensor::SensorModel> wanted);

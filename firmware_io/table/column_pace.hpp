@@ -48,6 +48,13 @@ template <class Model>
                                    Model::kPace.column_ns);
 }
 
+/// Returns how far the lens of `Model` is ahead of the axis of rotation.
+template <class Model>
+[[nodiscard]] constexpr double lens_ahead_m() noexcept {
+  if constexpr (requires { Model::kLensAhead_m; }) return Model::kLensAhead_m;
+  return 0;
+}
+
 /// Largest accepted backwards step from column to column.
 inline constexpr int kMaxJitter_cdeg = 5;
 /// Smallest mean step from column to column; a head that advances less counts as standing still.

@@ -26,7 +26,8 @@ namespace terracut::table {
 /// - `kLasers`, and `kChannels`, the readings of a column: a multiple of kLasers if these fire more
 ///   than once for one head azimuth;
 /// - `kGroups`, `group(channel)` and `group_ns(group)`: which channels fire together, and when
-///   after the column's first firing, [0, column_ns).
+///   after the column's first firing, [0, column_ns);
+/// - and it may have `kLensAhead_m`, how far the lens is ahead of the axis of rotation.
 template <class Model>
 class TableSensor {
   static_assert(sensor::row_of(Model::kModel).lasers.size() == std::size_t{Model::kLasers},
@@ -45,7 +46,7 @@ class TableSensor {
   using Returns = packet::FiringReturns<static_cast<std::size_t>(kChannels)>;
 
   TableSensor(const Calibration& calibration, const mount::Mount& mount)
-      : kernel_(calibration.lasers, mount), offsets_(calibration) {
+      : kernel_(calibration.lasers, mount, lens_ahead_m<Model>()), offsets_(calibration) {
     const std::vector<int> rows = mount::rows_upward(rows_by_elevation(calibration), mount);
     for (std::size_t channel = 0; channel < rows_.size(); ++channel) {
       rows_[channel] = rows[laser_of(channel)];

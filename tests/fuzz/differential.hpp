@@ -165,8 +165,10 @@ class Differential {
             std::string("reference: ") + std::string(to_string(packet.refusal)) +
                 ", decoder: " + std::string(reason ? to_string(*reason) : "none"));
     if (!reason) expected_.add(packet, frames_.unwrap(packet));
+    // Azimuths may look like those of the other mode.
+    const bool dual_return = reason ? dual_return_ : packet.dual_return;
     const double packet_us =
-        Sensor::firing_us(dual_return_) * Sensor::firings_per_packet(dual_return_);
+        Sensor::firing_us(dual_return) * Sensor::firings_per_packet(dual_return);
     stamp_ns_ += static_cast<std::int64_t>(packet_us * 1e3);
   }
 

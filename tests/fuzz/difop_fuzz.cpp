@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "calib/ruby128/nominal_ruby128.hpp"
+#include "firmware_io/ruby128/difop_angles.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
 
 namespace {
@@ -39,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::array<std::uint8_t, ruby128::kRubyPacketBytes> bytes;
   std::copy_n(ruby128::payload_of(good).begin(), bytes.size(), bytes.begin());
 
-  sensor::Ruby128DeviceReader reader;
+  sensor::DeviceReader reader;
   reader.add({data, size});
   for (std::size_t i = 0; i + 3 <= size;) {
     const std::size_t at = (data[i] * std::size_t{256} + data[i + 1]) % bytes.size();
@@ -49,6 +50,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check(reader.add(bytes) == ruby128::is_difop(bytes));
     if (const auto difop = ruby128::read_difop(bytes)) check_packet(*difop);
   }
-  check(reader.has_calibration() == reader.calibration().has_value());
+  for (const auto model : {sensor::SensorModel::kRs32, sensor::SensorModel::kHelios}) {
+    if (const auto& told = reader.calibration(model)) {
+      check(validate(std::get<beams::BeamTable>(*told)).has_value());
+    }
+  }
   return 0;
 }

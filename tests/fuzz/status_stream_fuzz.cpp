@@ -9,7 +9,7 @@
 
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
-#include "tools/lab/packets/status_stream_writer.hpp"
+#include "tools/lab/tables/status_stream_writer.hpp"
 
 namespace {
 
@@ -43,7 +43,7 @@ bool same_lasers(std::span<const std::uint8_t> a, const Table& b) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace terracut;
   static const Table table = true_table();
-  packets::StatusStreamWriter writer(table, hdl64e::StatusFlavour::kS3);
+  tables::StatusStreamWriter writer(table, hdl64e::StatusFlavour::kS3);
   hdl64e::StatusStreamReader reader;
   std::uint32_t stamp_us = 3'599'000'000;  // passes the top of the hour
   bool altered = false;

@@ -28,7 +28,8 @@ MOST_POINTS = 4194304
 SENSORS = {1: "hdl64e", 2: "ruby128", 3: "vlp16", 4: "hdl32e", 5: "vlp32c", 6: "vls128",
            7: "pandar40p", 8: "pandar64", 9: "pandarqt64", 10: "pandarqt128", 11: "pandarxt16",
            12: "pandarxt32", 13: "pandarxt32m",
-           14: "ouster32", 15: "ouster64", 16: "ouster128", 17: "ot128", 18: "pandar128"}
+           14: "ouster32", 15: "ouster64", 16: "ouster128", 17: "ot128", 18: "pandar128",
+           19: "rs32", 20: "helios"}
 RUNGS = {0: "full", 1: "cut_stopped", 2: "coarse", 3: "skipped"}
 COMPLETE, LATE, NO_EGO_MOTION, SECTOR = 1, 2, 8, 16
 GROUND, OTHER_GROUND, OBSTACLE = 40, 49, 99

@@ -8,7 +8,7 @@
 #include "calib/hdl64e/hdl64e_xml.hpp"
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "tests/calib/calib_test_support.hpp"
-#include "tools/lab/packets/hdl64e_xml_writer.hpp"
+#include "tools/lab/tables/hdl64e_xml_writer.hpp"
 
 namespace terracut::hdl64e {
 namespace {

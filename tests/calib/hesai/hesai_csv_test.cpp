@@ -19,7 +19,7 @@ using sensor::SensorModel;
 std::vector<SensorModel> models() {
   std::vector<SensorModel> found;
   for (const sensor::SensorRow& row : sensor::kSensorTable) {
-    if (row.has_unit_tables) found.push_back(row.model);
+    if (sensor::is_hesai(row.model)) found.push_back(row.model);
   }
   return found;
 }

@@ -29,24 +29,13 @@ TEST(SensorTable, KeepsTheWordsAndTheNumbersOnTheWire) {
     if (!row.word.empty()) numbers[std::string(row.word)] = row.stream_number;
     EXPECT_EQ(is_decoded(row.model), row.stream_number != 0) << row.name;
   }
-  EXPECT_EQ(numbers, (std::map<std::string, int>{{"hdl64e", 1},
-                                                 {"ruby128", 2},
-                                                 {"vlp16", 3},
-                                                 {"hdl32e", 4},
-                                                 {"vlp32c", 5},
-                                                 {"vls128", 6},
-                                                 {"pandar40p", 7},
-                                                 {"pandar64", 8},
-                                                 {"pandarqt64", 9},
-                                                 {"pandarqt128", 10},
-                                                 {"pandarxt16", 11},
-                                                 {"pandarxt32", 12},
-                                                 {"pandarxt32m", 13},
-                                                 {"ouster32", 14},
-                                                 {"ouster64", 15},
-                                                 {"ouster128", 16},
-                                                 {"ot128", 17},
-                                                 {"pandar128", 18}}));
+  EXPECT_EQ(numbers,
+            (std::map<std::string, int>{
+                {"hdl64e", 1},       {"ruby128", 2},      {"vlp16", 3},       {"hdl32e", 4},
+                {"vlp32c", 5},       {"vls128", 6},       {"pandar40p", 7},   {"pandar64", 8},
+                {"pandarqt64", 9},   {"pandarqt128", 10}, {"pandarxt16", 11}, {"pandarxt32", 12},
+                {"pandarxt32m", 13}, {"ouster32", 14},    {"ouster64", 15},   {"ouster128", 16},
+                {"ot128", 17},       {"pandar128", 18},   {"rs32", 19},       {"helios", 20}}));
 }
 
 TEST(SensorTable, TellsModelsApartByWordAndProductNumber) {

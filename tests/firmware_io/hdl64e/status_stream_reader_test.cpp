@@ -13,7 +13,7 @@
 
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "table_image.hpp"
-#include "tools/lab/packets/status_stream_writer.hpp"
+#include "tools/lab/tables/status_stream_writer.hpp"
 
 namespace terracut::hdl64e {
 namespace {
@@ -32,7 +32,7 @@ struct StreamPacket {
 std::vector<StreamPacket> stream(const TableImage& table, StatusFlavour flavour, std::size_t count,
                                  std::size_t first = 0, double period_us = 288.0,
                                  std::int64_t start_us = 1'000'000'000) {
-  packets::StatusStreamWriter writer(table, flavour, {.temperature_deg_c = 41, .firmware = 0x47});
+  tables::StatusStreamWriter writer(table, flavour, {.temperature_deg_c = 41, .firmware = 0x47});
   std::vector<StreamPacket> packets;
   for (std::size_t i = 0; i < first + count; ++i) {
     const auto offset_us = static_cast<std::int64_t>(static_cast<double>(i) * period_us);
@@ -259,7 +259,7 @@ TEST(StatusStreamReader, RandomBytesGiveNoTable) {
 TEST(StatusStreamReader, OwnsNoHeapMemory) {
   // Trivially copyable: nothing inside could allocate, so add() cannot either.
   static_assert(std::is_trivially_copyable_v<StatusStreamReader>);
-  static_assert(std::is_trivially_copyable_v<packets::StatusStreamWriter>);
+  static_assert(std::is_trivially_copyable_v<tables::StatusStreamWriter>);
   static_assert(noexcept(std::declval<StatusStreamReader&>().add(0, 0, 0)));
 }
 

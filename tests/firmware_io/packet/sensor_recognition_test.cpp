@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/packet/robosense_wire.hpp"
 #include "tests/firmware_io/capture/capture_bytes.hpp"
 
 namespace terracut::sensor {
@@ -113,6 +114,28 @@ TEST(SensorRecognition, NamesOtherRoboSensesByTheirBlocks) {
               HasSubstr("RS-16's, RS-32's or Bpearl's"));
   EXPECT_THAT(describe_sensor_hints(of_blocks({0x55, 0xAA, 0x05, 0x5A}, 8, 148)),
               HasSubstr("Airy"));
+}
+
+TEST(SensorRecognition, TellsARoboSenseOf32LasersByItsTypeOrTheName) {
+  for (const auto& layout : robosense::kLayouts) {
+    Bytes payload(robosense::kPacketBytes);
+    robosense::begin_packet(layout, payload);
+    EXPECT_EQ(recognise_sensor(payload), layout.model);
+    EXPECT_THAT(describe_sensor_hints(payload), HasSubstr("type bytes 00 "));
+    std::swap(payload[30], payload[31]);  // where older manuals have it
+    EXPECT_EQ(recognise_sensor(payload), layout.model);
+    payload[30] = 0;
+    EXPECT_EQ(recognise_sensor(payload), SensorModel::kOtherRoboSense);
+    EXPECT_EQ(recognise_sensor_as(layout.model, payload), layout.model);
+    EXPECT_EQ(recognise_sensor_as(SensorModel::kRuby128, payload), SensorModel::kOtherRoboSense);
+    payload[31] = 6;
+    payload[32] = 3;  // a Helios-16P, whose blocks are two firings
+    EXPECT_EQ(recognise_sensor(payload), SensorModel::kOtherRoboSense);
+    EXPECT_EQ(recognise_sensor_as(layout.model, payload), SensorModel::kOtherRoboSense);
+    payload[31] = 0;
+    payload[42 + 100 * 11] = 0;
+    EXPECT_EQ(recognise_sensor_as(layout.model, payload), SensorModel::kOtherRoboSense);
+  }
 }
 
 TEST(SensorRecognition, ReadsNothingOutsideAnyPayload) {

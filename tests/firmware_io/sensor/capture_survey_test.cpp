@@ -11,7 +11,7 @@
 #include "firmware_io/capture/pcap_writer.hpp"
 #include "firmware_io/hdl64e/firing_times.hpp"
 #include "tests/firmware_io/capture/capture_bytes.hpp"
-#include "tools/lab/packets/status_stream_writer.hpp"
+#include "tools/lab/tables/status_stream_writer.hpp"
 
 namespace terracut::sensor {
 namespace {
@@ -61,7 +61,7 @@ class Unit {
   }
 
   bool dual_;
-  packets::StatusStreamWriter status_;
+  tables::StatusStreamWriter status_;
 };
 
 packet::Datagram from_unit(const Bytes& payload, std::int64_t stamp_ns, std::uint16_t port = 2368) {

@@ -9,12 +9,15 @@
 
 #include "calib/beams/angle.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
+#include "firmware_io/ruby128/difop_angles.hpp"
 
 namespace terracut::sensor {
 namespace {
 
 using ruby128::ruby128_wire::Difop;
 using testing::HasSubstr;
+
+constexpr SensorModel kRuby = SensorModel::kRuby128;
 
 Difop difop_of_unit(std::uint8_t serial, double elevations_up_deg = 0) {
   ruby128::Ruby128Calibration calibration = ruby128::nominal_ruby128();
@@ -27,29 +30,33 @@ Difop difop_of_unit(std::uint8_t serial, double elevations_up_deg = 0) {
   return difop;
 }
 
-double lowest_deg(const Ruby128DeviceReader& reader) {
-  return beams::rad_to_deg(reader.calibration()->channels[35].elevation_rad);
+const ruby128::Ruby128Calibration& told(const DeviceReader& reader) {
+  return std::get<ruby128::Ruby128Calibration>(*reader.calibration(kRuby));
 }
 
-TEST(Ruby128DeviceReader, KnowsNothingBeforeTheFirstPacket) {
-  const Ruby128DeviceReader reader;
-  EXPECT_FALSE(reader.has_calibration());
+double lowest_deg(const DeviceReader& reader) {
+  return beams::rad_to_deg(told(reader).channels[35].elevation_rad);
+}
+
+TEST(DeviceReader, KnowsNothingBeforeTheFirstPacket) {
+  const DeviceReader reader;
+  EXPECT_FALSE(reader.has_calibration(kRuby));
   EXPECT_FALSE(reader.newest().has_value());
-  EXPECT_EQ(reader.calibration().error().code, ErrorCode::kNoCalibration);
-  EXPECT_THAT(reader.calibration().error().message, HasSubstr("no DIFOP packet has come"));
+  EXPECT_EQ(reader.calibration(kRuby).error().code, ErrorCode::kNoCalibration);
+  EXPECT_THAT(reader.calibration(kRuby).error().message, HasSubstr("no DIFOP packet has come"));
 }
 
-TEST(Ruby128DeviceReader, TakesTheCalibrationOfTheFirstPacket) {
-  Ruby128DeviceReader reader;
+TEST(DeviceReader, TakesTheCalibrationOfTheFirstPacket) {
+  DeviceReader reader;
   const Difop difop = difop_of_unit(7);
   EXPECT_TRUE(reader.add(ruby128::payload_of(difop)));
-  EXPECT_TRUE(reader.has_calibration());
-  EXPECT_EQ(fingerprint(*reader.calibration()), fingerprint(ruby128::nominal_ruby128()));
+  EXPECT_TRUE(reader.has_calibration(kRuby));
+  EXPECT_EQ(fingerprint(told(reader)), fingerprint(ruby128::nominal_ruby128()));
   EXPECT_EQ(reader.counters().packets, 1U);
 }
 
-TEST(Ruby128DeviceReader, LeavesOtherPayloadsAlone) {
-  Ruby128DeviceReader reader;
+TEST(DeviceReader, LeavesOtherPayloadsAlone) {
+  DeviceReader reader;
   EXPECT_FALSE(reader.add({}));
   const auto data = ruby128::blank_packet();
   EXPECT_FALSE(reader.add(ruby128::payload_of(data)));
@@ -59,8 +66,8 @@ TEST(Ruby128DeviceReader, LeavesOtherPayloadsAlone) {
   EXPECT_FALSE(reader.newest().has_value());
 }
 
-TEST(Ruby128DeviceReader, KeepsTheNewestFactsAndTheFirstCalibration) {
-  Ruby128DeviceReader reader;
+TEST(DeviceReader, KeepsTheNewestFactsAndTheFirstCalibration) {
+  DeviceReader reader;
   Difop difop = difop_of_unit(7);
   difop.rpm_actual = packet::Be16::of(598);
   reader.add(ruby128::payload_of(difop));
@@ -73,8 +80,8 @@ TEST(Ruby128DeviceReader, KeepsTheNewestFactsAndTheFirstCalibration) {
   EXPECT_EQ(reader.counters().serial_changes, 0U);
 }
 
-TEST(Ruby128DeviceReader, CountsEveryChangeOfSerialNumberAndAngles) {
-  Ruby128DeviceReader reader;
+TEST(DeviceReader, CountsEveryChangeOfSerialNumberAndAngles) {
+  DeviceReader reader;
   const Difop a = difop_of_unit(1), b = difop_of_unit(2, 0.1);
   for (const Difop* difop : {&a, &a, &b, &a, &b, &b}) reader.add(ruby128::payload_of(*difop));
   EXPECT_EQ(reader.counters().packets, 6U);
@@ -83,8 +90,8 @@ TEST(Ruby128DeviceReader, CountsEveryChangeOfSerialNumberAndAngles) {
   EXPECT_EQ(reader.newest()->serial[5], 2);
 }
 
-TEST(Ruby128DeviceReader, SeesAChangeOfAzimuthOffsetsAlone) {
-  Ruby128DeviceReader reader;
+TEST(DeviceReader, SeesAChangeOfAzimuthOffsetsAlone) {
+  DeviceReader reader;
   Difop difop = difop_of_unit(1);
   reader.add(ruby128::payload_of(difop));
   difop.azimuth_offsets[127].magnitude_cdeg = packet::Be16::of(594);
@@ -92,24 +99,24 @@ TEST(Ruby128DeviceReader, SeesAChangeOfAzimuthOffsetsAlone) {
   EXPECT_EQ(reader.counters().angle_changes, 1U);
 }
 
-TEST(Ruby128DeviceReader, WaitsForAnglesAndSaysWhyThereAreNone) {
-  Ruby128DeviceReader reader;
+TEST(DeviceReader, WaitsForAnglesAndSaysWhyThereAreNone) {
+  DeviceReader reader;
   const Difop unset = ruby128::blank_difop();
   reader.add(ruby128::payload_of(unset));
   reader.add(ruby128::payload_of(unset));
-  EXPECT_FALSE(reader.has_calibration());
-  EXPECT_THAT(reader.calibration().error().message, HasSubstr("hold no angles"));
+  EXPECT_FALSE(reader.has_calibration(kRuby));
+  EXPECT_THAT(reader.calibration(kRuby).error().message, HasSubstr("hold no angles"));
 
   Difop implausible = difop_of_unit(1);
   implausible.elevations[0] = implausible.elevations[1];
   reader.add(ruby128::payload_of(implausible));
-  EXPECT_FALSE(reader.has_calibration());
-  EXPECT_THAT(reader.calibration().error().message, HasSubstr("channels 1 and 2"));
+  EXPECT_FALSE(reader.has_calibration(kRuby));
+  EXPECT_THAT(reader.calibration(kRuby).error().message, HasSubstr("channels 1 and 2"));
 
   const Difop good = difop_of_unit(1);
   reader.add(ruby128::payload_of(good));
   reader.add(ruby128::payload_of(unset));
-  EXPECT_TRUE(reader.has_calibration());
+  EXPECT_TRUE(reader.has_calibration(kRuby));
   EXPECT_NEAR(lowest_deg(reader), -25.0, 1e-9);
 }
 

@@ -52,7 +52,7 @@ TEST(FirstSeconds, SayWhatIsWaitedForAsLongAsNothingCame) {
   const FirstSeconds first(anything());
   EXPECT_FALSE(first.is_enough());
   EXPECT_EQ(first.waits_for(),
-            "waiting for a Velodyne, RS-Ruby128, Hesai or Ouster at 0.0.0.0:2368");
+            "waiting for a Velodyne, RoboSense, Hesai or Ouster at 0.0.0.0:2368");
 }
 
 TEST(FirstSeconds, AreEnoughWhenASensorRotatesThatNobodyElseSendsBeside) {

@@ -120,8 +120,8 @@ TEST_F(HeardSendersTest, WhatAModelThatIsNotReadIsLikeIsNamed) {
   }
   senders_.add({.payload = helios, .source_address = kOther});
   EXPECT_EQ(senders_.others(),
-            "1 packets of another RoboSense (12 blocks of 32 channels, a Helios's) from "
-            "192.168.1.7");
+            "1 packets of another RoboSense (12 blocks of 32 channels, a Helios's; one with 32 "
+            "lasers has to be named with --sensor) from 192.168.1.7");
   std::ranges::copy(std::array<std::uint8_t, 8>{0xEE, 0xFF, 1, 4, 0, 0, 128, 2}, hesai.begin());
   senders_.add({.payload = hesai, .source_address = kSensor});
   EXPECT_THAT(senders_.others(), HasSubstr("of a Hesai that is not read: 128 lasers"));

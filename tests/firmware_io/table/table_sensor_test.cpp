@@ -19,13 +19,18 @@ namespace {
 
 template <class... Hesai_>
 struct WithHesai {
-  template <class... Velodyne_>
-  using AndVelodyne = testing::Types<Velodyne<Velodyne_>..., Hesai<Hesai_>...,
-                                     Hesai<hesai::Ot128, true>, Hesai<hesai::Pandar128, true>>;
+  template <class... RoboSense_>
+  struct AndRoboSense {
+    template <class... Velodyne_>
+    using AndVelodyne =
+        testing::Types<Velodyne<Velodyne_>..., RoboSense<RoboSense_>..., Hesai<Hesai_>...,
+                       Hesai<hesai::Ot128, true>, Hesai<hesai::Pandar128, true>>;
+  };
+  using WithRoboSense = robosense::Models::In<AndRoboSense>;
 };
 template <class Sensor>
 class TableSensorStream : public testing::Test {};
-using Sensors = velodyne::Models::In<hesai::Models::In<WithHesai>::AndVelodyne>;
+using Sensors = velodyne::Models::In<hesai::Models::In<WithHesai>::WithRoboSense::AndVelodyne>;
 TYPED_TEST_SUITE(TableSensorStream, Sensors);
 
 TYPED_TEST(TableSensorStream, AgreesWithAPlainSlowDecoderAtEverySpinAndInEitherReturnMode) {
@@ -137,8 +142,7 @@ TYPED_TEST(TableSensorStream, IsDecodedWithoutAllocating) {
     EXPECT_EQ(memory.total_bytes(), planned);
     EXPECT_EQ(decoded, 489U);
     // A Hesai's packets of some models have few lasers.
-    EXPECT_GT(returns,
-              sensor::row_of(TypeParam::sheet().model).has_unit_tables ? 50'000U : 80'000U);
+    EXPECT_GT(returns, sensor::is_hesai(TypeParam::sheet().model) ? 50'000U : 80'000U);
   }
 }
 
@@ -150,20 +154,25 @@ TYPED_TEST(TableSensorStream, IsFoundByItselfWithItsTable) {
     RotatingHead head{.dual_return = dual_return, .share_of_returns = 0.1};
     head.packets = static_cast<int>(0.5e6 / TypeParam::firing_us(dual_return) /
                                     TypeParam::firings_per_packet(dual_return));
-    for (const Payload& payload : TypeParam::payloads(head)) {
+    const auto payloads = TypeParam::payloads(head);
+    for (const Payload& payload : payloads) {
       first.add({.payload = payload.bytes, .stamp_ns = payload.stamp_ns});
+    }
+    if constexpr (requires { TypeParam::device_payload(); }) {
+      EXPECT_FALSE(first.is_enough());
+      first.add({.payload = TypeParam::device_payload(), .stamp_ns = payloads.back().stamp_ns});
     }
     ASSERT_TRUE(first.is_enough()) << first.waits_for();
     const auto found = first.conclude();
     ASSERT_TRUE(found) << found.error().message;
     const sensor::SensorModel model = TypeParam::sheet().model;
     EXPECT_EQ(found->model, model);
-    EXPECT_NEAR(found->spin_hz, 10, sensor::row_of(model).has_unit_tables ? 0.03 : 0.02);
+    EXPECT_NEAR(found->spin_hz, 10, sensor::is_hesai(model) ? 0.03 : 0.02);
     EXPECT_EQ(found->dual_return, dual_return);
     EXPECT_NEAR(found->columns, 1e5 / TypeParam::firing_us(dual_return), 1);
     EXPECT_EQ(calib::fingerprint(found->calibration), fingerprint(beams::built_in_table(model)));
     EXPECT_EQ(calib::origin_of(found->calibration).starts_with("nominal table of the "),
-              sensor::row_of(model).has_unit_tables);
+              sensor::is_hesai(model));
   }
 }
 

@@ -13,6 +13,7 @@
 #include "firmware_io/ruby128/packet_check.hpp"
 #include "hdl64e_reference.hpp"
 #include "hesai_reference.hpp"
+#include "robosense_reference.hpp"
 #include "rotating_head.hpp"
 #include "ruby128_reference.hpp"
 #include "velodyne_reference.hpp"
@@ -180,6 +181,45 @@ struct Hesai {
   }
   static void set_clock(PayloadBytes& payload, std::int64_t time_ns) {
     set_hesai_clock(sheet(), payload, time_ns);
+  }
+  static void reset(Reference&) {}
+};
+
+/// Of RoboSense's models with 32 lasers.
+template <class Model>
+struct RoboSense {
+  using Decoder = decode::Decoder;
+  using Calibration = beams::BeamTable;
+  using Reference = RoboSenseReference;
+  static constexpr int kLasers = 32, kColumns = 12, kImageColumns = kColumns;
+  static constexpr int kFirstBlock = 42, kBlockBytes = 100, kBlocks = 12;
+
+  static const RoboSenseSheet& sheet() { return robosense_sheet_of(Model::kModel); }
+  static int columns(bool) { return kColumns; }
+  static int columns_a_block() { return 1; }
+  static double firing_us(bool) { return sheet().block_us; }
+  static double firings_per_packet(bool dual_return) { return dual_return ? 6 : 12; }
+  static Calibration random_unit(std::mt19937& random) {
+    return random_table(Model::kModel, random);
+  }
+  static std::vector<double> elevations(const Calibration& calibration) {
+    return elevations_of(calibration.lasers);
+  }
+  static std::vector<Payload> payloads(const RotatingHead& head) {
+    return robosense_payloads(sheet(), head);
+  }
+  static PayloadBytes device_payload() {
+    return robosense_device_payload(beams::built_in_table(Model::kModel));
+  }
+  static void set_azimuth(PayloadBytes& payload, int column, unsigned cdeg) {
+    set_robosense_azimuth(payload, column, cdeg);
+  }
+  static void set_return(PayloadBytes& payload, int column, int laser, unsigned raw,
+                         unsigned intensity) {
+    set_robosense_return(payload, column, laser, raw, intensity);
+  }
+  static void set_clock(PayloadBytes& payload, std::int64_t time_ns) {
+    set_robosense_clock(sheet(), payload, time_ns);
   }
   static void reset(Reference&) {}
 };

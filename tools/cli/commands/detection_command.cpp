@@ -94,7 +94,7 @@ ExitCode run_detection(const Options& options) {
               to_string(model));
     std::string line = "\n|---|---|";
     for (const Ranges& ranges : kRanges) {
-      print_out(" {} to {} m |", ranges.from_m, ranges.to_m);
+      print_out(" {}-{} m |", ranges.from_m, ranges.to_m);
       line += "---|";
     }
     print_out("{}\n", line);

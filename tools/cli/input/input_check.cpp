@@ -5,6 +5,7 @@
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/hesai/hesai_csv.hpp"
 #include "calib/ouster/ouster_metadata.hpp"
+#include "calib/robosense/unit_table.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "firmware_io/vehicle/dbc_file.hpp"
@@ -34,7 +35,8 @@ Status check_calibration(const CaptureOptions& capture) {
   if (capture.sensor == sensor::SensorModel::kRuby128) return ruby128();
   if (file.extension() == ".csv") {
     const Status of_hesai = status_of(hesai::read_hesai_csv(file));
-    return of_hesai ? Status{} : ruby128();
+    const bool is_read = of_hesai || robosense::read_unit_csv(file);
+    return is_read ? Status{} : ruby128();
   }
   const Status of_hdl64e = hdl64e();
   return of_hdl64e || ruby128() ? Status{} : of_hdl64e;

@@ -69,7 +69,7 @@ Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
                                                   sensor::SensorModel model, CaptureSource& unit) {
   sensor::CalibrationChoice choice{.file = options.calibration};
   // A Hesai's packets hold no table, so its nominal one must not come before the unit's.
-  const bool is_of_hesai = sensor::row_of(model).has_unit_tables;
+  const bool is_of_hesai = sensor::is_hesai(model);
   Expected<calib::SensorCalibration> told = fail(ErrorCode::kNoCalibration, "");
   if (!is_of_hesai || choice.is_given()) told = sensor::unit_calibration(choice, model, unit);
   if (told || choice.is_given() || told.error().code != ErrorCode::kNoCalibration) return told;
@@ -77,9 +77,9 @@ Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
   const auto beside =
       is_of_ouster ? metadata_beside(options.file) : calibration_beside(options.file);
   if (!beside) return tl::unexpected(beside.error());
-  const bool is_of_ruby128 = model == sensor::SensorModel::kRuby128;
+  const bool is_of_robosense = sensor::is_robosense(model);
   const bool is_csv = beside->extension() == ".csv";
-  if (!beside->empty() && is_csv == (is_of_ruby128 || is_of_hesai) &&
+  if (!beside->empty() && is_csv == (is_of_robosense || is_of_hesai) &&
       ouster::is_metadata_name(*beside) == is_of_ouster) {
     choice.file = *beside;
     say(fmt::format("the packets hold no calibration; {} beside the capture is taken",
@@ -91,9 +91,9 @@ Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
   }
   told.error().message +=
       fmt::format("; or put it beside the capture as {}.calibration.{}", stem_of(options.file),
-                  is_of_ouster    ? "json"
-                  : is_of_ruby128 ? "csv"
-                                  : "xml");
+                  is_of_ouster      ? "json"
+                  : is_of_robosense ? "csv"
+                                    : "xml");
   return told;
 }
 

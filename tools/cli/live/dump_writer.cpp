@@ -11,6 +11,7 @@
 
 #include "calib/hesai/hesai_csv.hpp"
 #include "calib/ouster/ouster_metadata.hpp"
+#include "calib/robosense/unit_table.hpp"
 #include "rt/caught.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/lab/packets/hdl64e_encoder_traits.hpp"
@@ -89,7 +90,9 @@ void DumpWriter::add_table(recorder::DumpReport& dump) const {
         if constexpr (std::is_same_v<Calibration, beams::BeamTable>) {
           if (sensor::has_factory_table(unit.model)) return {};  // the decoder has it, too
           dump.calibration = recorder::dump_calibration_path(dump.capture, ".calibration.csv");
-          return hesai::write_hesai_csv(dump.calibration, unit);
+          return sensor::is_robosense(unit.model)
+                     ? robosense::write_unit_csv(dump.calibration, unit)
+                     : hesai::write_hesai_csv(dump.calibration, unit);
         } else if constexpr (std::is_same_v<Calibration, ouster::OusterCalibration>) {
           dump.calibration = recorder::dump_calibration_path(dump.capture, ".calibration.json");
           return ouster::write_ouster_metadata(dump.calibration, unit);

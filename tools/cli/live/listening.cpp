@@ -26,7 +26,7 @@ std::optional<net::LiveSource> open_device_port(const Options& options,
   listen.sender.reset();
   auto opened = net::LiveSource::open(listen, memory);
   if (opened) return *std::move(opened);
-  if (options.capture.sensor == sensor::SensorModel::kRuby128) {
+  if (options.capture.sensor && sensor::is_robosense(*options.capture.sensor)) {
     warn("the sensor's device information is not heard: " + opened.error().message);
   }
   return std::nullopt;

@@ -7,6 +7,7 @@
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/hesai/hesai_csv.hpp"
 #include "calib/ouster/ouster_metadata.hpp"
+#include "calib/robosense/unit_table.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 
 namespace terracut::cli {
@@ -26,7 +27,8 @@ Expected<ruby128::Ruby128Calibration> made_calibration(const CaptureOptions& opt
 Expected<beams::BeamTable> made_calibration(const CaptureOptions& options,
                                             sensor::SensorModel model) {
   if (options.calibration.empty()) return beams::built_in_table(model);
-  if (!sensor::has_factory_table(model)) return hesai::read_hesai_csv(options.calibration, model);
+  if (sensor::is_robosense(model)) return robosense::read_unit_csv(options.calibration, model);
+  if (sensor::is_hesai(model)) return hesai::read_hesai_csv(options.calibration, model);
   return fail(ErrorCode::kInvalidArgument,
               fmt::format("{}: the table of a {} is built in; leave --calibration away",
                           options.calibration.string(), to_string(model)));

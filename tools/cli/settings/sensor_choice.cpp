@@ -86,7 +86,7 @@ Expected<SensorChoice> choose_sensor(const CaptureOptions& options,
   if (sensors.empty() && heard.broke_off) return tl::unexpected(*heard.broke_off);
   if (sensors.empty()) {
     const std::string expected =
-        named ? fmt::format("a {}", to_string(*named)) : "a Velodyne, RS-Ruby128, Hesai or Ouster";
+        named ? fmt::format("a {}", to_string(*named)) : "a Velodyne, RoboSense, Hesai or Ouster";
     return fail(ErrorCode::kUnsupported,
                 fmt::format("{}: expected data packets of {}, found none: {}", source.name(),
                             expected, found_instead(options, heard.senders, source)));
@@ -119,14 +119,15 @@ Expected<SensorChoice> choose_sensor(const CaptureOptions& options,
 }
 
 void warn_of_unused(const CaptureOptions& options, sensor::SensorModel model) {
-  if (model == sensor::SensorModel::kRuby128) return;
-  const auto warn_of = [&](bool given, const char* option) {
+  const auto warn_of = [&](bool given, const char* option, const char* of) {
     if (!given) return;
-    warn(fmt::format("{} is without effect: it is of an RS-Ruby128, and the sensor is a {}", option,
+    warn(fmt::format("{} is without effect: it is of {}, and the sensor is a {}", option, of,
                      to_string(model)));
   };
-  warn_of(options.nominal_calibration, "--nominal-calibration");
-  warn_of(options.timestamp.has_value(), "--timestamp");
+  warn_of(options.nominal_calibration && model != sensor::SensorModel::kRuby128,
+          "--nominal-calibration", "an RS-Ruby128");
+  warn_of(options.timestamp.has_value() && !sensor::is_robosense(model), "--timestamp",
+          "a RoboSense");
 }
 
 }  // namespace terracut::cli

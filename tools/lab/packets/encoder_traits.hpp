@@ -8,6 +8,7 @@
 
 #include "calib/sensor/sensor_model.hpp"
 #include "firmware_io/hesai/models.hpp"
+#include "firmware_io/robosense/models.hpp"
 #include "firmware_io/velodyne/models.hpp"
 #include "tools/lab/packets/hdl64e_encoder_traits.hpp"
 #include "tools/lab/packets/ouster_encoder_traits.hpp"
@@ -49,13 +50,14 @@
 ///   capture (tools/lab/packets/hdl64e_packet_sender.hpp).
 
 /// Expands INSTANTIATE(EncoderTraits) for each sensor whose packets are made.
-#define TERRACUT_FOR_ENCODER_TRAITS(INSTANTIATE)                                      \
-  INSTANTIATE(terracut::packets::Hdl64eEncoderTraits)                                 \
-  INSTANTIATE(terracut::packets::Ruby128EncoderTraits)                                \
-  TERRACUT_FOR_VELODYNE_MODELS(INSTANTIATE, terracut::packets::VelodyneEncoderTraits) \
-  TERRACUT_FOR_HESAI_MODELS(INSTANTIATE, terracut::packets::HesaiEncoderTraits)       \
-  INSTANTIATE(terracut::packets::OusterEncoderTraits<32>)                             \
-  INSTANTIATE(terracut::packets::OusterEncoderTraits<64>)                             \
+#define TERRACUT_FOR_ENCODER_TRAITS(INSTANTIATE)                                        \
+  INSTANTIATE(terracut::packets::Hdl64eEncoderTraits)                                   \
+  INSTANTIATE(terracut::packets::Ruby128EncoderTraits)                                  \
+  TERRACUT_FOR_VELODYNE_MODELS(INSTANTIATE, terracut::packets::VelodyneEncoderTraits)   \
+  TERRACUT_FOR_HESAI_MODELS(INSTANTIATE, terracut::packets::HesaiEncoderTraits)         \
+  TERRACUT_FOR_ROBOSENSE_MODELS(INSTANTIATE, terracut::packets::RoboSenseEncoderTraits) \
+  INSTANTIATE(terracut::packets::OusterEncoderTraits<32>)                               \
+  INSTANTIATE(terracut::packets::OusterEncoderTraits<64>)                               \
   INSTANTIATE(terracut::packets::OusterEncoderTraits<128>)
 
 namespace terracut::packets {
@@ -106,6 +108,11 @@ decltype(auto) with_encoder_traits(sensor::SensorModel model, const Work& work) 
   if (hesai::Models::has(model)) {
     return hesai::Models::with(model, [&]<class Model>(std::type_identity<Model>) {
       return work(HesaiEncoderTraits<Model>{});
+    });
+  }
+  if (robosense::Models::has(model)) {
+    return robosense::Models::with(model, [&]<class Model>(std::type_identity<Model>) {
+      return work(RoboSenseEncoderTraits<Model>{});
     });
   }
   if (velodyne::Models::has(model)) {

@@ -15,9 +15,9 @@
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "tools/lab/packets/group_azimuths.hpp"
 #include "tools/lab/packets/hdl64e_packet_sender.hpp"
-#include "tools/lab/packets/hdl64e_xml_writer.hpp"
 #include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/packets/return_mode.hpp"
+#include "tools/lab/tables/hdl64e_xml_writer.hpp"
 
 namespace terracut::packets {
 

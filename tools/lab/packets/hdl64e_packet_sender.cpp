@@ -20,7 +20,7 @@ Expected<Hdl64ePacketSender> Hdl64ePacketSender::create(
   const auto table = hdl64e::make_stream_table(
       calibration, both ? hdl64e::ReturnSetting::kBoth : hdl64e::ReturnSetting::kStrongest);
   if (!table) return tl::unexpected(table.error());
-  return Hdl64ePacketSender(StatusStreamWriter(*table, hdl64e::StatusFlavour::kS3));
+  return Hdl64ePacketSender(tables::StatusStreamWriter(*table, hdl64e::StatusFlavour::kS3));
 }
 
 Status Hdl64ePacketSender::send(std::span<const FiringColumn> columns, int,

@@ -11,7 +11,7 @@
 #include "rt/error.hpp"
 #include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/packets/return_mode.hpp"
-#include "tools/lab/packets/status_stream_writer.hpp"
+#include "tools/lab/tables/status_stream_writer.hpp"
 
 namespace terracut::packets {
 
@@ -29,9 +29,10 @@ class Hdl64ePacketSender {
                             capture::PcapWriter& capture);
 
  private:
-  explicit Hdl64ePacketSender(const StatusStreamWriter& status) noexcept : status_(status) {}
+  explicit Hdl64ePacketSender(const tables::StatusStreamWriter& status) noexcept
+      : status_(status) {}
 
-  StatusStreamWriter status_;
+  tables::StatusStreamWriter status_;
   hdl64e::wire::Packet packet_ = hdl64e::blank_packet();
 };
 

@@ -11,11 +11,13 @@
 
 #include "calib/beams/straight_geometry.hpp"
 #include "calib/hesai/hesai_csv.hpp"
+#include "calib/robosense/unit_table.hpp"
 #include "firmware_io/table/beam_offsets.hpp"
 #include "tools/lab/packets/group_azimuths.hpp"
 #include "tools/lab/packets/hesai_packet_sender.hpp"
 #include "tools/lab/packets/labelled_return.hpp"
 #include "tools/lab/packets/return_mode.hpp"
+#include "tools/lab/packets/robosense_packet_sender.hpp"
 #include "tools/lab/packets/velodyne_packet_sender.hpp"
 
 namespace terracut::packets {
@@ -81,7 +83,7 @@ struct TableEncoderTraits {
     return Offsets(calibration);
   }
   [[nodiscard]] static Geometry geometry(const Calibration& calibration, const Config&) {
-    return {calibration.lasers, Model::kMetresPerCount};
+    return {calibration.lasers, Model::kMetresPerCount, table::lens_ahead_m<Model>()};
   }
   [[nodiscard]] static Expected<Sender> sender(const Calibration&, const Config& config) {
     return Sender(config.returns);
@@ -116,6 +118,28 @@ struct HesaiEncoderTraits : TableEncoderTraits<Model, HesaiPacketSender<Model>> 
   [[nodiscard]] static Expected<beams::BeamTable> read_calibration(
       const std::filesystem::path& path) {
     return hesai::read_hesai_csv(path, Model::kModel);
+  }
+};
+
+/// A RoboSense with 32 lasers, whose table is in its DIFOP packets and in a file.
+template <class Model>
+struct RoboSenseEncoderTraits : TableEncoderTraits<Model, RoboSensePacketSender<Model>> {
+  using Table = TableEncoderTraits<Model, RoboSensePacketSender<Model>>;
+
+  static constexpr bool kStrongestFirst = true;
+  static constexpr bool kSecondIsLast = false;
+  static constexpr std::string_view kCalibrationSuffix = ".calibration.csv";
+  [[nodiscard]] static Expected<typename Table::Sender> sender(
+      const beams::BeamTable& table, const typename Table::Config& config) {
+    return typename Table::Sender(table, config.returns);
+  }
+  [[nodiscard]] static Status write_calibration(const std::filesystem::path& path,
+                                                const beams::BeamTable& table) {
+    return robosense::write_unit_csv(path, table);
+  }
+  [[nodiscard]] static Expected<beams::BeamTable> read_calibration(
+      const std::filesystem::path& path) {
+    return robosense::read_unit_csv(path, Model::kModel);
   }
 };
 

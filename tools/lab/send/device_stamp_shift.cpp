@@ -11,6 +11,7 @@
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/packet/sensor_recognition.hpp"
+#include "firmware_io/robosense/models.hpp"
 
 namespace terracut::send {
 namespace {
@@ -35,13 +36,13 @@ void shift_velodyne(std::span<std::uint8_t> payload, const hdl64e::wire::Packet&
   write_at(payload, offsetof(hdl64e::wire::Packet, stamp_us), packet::Le32::of(stamp_us).bytes);
 }
 
-void shift_ruby128(std::span<std::uint8_t> payload, const ruby128::ruby128_wire::Packet& packet,
-                   ruby128::RubyTimestamp encoding, std::int64_t shift_ns) noexcept {
+void shift_robosense(std::span<std::uint8_t, 10> stamp, ruby128::RubyTimestamp encoding,
+                     std::int64_t shift_ns) noexcept {
   const std::int64_t unit_ns = encoding == ruby128::RubyTimestamp::kUtcNanoseconds ? 1 : 1000;
   const std::int64_t step_ns = unit_ns == 1 ? shift_ns : rounded_us(shift_ns) * unit_ns;
-  const std::int64_t stamp_ns = ruby128::read_ruby_timestamp(packet.stamp, encoding) + step_ns;
-  write_at(payload, offsetof(ruby128::ruby128_wire::Packet, stamp),
-           ruby128::write_ruby_timestamp(std::max<std::int64_t>(stamp_ns, 0), encoding));
+  const std::int64_t stamp_ns = ruby128::read_ruby_timestamp(stamp, encoding) + step_ns;
+  std::ranges::copy(ruby128::write_ruby_timestamp(std::max<std::int64_t>(stamp_ns, 0), encoding),
+                    stamp.begin());
 }
 
 void shift_ouster(std::span<std::uint8_t> payload, const ouster::PacketFormat& format,
@@ -65,11 +66,13 @@ bool DeviceStampShift::operator()(std::span<std::uint8_t> payload, std::int64_t 
     shift_velodyne(payload, *packet, shift_ns);
     return true;
   }
-  if (model == sensor::SensorModel::kRuby128 || model == sensor::SensorModel::kRubyPlus) {
-    const auto* packet = ruby128::packet_in(payload);
-    if (packet == nullptr) return false;
-    const ruby128::RubyTimestamp encoding = ruby_encoding_.add(packet->stamp);
-    if (shift_ns != 0) shift_ruby128(payload, *packet, encoding, shift_ns);
+  if (sensor::is_robosense(model) || model == sensor::SensorModel::kRubyPlus) {
+    const bool is_ruby = !robosense::Models::has(model);
+    const std::size_t at =
+        is_ruby ? offsetof(ruby128::ruby128_wire::Packet, stamp) : robosense::kStampAt;
+    const auto stamp = payload.subspan(at).first<robosense::kStampBytes>();
+    const ruby128::RubyTimestamp encoding = ruby_encoding_.add(stamp);
+    if (shift_ns != 0) shift_robosense(stamp, encoding, shift_ns);
     return true;
   }
   if (hesai::Models::has(model)) {

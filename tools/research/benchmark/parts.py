@@ -75,6 +75,8 @@ DRIVE_S, COUNTED_S = 2, 0.3  # of a simulated drive; of one whose instructions a
 MODELS = {
     "hdl64e": ("HDL-64E", "S1: real; S2 and S3: made"),
     "ruby128": ("RS-Ruby128", "made"),
+    "rs32": ("RS-LiDAR-32", "made"),
+    "helios": ("RS-Helios", "made"),
     "vlp16": ("VLP-16", "two real, single and dual return"),
     "hdl32e": ("HDL-32E", "real"),
     "vlp32c": ("VLP-32C", "real, half its view"),

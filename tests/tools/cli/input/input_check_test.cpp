@@ -13,7 +13,7 @@
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/lab/packets/hdl64e_xml_writer.hpp"
+#include "tools/lab/tables/hdl64e_xml_writer.hpp"
 
 namespace terracut::cli {
 namespace {

@@ -128,9 +128,10 @@ TEST(ConfigurationFile, ValuesOutOfRangeAreRefusedWithTheRange) {
   expect_refused("sensor:\n  columns: 1800.5\n", "2",
                  {"a whole number from 16 to 36000 columns, found '1800.5'"});
   expect_refused("sensor:\n  model: os1\n", "2",
-                 {"sensor.model: expected one of auto, hdl64e, ruby128, vlp16, hdl32e, vlp32c, "
-                  "vls128, pandar40p, pandar64, pandarqt64, pandarqt128, pandarxt16, pandarxt32, "
-                  "pandarxt32m, ot128, pandar128, ouster32, ouster64, ouster128, found 'os1'"});
+                 {"sensor.model: expected one of auto, hdl64e, ruby128, rs32, helios, vlp16, "
+                  "hdl32e, vlp32c, vls128, pandar40p, pandar64, pandarqt64, pandarqt128, "
+                  "pandarxt16, pandarxt32, pandarxt32m, ot128, pandar128, ouster32, ouster64, "
+                  "ouster128, found 'os1'"});
   expect_refused("realtime:\n  lock_memory: maybe\n", "2", {"expected yes or no, found 'maybe'"});
   expect_refused("input:\n  from: 192.168.1\n", "2",
                  {"an IPv4 ADDRESS or ADDRESS:PORT, found '192.168.1'"});

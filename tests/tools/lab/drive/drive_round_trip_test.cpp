@@ -133,6 +133,8 @@ template <class... VelodyneModel>
 using SensorsWith = testing::Types<
     packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits,
     packets::VelodyneEncoderTraits<VelodyneModel>..., packets::HesaiEncoderTraits<hesai::Pandar40p>,
+    packets::RoboSenseEncoderTraits<robosense::Rs32>,
+    packets::RoboSenseEncoderTraits<robosense::Helios>,
     packets::HesaiEncoderTraits<hesai::PandarQt128>,
     packets::HesaiEncoderTraits<hesai::PandarXt32m>, packets::HesaiEncoderTraits<hesai::Ot128>,
     packets::OusterEncoderTraits<32>, packets::OusterEncoderTraits<128>>;

@@ -23,10 +23,14 @@ Expected<typename EncoderTraits::Calibration> table_beside(const std::filesystem
 }
 
 template <class EncoderTraits>
+inline constexpr bool kIsRoboSense = std::is_same_v<EncoderTraits, packets::Ruby128EncoderTraits>;
+template <class Model>
+inline constexpr bool kIsRoboSense<packets::RoboSenseEncoderTraits<Model>> = true;
+
+template <class EncoderTraits>
 constexpr std::uint16_t data_port() {
   if (packets::kHasNumberedColumns<EncoderTraits>) return ouster::kDataPort;
-  return std::is_same_v<EncoderTraits, packets::Ruby128EncoderTraits> ? ruby128::kRubyDataPort
-                                                                      : hdl64e::kHdl64eDataPort;
+  return kIsRoboSense<EncoderTraits> ? ruby128::kRubyDataPort : hdl64e::kHdl64eDataPort;
 }
 
 }  // namespace terracut::test

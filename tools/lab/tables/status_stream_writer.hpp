@@ -9,7 +9,7 @@
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
 #include "firmware_io/hdl64e/status_cycle.hpp"
 
-namespace terracut::packets {
+namespace terracut::tables {
 
 /// The values that a unit reports beside its table.
 struct StatusValues {
@@ -42,4 +42,4 @@ class StatusStreamWriter {
   std::array<std::uint8_t, 6> time_{};  ///< Hour, minute, second, day, month, year since 2000.
 };
 
-}  // namespace terracut::packets
+}  // namespace terracut::tables

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tools/lab/packets/status_stream_writer.hpp"
+#include "tools/lab/tables/status_stream_writer.hpp"
 
 #include <algorithm>
 #include <chrono>
 
-namespace terracut::packets {
+namespace terracut::tables {
 namespace {
 
 std::array<std::uint8_t, 6> time_bytes_of(std::int64_t stamp_ns) noexcept {
@@ -66,4 +66,4 @@ hdl64e::StatusPair StatusStreamWriter::table_pair(std::size_t group,
   return {table_type(flavour_, group, place), table_[group * hdl64e::kTableBytesPerCycle + place]};
 }
 
-}  // namespace terracut::packets
+}  // namespace terracut::tables

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "hdl64e_xml_writer.hpp"
+#include "tools/lab/tables/hdl64e_xml_writer.hpp"
 
 #include <fmt/format.h>
 

@@ -13,7 +13,7 @@
 #include "firmware_io/frame/firing_tile.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
-namespace terracut::packet {
+namespace terracut::decode {
 
 /// Selects firings of a tile: all bits are set for a selected firing, none for the others.
 using FiringMask = frame::TileRow<std::int32_t>;
@@ -89,4 +89,4 @@ class StepAdvances {
   Keys in_tile_;          ///< The keys of the last tile.
 };
 
-}  // namespace terracut::packet
+}  // namespace terracut::decode

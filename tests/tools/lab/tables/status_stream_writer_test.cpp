@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tools/lab/packets/status_stream_writer.hpp"
+#include "tools/lab/tables/status_stream_writer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "tests/firmware_io/hdl64e/table_image.hpp"
 
-namespace terracut::packets {
+namespace terracut::tables {
 namespace {
 
 constexpr std::int64_t kLeapDay_ns = 1'582'979'696'500'000'000;  // 2020-02-29 12:34:56.5 UTC
@@ -57,4 +57,4 @@ TEST(StatusStreamWriter, OnlyTheS3SendsTypesThatAreNoDigit) {
 }
 
 }  // namespace
-}  // namespace terracut::packets
+}  // namespace terracut::tables

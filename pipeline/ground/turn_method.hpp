@@ -28,7 +28,8 @@ class TurnMethod {
   virtual ~TurnMethod() = default;
 
   /// Does what can be done on a turn that is still arriving: columns [0, complete_columns) are
-  /// complete. Labels do not depend on how often this is called.
+  /// complete. Labels do not depend on how often this is called. A turn that has no returns yet may
+  /// never be ended: its memory may be another turn's next.
   virtual void advance(const frame::MeasuredReturns& turn, int complete_columns,
                        const min_cut::CutBudget& budget,
                        stage::StageObserver* observer) noexcept TERRACUT_NONBLOCKING = 0;

@@ -21,6 +21,7 @@ CachedMethod::CachedMethod(const ground::FramesToCome& turns, memory::FixedMemor
 void CachedMethod::advance(const frame::MeasuredReturns& turn, int complete_columns,
                            const min_cut::CutBudget& budget,
                            stage::StageObserver* observer) noexcept {
+  if (turn.returns() == 0) return;  // it may come to nothing
   begin_if_new(turn, budget, observer);
   if (labelled_ != nullptr) return;
   if (turns_[0] == &turn) {

@@ -19,6 +19,18 @@ TEST(Simulation, HoldsForTheFirstSeeds) {
   }
 }
 
+TEST(Simulation, HoldsWhereATurnBeginsWithoutReturnsAndComesToNothing) {
+  for (const bool has_real_method : {false, true}) {
+    Plan plan = plan_of(1008);
+    plan.has_real_method = has_real_method;
+    plan.faults = *parse_faults(
+        "cable_pulled@9033+461*0 head_stands@9098+1*0 head_stands@9137+4*0 duplicate@9158+0*41 "
+        "head_stands@9320+1*0");
+    const Outcome outcome = simulate(plan);
+    EXPECT_FALSE(outcome.broken) << *outcome.broken;
+  }
+}
+
 TEST(Simulation, IsTheSameEachTime) {
   for (const std::uint64_t seed : {3U, 4U, 5U}) {
     const Outcome first = simulate(plan_of(seed)), again = simulate(plan_of(seed));

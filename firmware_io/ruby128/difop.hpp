@@ -31,7 +31,7 @@ namespace ruby128_wire {
 
 struct Angle {
   std::uint8_t sign;
-  packet::Be16 magnitude_cdeg;
+  packet::Be16 magnitude;  ///< Hundredths of a degree; of an RS-LiDAR-32 thousandths.
 };
 
 /// The fields of the packet. Fields that sources describe differently are marked reserved here; for

@@ -41,12 +41,12 @@ std::optional<std::size_t> first_with_odd_sign(Angles angles) noexcept {
   });
 }
 bool all_zero(Angles angles) noexcept {
-  return !first_channel(angles, [](const Angle& a) { return a.magnitude_cdeg.value() != 0; });
+  return !first_channel(angles, [](const Angle& a) { return a.magnitude.value() != 0; });
 }
 
 /// Returns an angle with a valid sign as a number of its unit.
 int units_of(const Angle& angle) noexcept {
-  const int magnitude = angle.magnitude_cdeg.value();
+  const int magnitude = angle.magnitude.value();
   // Negating a whole number gives no -0.0: an angle sent as -0.00 becomes 0.
   return angle.sign == kDifopMinus ? -magnitude : magnitude;
 }

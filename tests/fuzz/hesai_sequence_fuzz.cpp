@@ -21,14 +21,7 @@ template <class Model>
 struct Hesai {
   using Decoder = decode::Decoder;
   using Calibration = beams::BeamTable;
-  struct Column {
-    struct Beam {
-      std::uint16_t raw;
-      std::uint8_t intensity;
-    };
-    std::array<Beam, Model::kChannels> by_laser;
-    std::int64_t stamp_ns, unwrapped_azimuth_cdeg;
-  };
+  using Column = fuzz::MadeColumn<Model::kChannels>;
   static constexpr const hesai::PacketLayout& kLayout = Model::kLayout;
   using Bytes = std::array<std::uint8_t, kLayout.packet_bytes()>;
   static constexpr int kColumns = kLayout.blocks;

@@ -37,6 +37,17 @@ struct Head {
   }
 };
 
+/// The returns of one azimuth, for a Sensor below whose own encoder has no such type.
+template <std::size_t kLasers>
+struct MadeColumn {
+  struct Beam {
+    std::uint16_t raw;
+    std::uint8_t intensity;
+  };
+  std::array<Beam, kLasers> by_laser;
+  std::int64_t stamp_ns, unwrapped_azimuth_cdeg;
+};
+
 /// Streams of valid packets, made by the sensor's own encoder and bent by a fuzzer's input: stamps,
 /// azimuths, order, loss, repetition, a second sender, return mode, spin rate, field of view,
 /// restarts, steps of the host's clock, motion, packets of another kind, and a segmenter that is

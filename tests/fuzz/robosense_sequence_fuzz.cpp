@@ -22,14 +22,7 @@ template <class Model>
 struct RoboSense {
   using Decoder = decode::Decoder;
   using Calibration = beams::BeamTable;
-  struct Column {
-    struct Beam {
-      std::uint16_t raw;
-      std::uint8_t intensity;
-    };
-    std::array<Beam, Model::kChannels> by_laser;
-    std::int64_t stamp_ns, unwrapped_azimuth_cdeg;
-  };
+  using Column = fuzz::MadeColumn<Model::kChannels>;
   using Bytes = std::array<std::uint8_t, robosense::kPacketBytes>;
   static constexpr int kColumns = robosense::kBlocks;
   static constexpr std::size_t kReturnsAColumn = 6;

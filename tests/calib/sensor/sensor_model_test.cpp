@@ -55,6 +55,17 @@ TEST(SensorTable, ListsTheDecodedModelsOnce) {
   EXPECT_FALSE(is_decoded(SensorModel::kVlp16HiRes));
 }
 
+TEST(SensorTable, KnowsTheMakersOfDecodedModels) {
+  for (const SensorRow& row : kSensorTable) {
+    const auto is_of = [&](std::string_view maker) {
+      return is_decoded(row.model) && row.name.find(maker) != std::string_view::npos;
+    };
+    EXPECT_EQ(is_robosense(row.model), is_of("RoboSense")) << row.name;
+    EXPECT_EQ(is_hesai(row.model), is_of("Hesai")) << row.name;
+    EXPECT_EQ(is_ouster(row.model), is_of("Ouster")) << row.name;
+  }
+}
+
 TEST(SensorTable, TakesAnHdl64eOfAnyGenerationForTheOneThatWasAskedFor) {
   EXPECT_TRUE(is_wanted(SensorModel::kHdl64e, SensorModel::kHdl64eS1));
   EXPECT_TRUE(is_wanted({}, SensorModel::kVlp16));

@@ -137,7 +137,7 @@ TEST(DifopAngles, AnglesThatDoNotFitEndAtTheLastThatDoes) {
   Difop difop = blank_difop();
   set_calibration(difop, calibration);
   const auto bytes = [](const Angle& angle) {
-    return std::pair<int, int>(angle.sign, angle.magnitude_cdeg.value());
+    return std::pair<int, int>(angle.sign, angle.magnitude.value());
   };
   EXPECT_EQ(bytes(difop.elevations[0]), (std::pair<int, int>(0, 65535)));
   EXPECT_EQ(bytes(difop.azimuth_offsets[0]), (std::pair<int, int>(1, 65535)));

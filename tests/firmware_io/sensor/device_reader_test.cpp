@@ -94,7 +94,7 @@ TEST(DeviceReader, SeesAChangeOfAzimuthOffsetsAlone) {
   DeviceReader reader;
   Difop difop = difop_of_unit(1);
   reader.add(ruby128::payload_of(difop));
-  difop.azimuth_offsets[127].magnitude_cdeg = packet::Be16::of(594);
+  difop.azimuth_offsets[127].magnitude = packet::Be16::of(594);
   reader.add(ruby128::payload_of(difop));
   EXPECT_EQ(reader.counters().angle_changes, 1U);
 }

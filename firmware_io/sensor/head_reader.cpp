@@ -15,8 +15,7 @@ std::optional<frame::Reject> HeadReader::read(SensorModel model, const packet::D
     const auto reason = ruby128::check_ruby128_packet(datagram.payload, azimuths);
     const auto* packet = ruby128::packet_in(datagram.payload);
     if (reason || packet == nullptr) return reason;
-    const ruby128::RubyTimestamp encoding = ruby_timestamp_.add(packet->stamp);
-    azimuths.device_stamp_us = ruby128::read_ruby_timestamp(packet->stamp, encoding) / 1000;
+    ruby_clock_.read(packet->stamp, azimuths);
     return std::nullopt;
   }
   for (velodyne::PacketReader& reader : velodyne_.of_models) {

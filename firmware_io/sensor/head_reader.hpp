@@ -34,7 +34,7 @@ class HeadReader {
 
  private:
   hdl64e::S1Reader s1_;
-  ruby128::RubyTimestampDetector ruby_timestamp_;
+  ruby128::RubyClock ruby_clock_{std::nullopt};
   template <class... Model>
   struct VelodyneReaders {
     std::array<velodyne::PacketReader, sizeof...(Model)> of_models{

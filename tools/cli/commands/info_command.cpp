@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +20,7 @@
 #include "pipeline/status/figures.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/figures/device_information.hpp"
 #include "tools/cli/figures/figures_json.hpp"
 #include "tools/cli/json_text.hpp"
 #include "tools/cli/settings/companion_files.hpp"
@@ -31,7 +31,6 @@ namespace terracut::cli {
 namespace {
 
 using sensor::CaptureSurvey;
-using sensor::DeviceReader;
 using sensor::Hdl64eFacts;
 using sensor::Ruby128Facts;
 using sensor::SensorModel;
@@ -131,46 +130,10 @@ std::string text_of(const Ruby128Facts& facts) {
              facts.temperature_deg_c);
 }
 
-/// Describes the angles in DIFOP: "complete, fingerprint ...", or why they cannot be used.
-std::string calibration_in(const DeviceReader& device, SensorModel model) {
-  const auto& calibration = device.calibration(model);
-  if (!calibration) return calibration.error().message;
-  return fmt::format("complete, fingerprint {:016x}", calib::fingerprint(*calibration));
-}
-
 /// Returns the RoboSense that a capture's DIFOP packets are of: they do not say it.
 SensorModel robosense_in(const CaptureSurvey& survey) {
   const auto found = std::ranges::find_if(survey.streams, sensor::is_robosense, &UdpStream::sensor);
   return found == survey.streams.end() ? SensorModel::kRuby128 : found->sensor;
-}
-
-/// Returns two digits a byte: "00:1c:23".
-std::string hex_text(const std::array<std::uint8_t, 6>& bytes, std::string_view separator) {
-  return fmt::format("{:02x}", fmt::join(bytes, separator));
-}
-
-std::string text_of(const DeviceReader& device, SensorModel model) {
-  const auto& info = device.newest();
-  if (!info) return {};
-  // The other models send what is said of frames and time elsewhere.
-  const bool is_ruby128 = model == SensorModel::kRuby128;
-  const std::string frames =
-      is_ruby128 ? fmt::format(", frames at {}", info->rpm_actual.value()) : "";
-  const std::string time =
-      is_ruby128 ? fmt::format("  time         by {}, status {}\n",
-                               ruby128::sync_mode_name(info->sync_mode), info->sync_status)
-                 : "";
-  return fmt::format(
-      "  serial       {}\n  set to       {} rpm{}; return mode {} ({})\n"
-      "  network      {} to {}, data port {}, device port {}, MAC {}\n"
-      "{}  calibration  {}\n"
-      "  changes      {} of the serial number, {} of the angles\n",
-      hex_text(info->serial, ""), info->rpm_set.value(), frames, info->return_mode,
-      info->return_mode == (is_ruby128 ? 3 : 0) ? "dual" : "single",
-      fmt::join(info->device_address, "."), fmt::join(info->destination_address, "."),
-      info->data_port.value(), info->device_port.value(), hex_text(info->mac, ":"), time,
-      calibration_in(device, model), device.counters().serial_changes,
-      device.counters().angle_changes);
 }
 
 std::string text_of(const CaptureSurvey& survey) {
@@ -209,7 +172,7 @@ std::string text_of(const CaptureSurvey& survey) {
     if (stream.device) {
       const SensorModel model = robosense_in(survey);
       describe(fmt::format("{} device information", to_string(model)),
-               text_of(*stream.device, model));
+               device_text(*stream.device, model));
     }
   }
   // Of a LiDAR, by its packets or by what they look like.
@@ -245,25 +208,6 @@ Json json_of(const Ruby128Facts& facts) {
   json["timestamp_proven"] = facts.timestamp_proven;
   json["ahead_of_capture_s"] = facts.ahead_of_capture_s;
   json["temperature_deg_c"] = facts.temperature_deg_c;
-  return json;
-}
-
-Json json_of(const DeviceReader& device, SensorModel model) {
-  const auto& info = device.newest();
-  if (!info) return {};
-  Json json{{"packets", device.counters().packets},
-            {"serial", hex_text(info->serial, "")},
-            {"rpm_set", info->rpm_set.value()},
-            {"return_mode", info->return_mode},
-            {"data_port", info->data_port.value()},
-            {"device_port", info->device_port.value()},
-            {"calibration", calibration_in(device, model)},
-            {"serial_changes", device.counters().serial_changes},
-            {"angle_changes", device.counters().angle_changes}};
-  if (model != SensorModel::kRuby128) return json;
-  json["rpm_actual"] = info->rpm_actual.value();
-  json["sync_mode"] = ruby128::sync_mode_name(info->sync_mode);
-  json["sync_status"] = info->sync_status;
   return json;
 }
 
@@ -309,7 +253,7 @@ Json json_of(const CaptureSurvey& survey) {
     if (stream.hdl64e) entry["hdl64e"] = json_of(*stream.hdl64e);
     if (stream.ruby128) entry["ruby128"] = json_of(*stream.ruby128);
     if (stream.head) entry["head"] = json_of(*stream.head);
-    if (stream.device) entry["device"] = json_of(*stream.device, robosense_in(survey));
+    if (stream.device) entry["device"] = device_json(*stream.device, robosense_in(survey));
   }
   if (survey.broke_off) json["broke_off"] = survey.broke_off->message;
   return json;

@@ -157,7 +157,8 @@ void Decoder::push(const packet::Datagram& datagram) noexcept {
     return reject(*reason);
   }
   const std::int64_t began_ns = host_began_ns(datagram.stamp_ns);
-  const Placement placed = tracker_.place(azimuths_, began_ns, frames_.losses());
+  const Placement placed =
+      tracker_.place(azimuths_, began_ns, next_packet_cdeg(), frames_.losses());
   if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
   if (placed.arrival == Arrival::kDoubtful || placed.arrival == Arrival::kNewStream) {
     if (placed.is_first_in_doubt) in_doubt_.drop(frames_.losses());
@@ -223,9 +224,10 @@ void Decoder::take_kept() noexcept {
   if (in_doubt_.is_too_old(*packet)) return reject(packet->reason);
   azimuths_ = packet->azimuths;
   const std::int64_t began_ns = host_began_ns(packet->stamp_ns);
-  const Placement placed = std::exchange(anew_.has_begun, true)
-                               ? tracker_.go_on(azimuths_, began_ns, frames_.losses())
-                               : tracker_.begin(azimuths_, began_ns, frames_.losses());
+  const Placement placed =
+      std::exchange(anew_.has_begun, true)
+          ? tracker_.go_on(azimuths_, began_ns, next_packet_cdeg(), frames_.losses())
+          : tracker_.begin(azimuths_, began_ns, frames_.losses());
   if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
   take(packet->payload, packet->stamp_ns, placed);
 }
@@ -275,7 +277,7 @@ void Decoder::restart() noexcept {
   }
   frames_.start(job_.first_frame, job_.swept.from_ticks);
   complete_ticks_ = placed_ticks_ = job_.first_frame * packet::kRevolution_ticks;
-  frontier_ticks_ = job_.swept.from_ticks;
+  frontier_ticks_ = crossed_ticks_ = job_.swept.from_ticks;
   steps_ticks_ = steps_ = 0;
   judge();
 }
@@ -347,6 +349,12 @@ void Decoder::place() noexcept {
       late_packets * job_.stride.widest_ticks + job_.step_ticks - job_.spread.hindmost_ticks;
   complete_ticks_ = (late_packets > 0 ? frontier_ticks_ : next_ticks) - behind_ticks;
   if (is_placed) placed_ticks_ = complete_ticks_;
+  // Before a blind sector, no packet follows soon whose firings would fill the tile. Packets that
+  // come in spite of it cut no further tiles: there is room for few.
+  if (next_ticks > std::max(frontier_ticks_, crossed_ticks_)) {
+    crossed_ticks_ = next_ticks;
+    place_rest();
+  }
   end_frames_before(frame_of(complete_ticks_));
   step_ = after_packet_;
 }

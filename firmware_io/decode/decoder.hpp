@@ -205,6 +205,9 @@ class Decoder {
     return static_cast<int>(std::clamp<std::int64_t>(columns, 0, frames_.shape().columns));
   }
 
+  [[nodiscard]] std::int64_t next_packet_cdeg() const noexcept {
+    return blind_.next_packet(frontier_ticks_) / packet::kTicksPerCdeg;
+  }
   /// Returns how many of `packets` missing packets, over many frames, the sensor would have sent:
   /// it sends none while its head passes the blind sector.
   [[nodiscard]] std::int64_t seen_share(std::int64_t packets) const noexcept {
@@ -321,6 +324,7 @@ class Decoder {
   } anew_;  ///< Set while packets that were in doubt become the stream.
   std::optional<frame::Reject> rejected_;
   std::int64_t frontier_ticks_ = 0;  ///< The head has been seen up to this azimuth.
+  std::int64_t crossed_ticks_ = 0;   ///< The end of the blind sector met last.
   std::int64_t complete_ticks_ = 0;  ///< No more returns are expected up to this azimuth.
   std::int64_t placed_ticks_ = 0;    ///< All returns are placed up to this azimuth.
   std::int64_t steps_ticks_ = 0, steps_ = 0;

@@ -79,11 +79,11 @@ void StreamTracker::remember(const packet::PacketAzimuths& azimuths) noexcept {
 }
 
 Placement StreamTracker::place(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
-                               frame::LossCounters& losses) noexcept {
+                               std::int64_t next_cdeg, frame::LossCounters& losses) noexcept {
   ++packets_;
   if (is_repeat(azimuths)) return {Arrival::kRejected, frame::Reject::kRepeated, 0, 0, 0, false};
   if (!started_) return restart(azimuths, host_stamp_ns, losses);
-  const Placement placed = follow(azimuths, host_stamp_ns, losses);
+  const Placement placed = follow(azimuths, host_stamp_ns, next_cdeg, losses);
   if (placed.arrival == Arrival::kRejected) return doubt(azimuths, host_stamp_ns, placed.reject);
   doubtful_packets_ = 0;
   return placed;
@@ -97,9 +97,9 @@ Placement StreamTracker::begin(const packet::PacketAzimuths& azimuths, std::int6
 }
 
 Placement StreamTracker::go_on(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
-                               frame::LossCounters& losses) noexcept {
+                               std::int64_t next_cdeg, frame::LossCounters& losses) noexcept {
   if (is_repeat(azimuths)) return {Arrival::kRejected, frame::Reject::kRepeated, 0, 0, 0, false};
-  return follow(azimuths, host_stamp_ns, losses);
+  return follow(azimuths, host_stamp_ns, next_cdeg, losses);
 }
 
 Placement StreamTracker::doubt(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
@@ -145,7 +145,7 @@ std::optional<std::int64_t> StreamTracker::head_after(
 
 /// Places a packet that continues from the newest one, and rejects one that does not.
 Placement StreamTracker::follow(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
-                                frame::LossCounters& losses) noexcept {
+                                std::int64_t next_cdeg, frame::LossCounters& losses) noexcept {
   const std::int64_t step_us = device_step_us(newest_.stamp_us, azimuths.device_stamp_us);
   const std::int64_t step_cdeg =
       beams::step_cdeg(beams::wrap_cdeg(newest_.rotor_cdeg), azimuths.first_cdeg());
@@ -179,10 +179,12 @@ Placement StreamTracker::follow(const packet::PacketAzimuths& azimuths, std::int
     take_as_newest(azimuths, host_stamp_ns, newest_.rotor_cdeg + step_cdeg, losses);
     return {Arrival::kNext, frame::Reject::kCount, newest_.rotor_cdeg, 0, 0, false};
   }
-  if (!takes_its_time(step_us, host_us))
-    return {Arrival::kRejected, frame::Reject::kClockJump, 0, 0, 0, false};
-
   const auto rotor_cdeg = head_after(newest_, azimuths);
+  // Packets from both sides of a blind sector may have been held up, and arrive at once.
+  const bool is_next =
+      rotor_cdeg && std::abs(*rotor_cdeg - next_cdeg) * packet::kTicksPerCdeg <= newest_.pace_ticks;
+  if (!is_next && !takes_its_time(step_us, host_us))
+    return {Arrival::kRejected, frame::Reject::kClockJump, 0, 0, 0, false};
   if (!rotor_cdeg) return {Arrival::kRejected, frame::Reject::kAzimuthJump, 0, 0, 0, false};
   if (std::abs(*rotor_cdeg) > kFarthest_cdeg) return restart(azimuths, host_stamp_ns, losses);
   if (step_us < 0) {

@@ -59,8 +59,10 @@ class StreamTracker {
 
   /// Places a packet and counts clock jumps in `losses`. The caller counts a rejection, and calls
   /// miss() with how many of the missing packets were expected. `host_stamp_ns` is the datagram's
-  /// stamp, used only to tell an outage from a jump.
+  /// stamp, used only to tell an outage from a jump. `next_cdeg` is the unwrapped azimuth where a
+  /// packet without a gap before it begins: behind the blind sector, if that is next.
   [[nodiscard]] Placement place(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+                                std::int64_t next_cdeg,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// To be called after kNewStream: begin() takes the first of the kept packets, go_on() each later
@@ -68,6 +70,7 @@ class StreamTracker {
   [[nodiscard]] Placement begin(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] Placement go_on(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+                                std::int64_t next_cdeg,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// Counts `packets` of those missing before the packet just placed (kNext, kRestart) as lost.
@@ -130,7 +133,7 @@ class StreamTracker {
   [[nodiscard]] std::int64_t missing_in(const Step& step) const noexcept;
   void commit_missing(frame::LossCounters& losses) noexcept;
   [[nodiscard]] Placement follow(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
-                                 frame::LossCounters& losses) noexcept;
+                                 std::int64_t next_cdeg, frame::LossCounters& losses) noexcept;
   [[nodiscard]] std::optional<std::int64_t> head_after(
       const Newest& newest, const packet::PacketAzimuths& azimuths) const noexcept;
   [[nodiscard]] Placement doubt(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,

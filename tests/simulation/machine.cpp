@@ -3,6 +3,7 @@
 #include "tests/simulation/machine.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace terracut::simulation {
@@ -10,6 +11,7 @@ namespace {
 
 constexpr std::int64_t kStart_ns = 1'767'225'600'000'000'000;  // 2026-01-01 UTC
 constexpr std::int64_t kLeastWork_ns = 3'000, kMostWork_ns = 30'000;
+constexpr std::int64_t kSlowest = 1'000'000;  ///< Times, where slow work meets slow work.
 
 }  // namespace
 
@@ -46,12 +48,25 @@ std::int64_t Machine::core_from(std::int64_t at_ns) const noexcept {
 }
 
 void Machine::work() {
-  std::int64_t work_ns = dice_.between(kLeastWork_ns, kMostWork_ns);
-  for (const Fault& fault : faults_) {
-    if (fault.is_on(FaultKind::kSlowWork, now_ns_)) work_ns *= fault.amount;
-  }
+  const std::int64_t work_ns = time_of_work(dice_.between(kLeastWork_ns, kMostWork_ns));
   cpu_ns_ += work_ns;
   wait_until(now_ns_ + work_ns);
+}
+
+/// Returns how long work takes that begins now: slower for as long as a fault slows it.
+std::int64_t Machine::time_of_work(std::int64_t work_ns) const noexcept {
+  std::int64_t at_ns = now_ns_;
+  for (;;) {
+    std::int64_t times = 1, until_ns = std::numeric_limits<std::int64_t>::max();
+    for (const Fault& fault : faults_) {
+      if (!fault.is_on(FaultKind::kSlowWork, at_ns)) continue;
+      times = std::min(times * fault.amount, kSlowest);
+      until_ns = std::min(until_ns, fault.end_ns());
+    }
+    if (work_ns * times <= until_ns - at_ns) return at_ns + work_ns * times - now_ns_;
+    work_ns -= (until_ns - at_ns) / times;
+    at_ns = until_ns;
+  }
 }
 
 void Machine::wait_until(std::int64_t at_ns) {

@@ -72,6 +72,7 @@ class Machine {
   };
   /// Lets time pass, in which the other threads run.
   void pass_to(std::int64_t at_ns);
+  [[nodiscard]] std::int64_t time_of_work(std::int64_t work_ns) const noexcept;
   /// Returns when the core is there that is wanted at `at_ns`.
   [[nodiscard]] std::int64_t core_from(std::int64_t at_ns) const noexcept;
   [[nodiscard]] std::int64_t end_of_stall(FaultKind stalls, std::int64_t at_ns) const noexcept;

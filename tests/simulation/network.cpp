@@ -13,6 +13,8 @@ constexpr std::int64_t kLeastWay_ns = 30'000, kMostWay_ns = 60'000;  ///< From s
 constexpr std::int64_t kLeastWakeUp_ns = 5'000, kMostWakeUp_ns = 60'000;
 constexpr std::int64_t kLookEvery_ns = 500 * kMs;  ///< As UdpSource looks after its interface.
 constexpr std::size_t kGarbageBytes = 100;
+/// A sensor's clock shows up to so much with its first packet: no two starts are alike.
+constexpr std::int64_t kMostBoot_us = 100'000;
 /// The twin's head and clock are elsewhere.
 constexpr std::size_t kTwinAhead = 31;
 constexpr std::int64_t kTwinClock_us = 1'234'567'891;
@@ -206,7 +208,7 @@ bool Network::restarts(std::int64_t at_ns) noexcept {
     const bool begins = fault.kind == FaultKind::kSensorRestart && at_ns >= fault.at_ns();
     if (!begins || std::exchange(done_[i].begun, true)) continue;
     sensor_next_ns_ = booted_ns_ = std::max(at_ns, fault.end_ns());
-    boot_us_ = 0;
+    boot_us_ = dice_.between(0, kMostBoot_us);
     sensor_place_ = loop_.packets.size() * static_cast<std::size_t>(fault.amount) / 1000;
     return true;
   }

@@ -77,6 +77,8 @@ class Watch {
   [[nodiscard]] bool has_only(std::initializer_list<FaultKind> kinds) const noexcept;
   /// Returns for how long the core was away after a frame's last packet.
   [[nodiscard]] std::int64_t stolen_since(const frame::FrameInfo& info) const noexcept;
+  /// True if packets were lost in three successive turns, which may be taken for a blind sector.
+  [[nodiscard]] bool may_seem_blind() const noexcept;
   /// Compares what the run tells of its input with what befell it.
   void look_at_truth(const net::DatagramAccount& account);
   /// True if no fault befell the frame or the three turns before it, or the one after it.

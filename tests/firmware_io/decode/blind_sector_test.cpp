@@ -128,6 +128,38 @@ TYPED_TEST(BlindSensor, HandsAFrameOverWithItsLastPacketWhereTheSeamIsNotSeen) {
   EXPECT_EQ(stream.returns_unaccounted(), 0);
 }
 
+TYPED_TEST(BlindSensor, ColumnsAreCompleteWithTheLastPacketBeforeTheSectorNotTheFirstBehindIt) {
+  HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
+  const auto payloads = without<TypeParam>(this->head.frames(30), {90, 270});
+  const int columns = stream.decoder.shape().columns;
+  int at_once = 0, late = 0;
+  for (std::size_t n = 0; n + 1 < payloads.size(); ++n) {
+    (void)stream.hear(payloads[n]);
+    const bool is_last =
+        first_deg<TypeParam>(payloads[n]) < 90 && first_deg<TypeParam>(payloads[n + 1]) >= 270;
+    if (!is_last || stream.frames.size() < 10) continue;
+    const int complete = stream.decoder.arriving().complete_columns;
+    (complete > columns * 2 / 3 ? at_once : late) += 1;
+  }
+  EXPECT_GE(at_once, 16);
+  EXPECT_LE(late, 2);
+}
+
+TYPED_TEST(BlindSensor, PacketsFromBothSidesOfTheSectorMayArriveAtOnce) {
+  auto payloads = without<TypeParam>(this->head.frames(20), {90, 230});
+  const std::int64_t from_ns = payloads[payloads.size() / 2].stamp_ns,
+                     to_ns = from_ns + 150'000'000;
+  std::int64_t arrival_ns = to_ns - 4'000'000;
+  for (Payload& payload : payloads) {
+    if (payload.stamp_ns >= from_ns && payload.stamp_ns < to_ns)
+      payload.stamp_ns = arrival_ns += 2'000;
+  }
+  HeardStream<TypeParam> stream(payloads, HeardStream<TypeParam>::hasty());
+  this->expect_no_loss(stream);
+  EXPECT_EQ(incomplete(stream.frames, kLearnt), 0);
+  EXPECT_EQ(stream.packets_unaccounted(), 0);
+}
+
 TYPED_TEST(BlindSensor, CountsRealLossesBesideItToThePacket) {
   for (const Sector blind : {Sector{90, 270}, Sector{300, 60}}) {
     const auto sent = without<TypeParam>(this->head.frames(40), blind);

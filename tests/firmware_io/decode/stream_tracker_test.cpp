@@ -30,8 +30,11 @@ packet::PacketAzimuths packet(std::int64_t n, std::int64_t first_us = 0) {
 class Tracked : public testing::Test {
  protected:
   Placement place(const packet::PacketAzimuths& azimuths, std::int64_t host_ns = 0) {
-    const Placement placed = tracker.place(azimuths, host_ns, losses);
-    if (placed.arrival == Arrival::kNext) tracker.miss(placed.missing, losses);
+    const Placement placed = tracker.place(azimuths, host_ns, next_cdeg, losses);
+    if (placed.arrival == Arrival::kNext) {
+      tracker.miss(placed.missing, losses);
+      next_cdeg = placed.rotor_cdeg + kSweep_cdeg;
+    }
     return placed;
   }
   void place_all(std::int64_t from, std::int64_t to, std::int64_t first_us = 0) {
@@ -41,6 +44,7 @@ class Tracked : public testing::Test {
   memory::FixedMemory memory;
   StreamTracker tracker{kWrap_us, memory};
   frame::LossCounters losses;
+  std::int64_t next_cdeg = 0;
 };
 
 TEST_F(Tracked, ASwapAmongTheFirstPacketsIsNoLoss) {

@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "terracut/calibration.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "calib/api/calibration_table.hpp"
@@ -31,6 +33,8 @@ Expected<Calibration> Calibration::load(const std::filesystem::path& file) {
     if (text) {
       const auto table = robosense::parse_unit_csv(*text, file.string());
       if (table) return calibration_of(*table);
+      constexpr std::ptrdiff_t kMostLines = 64;  // for which a spoilt table is one of 32 lasers
+      if (std::ranges::count(*text, '\n') <= kMostLines) return tl::unexpected(table.error());
     }
     return ruby128::read_ruby128_csv(file).map(
         [](const auto& unit) { return calibration_of(unit); });

@@ -152,4 +152,16 @@ Expected<std::vector<AngleLine>> parse_angle_csv(std::span<const char> text,
   return found;
 }
 
+std::string angle_csv_text(std::span<const AngleLine> lines) {
+  fmt::memory_buffer text;
+  const auto mdeg = [](double deg) { return std::llround(deg * 1e3); };
+  for (const AngleLine& line : lines) {
+    text::put_thousandths(text, mdeg(line.elevation_deg));
+    text.push_back(',');
+    text::put_thousandths(text, mdeg(line.azimuth_offset_deg));
+    text.push_back('\n');
+  }
+  return fmt::to_string(text);
+}
+
 }  // namespace terracut::robosense

@@ -34,6 +34,9 @@ struct AngleCsv {
                                                                const std::string& name,
                                                                const AngleCsv& csv);
 
+/// Returns the content of an `angle.csv`, in thousandths of a degree.
+[[nodiscard]] std::string angle_csv_text(std::span<const AngleLine> lines);
+
 /// Returns how the file of a sensor is described: "an RS-Ruby128 angle.csv: 128 lines ...".
 [[nodiscard]] std::string description_of(const AngleCsv& csv);
 

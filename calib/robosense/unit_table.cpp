@@ -12,7 +12,6 @@
 
 #include "calib/beams/angle.hpp"
 #include "calib/text/bounded_file.hpp"
-#include "calib/text/number_text.hpp"
 #include "rt/files/whole_file.hpp"
 
 namespace terracut::robosense {
@@ -84,15 +83,12 @@ Expected<beams::BeamTable> read_unit_csv(const std::filesystem::path& path,
 }
 
 std::string unit_csv_text(const beams::BeamTable& table) {
-  fmt::memory_buffer text;
-  const auto mdeg = [](double rad) { return std::llround(beams::rad_to_deg(rad) * 1e3); };
+  std::vector<AngleLine> lines;
   for (const beams::TableBeam& laser : table.lasers) {
-    text::put_thousandths(text, mdeg(laser.elevation_rad));
-    text.push_back(',');
-    text::put_thousandths(text, mdeg(laser.azimuth_offset_rad));
-    text.push_back('\n');
+    lines.push_back(
+        {beams::rad_to_deg(laser.elevation_rad), beams::rad_to_deg(laser.azimuth_offset_rad)});
   }
-  return fmt::to_string(text);
+  return angle_csv_text(lines);
 }
 
 Status write_unit_csv(const std::filesystem::path& path, const beams::BeamTable& table) {

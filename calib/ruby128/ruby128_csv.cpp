@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <vector>
 
 #include "calib/beams/angle.hpp"
 #include "calib/robosense/angle_csv.hpp"
 #include "calib/text/bounded_file.hpp"
-#include "calib/text/number_text.hpp"
 #include "rt/files/whole_file.hpp"
 
 namespace terracut::ruby128 {
@@ -44,14 +44,12 @@ Expected<Ruby128Calibration> read_ruby128_csv(const std::filesystem::path& path)
 }
 
 std::string ruby128_csv_text(const Ruby128Calibration& calibration) {
-  fmt::memory_buffer text;
+  std::vector<robosense::AngleLine> lines;
   for (const Ruby128Channel& channel : calibration.channels) {
-    text::put_thousandths(text, angle_mdeg(channel.elevation_rad));
-    text.push_back(',');
-    text::put_thousandths(text, angle_mdeg(channel.azimuth_offset_rad));
-    text.push_back('\n');
+    lines.push_back(
+        {beams::rad_to_deg(channel.elevation_rad), beams::rad_to_deg(channel.azimuth_offset_rad)});
   }
-  return fmt::to_string(text);
+  return robosense::angle_csv_text(lines);
 }
 
 Status write_ruby128_csv(const std::filesystem::path& path, const Ruby128Calibration& calibration) {

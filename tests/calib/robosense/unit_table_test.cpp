@@ -8,6 +8,7 @@
 #include <string>
 
 #include "calib/beams/angle.hpp"
+#include "rt/files/whole_file.hpp"
 #include "terracut/calibration.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -45,6 +46,17 @@ TEST(RoboSenseUnitTable, ATableWrittenIsReadBackForTheSameModel) {
     ASSERT_TRUE(loaded) << loaded.error().message;
     EXPECT_EQ(loaded->sensor(), sensor::sensor_of(model));
   }
+}
+
+TEST(RoboSenseUnitTable, ASpoiltTableOf32LinesIsExplainedAsOne) {
+  const test::ScratchFolder folder;
+  std::string text = text_of(SensorModel::kHelios);
+  text.insert(text.find('\n') + 1, "up");
+  ASSERT_TRUE(files::write_whole_file(folder / "angle.csv", text));
+  const auto loaded = Calibration::load(folder / "angle.csv");
+  ASSERT_FALSE(loaded);
+  EXPECT_THAT(loaded.error().message, HasSubstr("angle.csv:2: "));
+  EXPECT_THAT(loaded.error().message, HasSubstr("RS-LiDAR-32 or RS-Helios"));
 }
 
 TEST(RoboSenseUnitTable, TheFileOfTheMakersDriverIsAnRs32s) {

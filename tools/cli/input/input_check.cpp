@@ -3,12 +3,11 @@
 #include "input_check.hpp"
 
 #include "calib/hdl64e/hdl64e_file.hpp"
-#include "calib/hesai/hesai_csv.hpp"
 #include "calib/ouster/ouster_metadata.hpp"
-#include "calib/robosense/unit_table.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "firmware_io/vehicle/dbc_file.hpp"
+#include "terracut/calibration.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 
 namespace terracut::cli {
@@ -25,21 +24,16 @@ Status check_calibration(const CaptureOptions& capture) {
   if (capture.sensor && sensor::has_built_in_table(*capture.sensor)) {
     return status_of(sensor::unit_calibration({{}, file, false}, *capture.sensor, {}));
   }
-  const bool is_of_ouster = capture.sensor && sensor::is_ouster(*capture.sensor);
-  if (is_of_ouster || (!capture.sensor && ouster::is_metadata_name(file))) {
+  if (capture.sensor && sensor::is_ouster(*capture.sensor)) {
     return status_of(ouster::read_ouster_metadata(file, capture.sensor));
   }
-  const auto hdl64e = [&] { return status_of(hdl64e::load_hdl64e_calibration(file)); };
   const auto ruby128 = [&] { return status_of(ruby128::read_ruby128_csv(file)); };
-  if (capture.sensor == sensor::SensorModel::kHdl64e) return hdl64e();
-  if (capture.sensor == sensor::SensorModel::kRuby128) return ruby128();
-  if (file.extension() == ".csv") {
-    const Status of_hesai = status_of(hesai::read_hesai_csv(file));
-    const bool is_read = of_hesai || robosense::read_unit_csv(file);
-    return is_read ? Status{} : ruby128();
+  if (capture.sensor == sensor::SensorModel::kHdl64e) {
+    return status_of(hdl64e::load_hdl64e_calibration(file));
   }
-  const Status of_hdl64e = hdl64e();
-  return of_hdl64e || ruby128() ? Status{} : of_hdl64e;
+  if (capture.sensor == sensor::SensorModel::kRuby128) return ruby128();
+  const Status of_any = status_of(Calibration::load(file));
+  return of_any || ruby128() ? Status{} : of_any;
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ class Mistakes(unittest.TestCase):
             numbered = dict(enumerate(of_rule, 1))
             tree = self.root / "tree"
             planting.put(tree / "main.cpp", MAIN.encode())
-            planting.plant(self.root, tree, numbered)
+            planting.plant(planting.sources_of(self.root, numbered.values()), tree, numbered)
             program = self.root / "program"
             subprocess.run(["c++", "-std=c++20", tree / "rt/made.cpp", tree / "main.cpp",
                             "-o", program], check=True)  # fmt: skip
@@ -109,7 +109,7 @@ int main() { return is_bad({true}) ? 1 : 0; }
 """)
         lost = [site for site in sites.sites_of(self.root, source, "c++ -std=c++20") if site.rule == "sign"]
         tree, program = self.root / "tree", self.root / "program"
-        planting.plant(self.root, tree, dict(enumerate(lost, 1)))
+        planting.plant(planting.sources_of(self.root, lost), tree, dict(enumerate(lost, 1)))
         subprocess.run(["c++", "-std=c++20", tree / "rt/asked.cpp", "-o", program], check=True)
         codes = [subprocess.run([program], env={"TERRACUT_MUTANT": number}, check=False).returncode for number in ("0", "1")]
         self.assertEqual(codes, [0, 1])

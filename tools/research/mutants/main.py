@@ -111,13 +111,14 @@ class Trial:
 
     def build(self):
         planting.copy_tree(REPOSITORY, self.tree)
-        planting.plant(REPOSITORY, self.tree, self.numbered)
+        sources = planting.sources_of(REPOSITORY, self.numbered.values())
+        planting.plant(sources, self.tree, self.numbered)
         self.suites.configure()
         while broken := self.suites.build():
             gone = [self.numbered.pop(number) for number in broken if number in self.numbered]
             print(f"{len(gone)} do not compile and are left out", flush=True)
-            planting.restore(REPOSITORY, self.tree, {site.file for site in gone})
-            planting.plant(REPOSITORY, self.tree, self.numbered)
+            planting.restore(sources, self.tree, {site.file for site in gone})
+            planting.plant(sources, self.tree, self.numbered)
 
     def reach(self):
         """Which suites reach each mistake, and how long each takes, without a mistake. Known already where nothing was built since."""

@@ -6,7 +6,6 @@ import random
 import shutil
 import subprocess
 from collections import defaultdict
-from pathlib import Path
 
 # A mistake that is reached leaves its mark in a file, so that only suites that reach it are run for it.
 HEADER = """#pragma once
@@ -86,8 +85,13 @@ def put(path, content, mode_of=None):
         shutil.copymode(mode_of, path)
 
 
-def plant(repository, tree, numbered):
-    """Writes the sources with the mistakes {number: site} into the tree, the others as they are."""
+def sources_of(repository, sites):
+    """What the files with these sites are: kept, as whoever edits them goes on while the tree is built."""
+    return {name: (repository / name).read_bytes() for name in {site.file for site in sites}}
+
+
+def plant(sources, tree, numbered):
+    """Writes the sources {name: content} with the mistakes {number: site} into the tree."""
     by_file = defaultdict(list)
     for number, site in numbered.items():
         by_file[site.file].append((site.begin, site.end, site.shape.format(id=number)))
@@ -98,16 +102,12 @@ def plant(repository, tree, numbered):
     quiet = "".join(f'#pragma GCC diagnostic ignored "-W{name}"\n' for name in STRANGE)
     first = f'#include "{header}"\n{quiet}'.encode()
     for name, places in by_file.items():
-        content = (repository / name).read_bytes()
+        content = sources[name]
         for begin, end, text in sorted(places, reverse=True):
             content = content[:begin] + text.encode() + content[end:]
         put(tree / name, first + content)
 
 
-def files_with(sites):
-    return {site.file for site in sites}
-
-
-def restore(repository, tree, names):
+def restore(sources, tree, names):
     for name in names:
-        put(tree / name, Path(repository / name).read_bytes())
+        put(tree / name, sources[name])

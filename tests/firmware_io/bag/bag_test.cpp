@@ -81,6 +81,15 @@ TEST_F(BagTest, ReadsFilesAndMessagesPackedByZstd) {
   EXPECT_THAT(read("b.mcap").messages, ElementsAre("one"));
 }
 
+TEST_F(BagTest, ReadsZstdToItsEndAndSaysWhereThatIsMissing) {
+  const std::string plain = three_messages(Compression::kNone);
+  write("joined.mcap.zstd", zstd(plain.substr(0, 100)) + zstd(plain.substr(100)));
+  EXPECT_THAT(read("joined.mcap.zstd").messages, ElementsAre("one", "two", "three"));
+  const std::string packed = zstd(plain);
+  write("cut.mcap.zstd", packed.substr(0, packed.size() - 1));
+  EXPECT_NE(read("cut.mcap.zstd").fault, "");
+}
+
 TEST_F(BagTest, ReadsTheFilesOfAFolderInTheOrderOfTheirNumbers) {
   for (const int i : {10, 9, 0}) {
     write("bag/drive_" + std::to_string(i) + ".mcap",

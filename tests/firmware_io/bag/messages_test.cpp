@@ -73,6 +73,17 @@ TEST(PacketMessages, HaveTheMessagesStampWithoutTheirOwn) {
   EXPECT_EQ(packets[0].stamp_ns, 5);
 }
 
+TEST(PacketMessages, OfRslidarPacketsHaveTheHeadersStamp) {
+  // A header (1 s and 2 ns, frame ""), two flags, three bytes.
+  const auto message =
+      bytes_of({0, 1, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 3, 0, 0, 0, 7, 8, 9});
+  std::vector<PacketInMessage> packets;
+  EXPECT_TRUE(read_packets("rslidar_msg/msg/RslidarPacket", {0, 5, {}, message}, packets));
+  ASSERT_EQ(packets.size(), 1U);
+  EXPECT_EQ(packets[0].stamp_ns, 1'000'000'002);
+  EXPECT_THAT(packets[0].payload, ElementsAre(7, 8, 9));
+}
+
 /// Makes a message of one transform.
 std::vector<std::byte> transform(char parent, char child, std::array<double, 7> pose) {
   auto message = bytes_of({0, 1, 0, 0, 1,      0, 0, 0, 0, 0, 0, 0, 0,     0, 0, 0,

@@ -4,6 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cstddef>
+#include <vector>
+
 #include "frames.hpp"
 
 namespace terracut::test {
@@ -78,6 +81,7 @@ TEST(CandumpLine, TakesADirectionAndMoreSpaceAndTheOtherEndOfLine) {
   EXPECT_EQ(frame_of("(1.5)   can0  123#AA R"), frame_of("(1.5) can0 123#AA"));
   EXPECT_EQ(frame_of("(1.5) can0 123#AA T\r"), frame_of("(1.5) can0 123#AA"));
   EXPECT_EQ(frame_of("(1.5) can0 123#0011223344556677_F").length, 8);
+  EXPECT_EQ(frame_of("(1.5) can0 123#0011223344556677_9").length, 8);
 }
 
 TEST(CandumpLine, NamesWhatIsWrong) {
@@ -98,6 +102,14 @@ TEST(CandumpLine, NamesWhatIsWrong) {
   EXPECT_THAT(fault_of("(1.5) can0 20000004##0AA"), HasSubstr("error frame"));
   EXPECT_THAT(fault_of("(1.5) can0 123#AA X"), HasSubstr("R or T"));
   EXPECT_THAT(fault_of("(1.5) can0 123#AA R T"), HasSubstr("R or T"));
+}
+
+TEST(CandumpLine, TakesTheLengthsThatAnFdFrameCanHave) {
+  std::vector<std::size_t> lengths;
+  for (std::size_t bytes = 0; bytes <= 70; ++bytes) {
+    if (can::is_fd_length(bytes)) lengths.push_back(bytes);
+  }
+  EXPECT_THAT(lengths, testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64));
 }
 
 TEST(CandumpLine, TellsWhatIsNoFrameFromWhatIsMalformed) {

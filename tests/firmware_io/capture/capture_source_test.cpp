@@ -106,11 +106,14 @@ TEST(CaptureSource, ReadsMicroAndNanosecondStampsInEitherByteOrder) {
   for (const std::ptrdiff_t at : {0, 8, 12, 16, 20, 24, 28, 32, 36}) {
     std::reverse(big.begin() + at, big.begin() + at + 4);
   }
+  Bytes first_second = micro.bytes();  // of a clock that nobody set
+  std::fill(first_second.begin() + 24, first_second.begin() + 28, std::uint8_t{0});
   std::swap(big[4], big[5]);
   std::swap(big[6], big[7]);
   const std::pair<Bytes, std::int64_t> cases[] = {{micro.bytes(), 1'001'000'250'000},
                                                   {nano.bytes(), 1'001'000'000'250},
-                                                  {big, 1'001'000'250'000}};
+                                                  {big, 1'001'000'250'000},
+                                                  {first_second, 250'000}};
   for (const auto& [bytes, stamp_ns] : cases) {
     auto source = CaptureSource::open_memory(bytes, "memory");
     ASSERT_TRUE(source) << source.error().message;

@@ -377,6 +377,10 @@ TEST(SensorRows, AreRefusedWhereThereAreNone) {
   std::vector<std::uint16_t> laser(points.size());
   for (std::size_t i = 0; i < laser.size(); ++i) laser[i] = static_cast<std::uint16_t>(i % 16);
   EXPECT_THAT(learnt_from({points, laser}).error().message, HasSubstr("look the same way"));
+  std::vector<std::uint16_t> many(points.size());
+  for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<std::uint16_t>(i % 300);
+  EXPECT_THAT(learnt_from({points, many}).error().message,
+              HasSubstr("300 lasers by the field of the laser's number; expected 8 to 256"));
   for (std::uint16_t& number : laser) number %= 4;
   EXPECT_THAT(learnt_from({points, laser}).error().message,
               HasSubstr("the laser of a point has only 4 different numbers, not organised"));

@@ -97,6 +97,13 @@ TEST(Hdl64eS1, PacketsOutOfOrderAndRepeatedOnesAreFound) {
   EXPECT_EQ(recorder.returns(), (packets.size() - 1) * kReturnsAPacket);
 }
 
+TEST(Hdl64eS1, AnAzimuthBeyondTheRevolutionIsRefusedByItsName) {
+  std::vector<Packet> packets = s1_packets(1);
+  packets[50].set_u16(100 * 7 + 2, 36'000);
+  test::Recorder recorder(packets);
+  EXPECT_EQ(recorder.rejected(frame::Reject::kAzimuthOutOfRange), 1U);
+}
+
 TEST(Hdl64eS1, AStandingHeadIsNoLoss) {
   const std::vector<Packet> packets = s1_packets(2);
   test::Recorder recorder;

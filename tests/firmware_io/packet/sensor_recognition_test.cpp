@@ -64,6 +64,11 @@ TEST(SensorRecognition, TellsTheOtherVelodynesApart) {
             SensorModel::kVls128);
   EXPECT_EQ(recognise_sensor(velodyne({0xEEFF, 0xEEFF, 0xEEFF, 0xDDFF}, 0x37, 0x00)),
             SensorModel::kHdl64eS1);
+  // Ids that are in the right place for a VLS-128 once, in single return, or in dual.
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF, 0xEEFF, 0xDDFF, 0xBBFF}, 0x39, 0xA1)),
+            SensorModel::kUnknown);
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF, 0xDDFF, 0xBBFF, 0xBBFF}, 0x37, 0xA1)),
+            SensorModel::kUnknown);
   EXPECT_EQ(recognise_sensor(Bytes(1206, 0)), SensorModel::kUnknown);
   EXPECT_THAT(describe_sensor_hints(velodyne({0xEEFF}, 0x39, 0x22)), HasSubstr("dual"));
 }
@@ -86,6 +91,11 @@ TEST(SensorRecognition, NamesTheRubyFamilyByItsBlocks) {
   EXPECT_EQ(recognise_sensor(robosense({0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55}, 0)),
             SensorModel::kRoboSenseDeviceInfo);
   EXPECT_EQ(recognise_sensor(robosense({0x55, 0xAA, 0x05}, 388)), SensorModel::kUnknown);
+  for (const std::size_t bytes : {388U, 244U}) {
+    Bytes cut = robosense({0x55, 0xAA, 0x05, 0x5A}, bytes);
+    cut[80 + 2 * bytes] = 0;
+    EXPECT_EQ(recognise_sensor(cut), SensorModel::kOtherRoboSense) << bytes;
+  }
 
   Bytes plus = robosense({0x55, 0xAA, 0x05, 0x5A}, 388);
   plus[31] = 5;

@@ -72,6 +72,14 @@ TEST(LineFit, IgnoresOutliers) {
   EXPECT_NEAR(fit_line(points, 0.05).slope, 2, 0.01);
 }
 
+TEST(LineFit, IsNotDrawnToAFewPointsThatHappenToLieOnALine) {
+  // 1 + 2 x with errors of up to 0.5. Weighed without regard to how far points lie from the line,
+  // a few of them decide, and the slope is 2.17.
+  const std::vector<LinePoint> points{{0, 1.3}, {1, 3.5},  {2, 4.5},  {3, 6.7},
+                                      {4, 8.7}, {5, 10.8}, {6, 13.2}, {7, 15.4}};
+  EXPECT_NEAR(fit_line(points, 50).slope, 2, 0.05);
+}
+
 TEST(RingTableFit, FindsTheTableAScanWasMadeWith) {
   const RingTable truth = synthetic::table();
   const FittedRings found = fitted(synthetic::scan(truth));

@@ -157,7 +157,11 @@ TEST(DbcFile, NamesTheLineThatIsWrong) {
         " SG_ S mM : 0|8@1+ (1,0) [0|0] \"\" X", " SG_ S : 99999999999|8@1+ (1,0) [0|0] \"\" X"}) {
     EXPECT_THAT(complaint(line), HasSubstr("car.dbc:5: a signal has to read")) << line;
   }
-  EXPECT_THAT(complaint("SIG_VALTYPE_ 1 B : 3;"), HasSubstr("car.dbc:5: a value type"));
+  for (const std::string_view line :
+       {"SIG_VALTYPE_ 1 B : 3;", "SIG_VALTYPE_ 1 B : -1;", "SIG_VALTYPE_ 1 B : ;",
+        "SIG_VALTYPE_ 1 : 1;", "SIG_VALTYPE_ B : 1;"}) {
+    EXPECT_THAT(complaint(line), HasSubstr("car.dbc:5: a value type")) << line;
+  }
 }
 
 TEST(DbcFile, RefusesWhatIsNoDbcFile) {

@@ -34,6 +34,16 @@ TEST(PlanarPose, ConstantMotionIsAnArcOfTheRadiusSpeedByYawRate) {
   }
 }
 
+TEST(PlanarPose, AnArcIsAsExactAsIsSaidAtItsLongest) {
+  // 1 m of way, rotated by almost what is still computed as one arc.
+  const double rotated_rad = 0.2499999, radius_m = 1 / rotated_rad;
+  const double half_sine = std::sin(rotated_rad / 2);  // 1 - cos(x) = 2 sin(x / 2)^2, without loss
+  expect_near(after_constant_motion(1, rotated_rad, 1),
+              {radius_m * std::sin(rotated_rad), radius_m * 2 * half_sine * half_sine,
+               std::cos(rotated_rad), std::sin(rotated_rad)},
+              1e-11);
+}
+
 TEST(PlanarPose, WithoutYawTheWayIsStraight) {
   expect_near(after_constant_motion(20, 0, 0.1), {2, 0, 1, 0}, 1e-15);
   expect_near(after_constant_motion(-20, 0, 0.1), {-2, 0, 1, 0}, 1e-15);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <string>
 
 namespace terracut::dds {
 namespace {
@@ -25,6 +26,20 @@ TEST(Participant, PassesOnWhatCycloneSaysOfAWrongConfiguration) {
   EXPECT_FALSE(Participant::open({.domain = kDomain, .interface = "lo"}));
   EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("Nonsense"));
   ::unsetenv("CYCLONEDDS_URI");
+}
+
+TEST(Participant, IsInTheDomainOfTheEnvironmentWhereNoneIsSet) {
+  ::setenv("ROS_DOMAIN_ID", std::to_string(kDomain).c_str(), 1);
+  const auto of_environment = Participant::open({.domain = {}, .interface = "lo"});
+  ASSERT_TRUE(of_environment) << of_environment.error().message;
+  EXPECT_EQ(of_environment->domain(), kDomain);
+  for (const char* bad : {"-1", "233", "2x"}) {
+    ::setenv("ROS_DOMAIN_ID", bad, 1);
+    const auto refused = Participant::open({.domain = {}, .interface = "lo"});
+    ASSERT_FALSE(refused) << bad;
+    EXPECT_THAT(refused.error().message, testing::HasSubstr("expected 0 to 232"));
+  }
+  ::unsetenv("ROS_DOMAIN_ID");
 }
 
 }  // namespace

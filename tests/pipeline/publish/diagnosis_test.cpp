@@ -55,6 +55,18 @@ TEST(Diagnoses, NameWhatIsWrongNow) {
   EXPECT_EQ(severity_of(diagnoses.of(*figures), "deadline"), Severity::kError);
 }
 
+TEST(Diagnoses, SayOnceThatSomethingWasLost) {
+  Diagnoses diagnoses;
+  auto figures = good_figures();
+  figures->losses[0] = {"kernel_drops", 5};
+  const auto first = diagnoses.of(*figures);
+  const auto found = std::ranges::find(first, std::string("terracut: losses"), &Diagnosis::name);
+  ASSERT_NE(found, first.end());
+  EXPECT_EQ(found->level, Severity::kWarn);
+  EXPECT_EQ(found->message, "something was lost in the last second");
+  EXPECT_EQ(severity_of(diagnoses.of(*figures), "losses"), Severity::kOk);
+}
+
 TEST(Diagnoses, WarnOfNothingThatOnlookersAloneDidNotGet) {
   Diagnoses diagnoses;
   auto figures = good_figures();

@@ -244,6 +244,10 @@ TEST_F(DumpFolderTest, RefusesToKeepNothing) {
   bad = limits();
   bad.folder.clear();
   EXPECT_THROW(DumpFolder{bad}, std::invalid_argument);
+  DumpFolderLimits least = limits();
+  least.most_dumps = 1;
+  least.most_bytes = 1;
+  EXPECT_NO_THROW(DumpFolder{least});
 }
 
 TEST_F(DumpFolderTest, RefusesNamesThatAreNoPartOfAFileName) {

@@ -122,6 +122,13 @@ TEST_F(DeadlineMonitorOf50Ms, SharesOutNoMoreThanTheLatency) {
   EXPECT_EQ(judged(frame).cause, FrameMissCause::kLateInput);
 }
 
+TEST_F(DeadlineMonitorOf50Ms, SharesOutWhatIsLeftBehindALargeShare) {
+  FrameRecord frame = frame_of(0, 80);
+  frame.closing_packet_ns += 60 * kMs;
+  frame.steal_ns = 70 * kMs;  // 20 ms are left
+  EXPECT_EQ(judged(frame).cause, FrameMissCause::kLateInput);
+}
+
 TEST_F(DeadlineMonitorOf50Ms, TakesAStolenTimeThatWentBackwardsForNone) {
   FrameRecord frame = frame_of(0, 100);
   frame.run_queue_wait_ns = 40 * kMs;

@@ -13,11 +13,11 @@ using Figures = std::vector<Figure>;
 
 TEST(FigureLines, JoinTheFiguresOfALineByCommas) {
   const Figures figures{{"a", std::uint64_t{3}, {}, {"link", "{} packets"}},
-                        {"b", Duration{1'500'000'000}, {}, {"link", "silent for {s:.1f} s"}},
+                        {"b", Duration{1'234'567'000'000}, {}, {"link", "silent for {s:.3f} s"}},
                         {"c", Duration{-2'500'000}, {}, {"link", " ({ms:+.1f} ms)"}},
                         {"d", Number{9.876, 0, 10}, {}, {"frames", "{:.1f} /s"}}};
   EXPECT_EQ(figure_lines(figures, {}),
-            "link      3 packets, silent for 1.5 s (-2.5 ms)\nframes    9.9 /s\n");
+            "link      3 packets, silent for 1234.567 s (-2.5 ms)\nframes    9.9 /s\n");
 }
 
 TEST(FigureLines, LeaveOutWhatIsShownOnlyIfThereIsAny) {

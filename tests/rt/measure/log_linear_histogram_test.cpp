@@ -52,6 +52,16 @@ TEST(LogLinearHistogram, IsExactBelow256Nanoseconds) {
   }
 }
 
+TEST(LogLinearHistogram, IsWithinA128thUpTo4096Nanoseconds) {
+  for (std::int64_t value = 0; value < 4096; ++value) {
+    LogLinearHistogram histogram;
+    histogram.record(value);
+    histogram.record(LogLinearHistogram::kMax_ns);
+    EXPECT_GE(histogram.percentile_ns(50), value);
+    EXPECT_LE(histogram.percentile_ns(50), value + value / 128);
+  }
+}
+
 TEST(LogLinearHistogram, KeepsTwoDigitsOfUniformTimes) {
   std::mt19937_64 random(1);
   std::uniform_int_distribution<std::int64_t> any(0, 20'000'000);

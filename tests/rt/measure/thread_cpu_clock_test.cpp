@@ -10,6 +10,12 @@
 namespace terracut::measure {
 namespace {
 
+TEST(ThreadCpuClock, IsReadAsATimeSinceAnEarlierReading) {
+  const ClockPair spent = ClockPair{70, 900}.since({30, 200});
+  EXPECT_EQ(spent.cpu_ns, 40);
+  EXPECT_EQ(spent.wall_ns, 700);
+}
+
 TEST(ThreadCpuClock, StandsWhileTheThreadSleeps) {
   const ClockPair start = ClockPair::now();
   std::this_thread::sleep_for(std::chrono::milliseconds(30));

@@ -145,6 +145,14 @@ TEST(Hdl64eFile, NamesWhatWasExpectedForAnythingElse) {
       load_hdl64e_calibration(folder / "notes.txt"),
       calib::IsRefusedWith(ErrorCode::kUnsupported,
                            AllOf(HasSubstr("notes.txt"), HasSubstr("db.xml"), HasSubstr("YAML"))));
+  // What its content does not tell, its name does: YAML that is broken is explained as YAML.
+  for (const char* name : {"unit.yaml", "unit.yml"}) {
+    calib::write_text(folder / name, "laser: 1\n");
+    EXPECT_THAT(
+        load_hdl64e_calibration(folder / name),
+        calib::IsRefusedWith(ErrorCode::kUnsupported, HasSubstr("a list \"lasers:\", found none")))
+        << name;
+  }
   calib::write_text(folder / "empty", "");
   EXPECT_FALSE(load_hdl64e_calibration(folder / "empty").has_value());
   EXPECT_THAT(load_hdl64e_calibration(folder / "missing.xml"),

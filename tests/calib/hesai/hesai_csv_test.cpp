@@ -53,6 +53,8 @@ TEST(HesaiCsv, WhatIsNoTableIsRefusedByLine) {
   EXPECT_TRUE(message(with("3,11.000,", "3;11.000;")).starts_with("unit.csv:4: "));
   EXPECT_TRUE(message(with("3,11.000", "3,91")).starts_with("unit.csv:4: elevation beyond"));
   EXPECT_TRUE(message(with("3,11.000", "3,18")).starts_with("unit.csv: has 16 channels"));
+  EXPECT_TRUE(message(with("3,11.000,", "3,11.000,,")).find("has not three fields") !=
+              std::string::npos);
   EXPECT_TRUE(message("").starts_with("unit.csv: has 0 channels"));
   EXPECT_TRUE(message(good.substr(0, good.size() - 12)).starts_with("unit.csv:"));
 }

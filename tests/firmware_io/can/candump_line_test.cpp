@@ -97,6 +97,8 @@ TEST(CandumpLine, NamesWhatIsWrong) {
   EXPECT_THAT(fault_of("(1.5) can0 123#-1"), HasSubstr("8 bytes"));
   EXPECT_THAT(fault_of("(1.5) can0 123#R9"), HasSubstr("0 to 8"));
   EXPECT_THAT(fault_of("(1.5) can0 123#00_8"), HasSubstr("9 to F"));
+  EXPECT_THAT(fault_of("(1.5) can0 123#00_0G"), HasSubstr("9 to F"));
+  EXPECT_THAT(fault_of("(1.5) can0 123#00_10"), HasSubstr("9 to F"));
   EXPECT_THAT(fault_of("(1.5) can0 123##"), HasSubstr("flags"));
   EXPECT_THAT(fault_of("(1.5) can0 123##0001122334455667788"), HasSubstr("FD frame"));
   EXPECT_THAT(fault_of("(1.5) can0 20000004##0AA"), HasSubstr("error frame"));

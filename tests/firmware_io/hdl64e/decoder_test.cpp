@@ -45,6 +45,8 @@ void expect_same_returns(std::span<const Packet> packets,
   }
   test::end_stream(recorder.decoder, handed.keep());
   EXPECT_GT(handed.returns(), 0U);
+  EXPECT_EQ(recorder.decoder.columns_decoded(),
+            recorder.decoder.packets_decoded() * hdl64e::kColumnsPerPacketSingle);
   EXPECT_EQ(reference::first_difference(expected, handed, columns), "");
 }
 

@@ -489,6 +489,13 @@ TEST(FrameStreamServer, RefusesSettingsOutOfTheirRanges) {
   }
 }
 
+TEST(FrameStreamServer, TakesTheLeastOfEachSetting) {
+  memory::FixedMemory memory;
+  EXPECT_TRUE(
+      FrameStreamServer::open({.max_points = 1, .max_peers = 1, .stall_limit_ns = 1}, memory)
+          .has_value());
+}
+
 TEST(FrameStreamServer, TakesRoomForAFrameAReaderFromThePlannedMemory) {
   memory::FixedMemory memory;
   const auto server = FrameStreamServer::open({.max_points = 1000, .max_peers = 3}, memory);

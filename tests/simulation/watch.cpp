@@ -182,6 +182,8 @@ void Watch::look_at_record(const status::FrameRecord& record) {
       report.last_stage == stage::Stage::kMinCut && report.cut.coarse_by_budget == 0;
   require((record.level == status::Level::kFull) == is_whole_cut, "a level is not the cut's");
 
+  require(record.run_queue_wait_ns >= 0 && record.run_queue_wait_ns <= machine_.waited_ns(),
+          "a frame's wait for its core is longer than all waits");
   const std::int64_t lag_ns = record.labels_ns - info.last_packet_ns;
   const std::int64_t deadline_ns = LiveChain::kDeadline_ns;
   if (stamps_are_comparable_) {

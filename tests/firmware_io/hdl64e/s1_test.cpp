@@ -104,6 +104,17 @@ TEST(Hdl64eS1, AnAzimuthBeyondTheRevolutionIsRefusedByItsName) {
   EXPECT_EQ(recorder.rejected(frame::Reject::kAzimuthOutOfRange), 1U);
 }
 
+TEST(Hdl64eS1, AStepBackBeyondTheJitterOfItsEncoderIsRefused) {
+  const auto rejected = [](std::uint32_t back_cdeg) {
+    std::vector<Packet> packets = s1_packets(1);
+    const auto& bytes = packets[50].bytes;
+    packets[50].set_u16(702, bytes[602] + 256U * bytes[603] - back_cdeg);
+    return test::Recorder(packets).rejected(frame::Reject::kAzimuthJump);
+  };
+  EXPECT_EQ(rejected(kMaxJitter_cdeg), 0U);
+  EXPECT_EQ(rejected(kMaxJitter_cdeg + 1), 1U);
+}
+
 TEST(Hdl64eS1, AStandingHeadIsNoLoss) {
   const std::vector<Packet> packets = s1_packets(2);
   test::Recorder recorder;

@@ -66,6 +66,12 @@ TEST_F(SlopeOfAFrame, IsThatOfALongStrip) {
   }
 }
 
+TEST_F(SlopeOfAFrame, IsThatOfAStripThatRunsObliquely) {
+  fit([](float x, float y) { return std::fabs(x - y) < 6 ? 0.1F * x - 0.05F * y : NAN; });
+  const auto& found = slope.at(0, 0);
+  EXPECT_NEAR(found.along_x + found.along_y, 0.05F, 0.02F) << "along the strip";
+}
+
 TEST_F(SlopeOfAFrame, IsKnownByPatchAsByPlace) {
   fit([](float x, float y) { return x > 0 ? 0.1F * x : 0.02F * y; });
   for (std::size_t i = 0; i < ground.x_m().size(); ++i) {

@@ -237,6 +237,9 @@ TEST(FrameBuilderConfig, MayHaveOneRowAndOneColumnButNotNone) {
   EXPECT_THROW(FrameBuilder(config, memory), std::invalid_argument);
   config.shape = {.rows = 1, .columns = 0};
   EXPECT_THROW(FrameBuilder(config, memory), std::invalid_argument);
+  config.shape = {.rows = 1, .columns = 1};
+  config.revolution_ticks = 0;
+  EXPECT_THROW(FrameBuilder(config, memory), std::invalid_argument);
 }
 
 }  // namespace

@@ -70,7 +70,14 @@ TEST(SensorRecognition, TellsTheOtherVelodynesApart) {
   EXPECT_EQ(recognise_sensor(velodyne({0xEEFF, 0xDDFF, 0xBBFF, 0xBBFF}, 0x37, 0xA1)),
             SensorModel::kUnknown);
   EXPECT_EQ(recognise_sensor(Bytes(1206, 0)), SensorModel::kUnknown);
-  EXPECT_THAT(describe_sensor_hints(velodyne({0xEEFF}, 0x39, 0x22)), HasSubstr("dual"));
+  for (const auto& [mode, name] : {std::pair(0x37, "strongest return"),
+                                   {0x38, "last return"},
+                                   {0x39, "dual return"},
+                                   {0x3A, "dual return with confidence"},
+                                   {0x3B, "return mode not known"}}) {
+    EXPECT_THAT(describe_sensor_hints(velodyne({0xEEFF}, static_cast<std::uint8_t>(mode), 0x22)),
+                HasSubstr(name));
+  }
 }
 
 TEST(SensorRecognition, KnowsPositionPackets) {
@@ -102,6 +109,12 @@ TEST(SensorRecognition, NamesTheRubyFamilyByItsBlocks) {
   plus[32] = 1;
   EXPECT_EQ(recognise_sensor(plus), SensorModel::kRubyPlus);
   EXPECT_THAT(describe_sensor_hints(plus), HasSubstr("Ruby Plus"));
+  for (const auto& [model, name] : {std::pair(2, "Ruby 80"), {3, "Ruby 80V"}, {4, "Ruby 48V"}}) {
+    plus[32] = static_cast<std::uint8_t>(model);
+    EXPECT_EQ(recognise_sensor(plus), SensorModel::kRuby128);
+    EXPECT_THAT(describe_sensor_hints(plus), HasSubstr(name));
+  }
+  plus[32] = 1;
   plus[7] = 3;
   EXPECT_THAT(describe_sensor_hints(plus), HasSubstr("dual return"));
 }

@@ -189,6 +189,7 @@ TEST(UdpFrame, EveryReasonHasItsOwnName) {
   }
   EXPECT_EQ(names.size(), kFrameRejects);
   EXPECT_FALSE(names.contains("unknown"));
+  EXPECT_EQ(to_string(FrameReject::kCount), "unknown");
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ def build_and_test(given):
         old.unlink()
     suites = ["--tests-regex", given.tests] if given.tests else ["--label-exclude", "slow|install|realtime|documents"]
     tested = run(["ctest", "--preset", "coverage", "--parallel", given.jobs, *suites],
-                 env={**os.environ, "LLVM_PROFILE_FILE": str(profiles / "%4m.profraw")})  # fmt: skip
+                 env={**os.environ, "LLVM_PROFILE_FILE": str(profiles / "%p.profraw")})  # fmt: skip
     if tested.returncode != 0:
         print("warning: tests failed; what they would have covered is missing below", file=sys.stderr)
 
@@ -64,7 +64,7 @@ def programs():
 
 def measured():
     merged = FOLDER / "all.profdata"
-    # The profile of a process that a test killed while it was written is broken: it is named, and left out.
+    # A profile is broken if a test killed its process meanwhile: it is named, and left out. So each process has its own.
     run(["llvm-profdata-19", "merge", "-sparse", "-failure-mode=all", *sorted((FOLDER / "profiles").glob("*.profraw")), "-o", merged], check=True)
     first, *others = programs()
     exported = run(["llvm-cov-19", "export", "-format=text", "-skip-functions", "-skip-expansions", f"-instr-profile={merged}",

@@ -205,6 +205,7 @@ class Decoder {
     return static_cast<int>(std::clamp<std::int64_t>(columns, 0, frames_.shape().columns));
   }
 
+  /// Returns where a packet begins that nothing is missing before.
   [[nodiscard]] std::int64_t next_packet_cdeg() const noexcept {
     return blind_.next_packet(frontier_ticks_) / packet::kTicksPerCdeg;
   }

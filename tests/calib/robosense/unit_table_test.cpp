@@ -8,8 +8,8 @@
 #include <string>
 
 #include "calib/beams/angle.hpp"
-#include "rt/files/whole_file.hpp"
 #include "terracut/calibration.hpp"
+#include "tests/calib/calib_test_support.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -52,7 +52,7 @@ TEST(RoboSenseUnitTable, ASpoiltTableOf32LinesIsExplainedAsOne) {
   const test::ScratchFolder folder;
   std::string text = text_of(SensorModel::kHelios);
   text.insert(text.find('\n') + 1, "up");
-  ASSERT_TRUE(files::write_whole_file(folder / "angle.csv", text));
+  calib::write_text(folder / "angle.csv", text);
   const auto loaded = Calibration::load(folder / "angle.csv");
   ASSERT_FALSE(loaded);
   EXPECT_THAT(loaded.error().message, HasSubstr("angle.csv:2: "));

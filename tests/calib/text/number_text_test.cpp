@@ -8,17 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "calib/text/text_lines.hpp"
-
 namespace terracut::text {
 namespace {
-
-TEST(TextLines, AreTrimmedAtBothEndsAlone) {
-  EXPECT_EQ(trimmed(" \t a  b \r"), "a  b");
-  EXPECT_EQ(trimmed("a"), "a");
-  EXPECT_EQ(trimmed("a "), "a");
-  EXPECT_EQ(trimmed(" \t\r"), "");
-}
 
 TEST(NumberText, ReadsWholeNumbersOnly) {
   EXPECT_EQ(number_from("12.5"), 12.5);

@@ -114,7 +114,7 @@ TEST_F(StatusPage, IsReadableForOthersAndWritableForNone) {
   const auto page = publisher();
   ::umask(before);
   ASSERT_TRUE(page);
-  struct stat status{};
+  struct stat status {};
   ASSERT_EQ(::stat(page->path().c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0644U);
 }
@@ -124,9 +124,7 @@ TEST_F(StatusPage, GoesWithItsPublisherWhileReadersKeepTheLastValue) {
   const auto view = reader();
   ASSERT_TRUE(page && view);
   page->publish(Health::of(5));
-  {
-    const auto gone = std::move(*page);
-  }
+  { const auto gone = std::move(*page); }
   EXPECT_EQ(files(), 0U);
   EXPECT_FALSE(view->publisher_lives());
   EXPECT_EQ(view->read(), Health::of(5));
@@ -160,9 +158,7 @@ TEST_F(StatusPage, TakesAwayNoPageButItsOwnWhenItGoes) {
   auto successor = publisher();
   ASSERT_TRUE(successor.has_value()) << successor.error().message;
   successor->publish(Health::of(4));
-  {
-    const auto gone = std::move(*page);
-  }
+  { const auto gone = std::move(*page); }
   const auto view = reader();
   ASSERT_TRUE(view.has_value()) << view.error().message;
   EXPECT_EQ(view->read(), Health::of(4));

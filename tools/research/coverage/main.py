@@ -65,7 +65,8 @@ def programs():
 def measured():
     merged = FOLDER / "all.profdata"
     # A profile is broken if a test killed its process meanwhile: it is named, and left out. So each process has its own.
-    run(["llvm-profdata-19", "merge", "-sparse", "-failure-mode=all", *sorted((FOLDER / "profiles").glob("*.profraw")), "-o", merged], check=True)
+    run(["llvm-profdata-19", "merge", "-sparse", "-failure-mode=all", "-o", merged,
+         *sorted((FOLDER / "profiles").glob("*.profraw"))], check=True)  # fmt: skip
     first, *others = programs()
     exported = run(["llvm-cov-19", "export", "-format=text", "-skip-functions", "-skip-expansions", f"-instr-profile={merged}",
                     f"-ignore-filename-regex=^(?!{REPOSITORY}/({'|'.join(ROOMS)})/)", first,

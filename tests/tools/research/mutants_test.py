@@ -13,6 +13,7 @@ sys.path.insert(0, str(REPOSITORY / "tools/research"))
 
 try:
     from mutants import planting, sites
+    from mutants.main import noticed_by
 except ModuleNotFoundError as missing:
     print(f"skipped: no {missing.name} for Python (./tools/setup --all)")
     sys.exit(0)
@@ -96,9 +97,31 @@ class Mistakes(unittest.TestCase):
             program = self.root / "program"
             subprocess.run(["c++", "-std=c++20", tree / "rt/made.cpp", tree / "main.cpp",
                             "-o", program], check=True)  # fmt: skip
-            run = lambda number: subprocess.run([program], env={"TERRACUT_MUTANT": str(number)}, capture_output=True, text=True).stdout
+            run = lambda number: subprocess.run([program], env={"TERRACUT_MUTANTS": str(number)}, capture_output=True, text=True).stdout
             self.assertEqual(run(0), "0 0 2 -3 6")
             self.assertEqual({run(number) for number in numbered}, shown)
+
+    def test_several_are_made_at_once(self):
+        numbered = dict(enumerate((site for site in self.found if site.rule in ("arithmetic", "dropped")), 1))
+        tree, program = self.root / "tree", self.root / "program"
+        planting.put(tree / "main.cpp", MAIN.encode())
+        planting.plant(planting.sources_of(self.root, numbered.values()), tree, numbered)
+        subprocess.run(["c++", "-std=c++20", tree / "rt/made.cpp", tree / "main.cpp", "-o", program], check=True)
+        done = subprocess.run([program], env={"TERRACUT_MUTANTS": ",".join(map(str, numbered))}, capture_output=True, text=True)
+        self.assertEqual(done.stdout, "0 0 8 -3 4")
+
+    def test_those_that_a_suite_notices_are_found_by_halves(self):
+        tried = []
+
+        def fails(numbers):
+            tried.append(numbers)
+            return any(number in (3, 4, 40) for number in numbers)
+
+        self.assertEqual(list(noticed_by(fails, list(range(100)))), [3, 4, 40])
+        self.assertLess(len(tried), 40)
+        tried.clear()
+        self.assertEqual(list(noticed_by(fails, list(range(50, 100)))), [])
+        self.assertEqual(len(tried), 1)
 
     def test_a_negation_is_lost_whatever_is_asked(self):
         source = self.root / "rt/asked.cpp"
@@ -111,7 +134,7 @@ int main() { return is_bad({true}) ? 1 : 0; }
         tree, program = self.root / "tree", self.root / "program"
         planting.plant(planting.sources_of(self.root, lost), tree, dict(enumerate(lost, 1)))
         subprocess.run(["c++", "-std=c++20", tree / "rt/asked.cpp", "-o", program], check=True)
-        codes = [subprocess.run([program], env={"TERRACUT_MUTANT": number}, check=False).returncode for number in ("0", "1")]
+        codes = [subprocess.run([program], env={"TERRACUT_MUTANTS": number}, check=False).returncode for number in ("0", "1")]
         self.assertEqual(codes, [0, 1])
 
 

@@ -9,9 +9,10 @@
 Mistakes are made by rule, from clang's syntax tree: a comparison off by its bound or turned around, && for ||, a wrong operator,
 a constant off by one, a sign or negation lost, a statement dropped, two arguments of one type swapped, a function that returns at
 once. All drawn ones are compiled into one program, in a copy of the tree (build/mutants/tree); a number in the environment makes
-one of them. The suites of `./tools/test` run once without any, which shows whom each is reached by; then, for each mistake, those
-that reach it, until one fails: first the likeliest ones for all mistakes, then others for those not noticed yet. Verdicts go into
-build/mutants/verdicts.json as they fall, and a run that broke off goes on there. Exit code 1 where a mistake was not noticed.
+one of them. The suites of `./tools/test` run once without any, which shows whom each is reached by; then each mistake is tried with
+the likeliest of those that reach it, until one fails. The mistakes not noticed then are made all at once for each other suite, and
+by halves where it fails. Verdicts go into build/mutants/verdicts.json as they fall, and a run that broke off goes on there. Exit
+code 1 where a mistake was not noticed.
 
 A mistake that survives may change nothing anyone can see (a bound that is never met): look before you write a test.
 """
@@ -19,7 +20,6 @@ A mistake that survives may change nothing anyone can see (a bound that is never
 import argparse
 import hashlib
 import json
-import math
 import re
 import subprocess
 import sys
@@ -34,8 +34,8 @@ from .suites import Failed, Suites
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 FOLDER = REPOSITORY / "build/mutants"
-# Seconds of suites that each mistake is tried with in turn: most are noticed by the first.
-BUDGETS_S = (3, 10, 30, 100, math.inf)
+# Seconds of suites that each mistake is tried with alone: most are noticed by them.
+FIRST_S = 3
 
 
 def arguments(given):
@@ -148,27 +148,47 @@ class Trial:
         return seconds, reached_by
 
     def judge(self, seconds, reached_by, verdicts):
-        """Yields (site, verdict) as they fall; those in `verdicts` are not tried again. All mistakes are tried with the likeliest suites
-        before any is tried with the others."""
+        """Yields (site, verdict) as they fall; those in `verdicts` are not tried again."""
         open_ones = [number for number, site in self.numbered.items() if site.key() not in verdicts]
         reaches = Counter(name for names in reached_by.values() for name in names)
-        left = {number: likeliest_first(reached_by[number], seconds, reaches) for number in open_ones}
-        for budget_s in BUDGETS_S:
-            survivors = []
-            for number in open_ones:
-                part, left[number] = of_budget(left[number], seconds, budget_s)
-                noticed = self.suites.run(part, number, limit_s=20 + 5 * sum(map(seconds.get, part))) if part else None
-                if noticed:
-                    yield self.numbered[number], noticed
-                else:
-                    survivors.append(number)
-            open_ones = survivors
-            if open_ones and budget_s < BUDGETS_S[-1]:
-                print(f"{len(open_ones)} not noticed by suites of {budget_s} s:", flush=True)
-                for number in open_ones:
-                    print(f"  {described(self.numbered[number])}", flush=True)
+        left = {}
+        for number in list(open_ones):
+            first, left[number] = of_budget(likeliest_first(reached_by[number], seconds, reaches), seconds)
+            noticed = self.suites.run(first, [number], limit_s=limit_s(first, seconds)) if first else None
+            if noticed:
+                open_ones.remove(number)
+                yield self.numbered[number], noticed
+        print(f"{len(open_ones)} not noticed by the likeliest {FIRST_S} s of suites; together for the others:", flush=True)
+
+        def look(name):
+            together = [number for number in list(open_ones) if name in left[number]]
+            return list(noticed_by(lambda numbers: self.suites.run([name], numbers, limit_s=limit_s([name], seconds)), together))
+
+        names = sorted(seconds, key=seconds.get)
+        with ThreadPoolExecutor(self.suites.jobs) as pool:
+            for name, noticed in zip(names, pool.map(look, names)):
+                for number in noticed:
+                    if number in open_ones:
+                        open_ones.remove(number)
+                        yield self.numbered[number], name
         for number in open_ones:
             yield self.numbered[number], "" if reached_by[number] else "reached by no suite"
+
+
+def noticed_by(fails, numbers):
+    """Yields those of the mistakes with which a suite fails alone, by halves: most suites fail with none of those that are left."""
+    if not numbers or not fails(numbers):
+        return
+    if len(numbers) == 1:
+        yield numbers[0]
+        return
+    half = len(numbers) // 2
+    yield from noticed_by(fails, numbers[:half])
+    yield from noticed_by(fails, numbers[half:])
+
+
+def limit_s(names, seconds):
+    return 20 + 5 * sum(map(seconds.get, names))
 
 
 def likeliest_first(names, seconds, reaches):
@@ -176,12 +196,12 @@ def likeliest_first(names, seconds, reaches):
     return sorted(names, key=lambda name: (seconds[name] + 0.2) * reaches[name])
 
 
-def of_budget(names, seconds, budget_s):
-    """The first suites that take no longer than the budget, one at least, and the others."""
+def of_budget(names, seconds):
+    """The first suites that take no longer than FIRST_S, one at least, and the others."""
     taken, count = 0, 0
     for name in names:
         taken += seconds[name]
-        if count and taken > budget_s:
+        if count and taken > FIRST_S:
             break
         count += 1
     return names[:count], names[count:]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Plants chosen mistakes in a copy of the tree: all in one program, and a number in its environment says which is made."""
+"""Plants chosen mistakes in a copy of the tree: all in one program, and numbers in its environment say which are made."""
 
 import random
 import shutil
@@ -27,15 +27,22 @@ inline unsigned char* marks_of_file() noexcept {
   ::close(file);
   return marks == MAP_FAILED ? unmarked : static_cast<unsigned char*>(marks);
 }
-inline int chosen_by_environment() noexcept {
-  const char* number = std::getenv("TERRACUT_MUTANT");
-  return number == nullptr ? 0 : std::atoi(number);
-}
+struct Chosen {
+  bool numbers[kMost]{};
+  Chosen() noexcept {
+    const char* listed = std::getenv("TERRACUT_MUTANTS");  // "7,12": several at once
+    while (listed != nullptr && *listed != '\\0') {
+      char* end = nullptr;
+      numbers[std::strtoul(listed, &end, 10) % kMost] = true;
+      listed = *end == ',' ? end + 1 : nullptr;
+    }
+  }
+};
 inline unsigned char* const marks = marks_of_file();
-inline const int chosen = chosen_by_environment();
+inline const Chosen chosen;
 inline bool reach(int number) noexcept {
   if (marks != nullptr) marks[number] = 1;
-  return chosen == number;
+  return chosen.numbers[number];
 }
 constexpr bool planted(int number) noexcept {
   if (__builtin_is_constant_evaluated()) return false;

@@ -54,9 +54,10 @@ class Suites:
     def make_fixtures(self):
         self._ctest("-R", "ForTheOtherTests")
 
-    def run(self, names, number=0, limit_s=200, reached=None):
-        """Runs suites, stopping at the first that fails. Returns its name, or that none ended within the limit; None if all pass."""
-        environment = dict(os.environ, TERRACUT_MUTANT=str(number), TERRACUT_SHARED=str(self.shared()))
+    def run(self, names, numbers=(), limit_s=200, reached=None):
+        """Runs suites with these mistakes, stopping at the first that fails. Returns its name, or that none ended within the limit; None if
+        all pass."""
+        environment = dict(os.environ, TERRACUT_MUTANTS=",".join(map(str, numbers)), TERRACUT_SHARED=str(self.shared()))
         if reached is not None:
             environment["TERRACUT_MUTANTS_REACHED"] = str(reached)
         pattern = "^(" + "|".join(map(re.escape, names)) + ")$"

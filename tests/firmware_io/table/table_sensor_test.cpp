@@ -10,6 +10,7 @@
 
 #include "firmware_io/streams/first_seconds.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/fewer.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/reference/decode_beside.hpp"
 #include "tests/support/reference/sensors.hpp"
@@ -35,7 +36,7 @@ TYPED_TEST_SUITE(TableSensorStream, Sensors);
 
 TYPED_TEST(TableSensorStream, AgreesWithAPlainSlowDecoderAtEverySpinAndInEitherReturnMode) {
   for (const bool dual_return : {false, true}) {
-    for (const double spin_hz : {5.0, 9.3, 10.0, 20.0}) {
+    for (const double spin_hz : thinned({5.0, 9.3, 10.0, 20.0})) {
       SCOPED_TRACE(testing::Message() << spin_hz << " Hz, dual " << dual_return);
       std::mt19937 random(7);
       const auto unit = TypeParam::random_unit(random);

@@ -430,32 +430,6 @@ TEST_F(Cli, PlanAddsUpItsParts) {
   EXPECT_GT(sum, 1'000'000U);
 }
 
-TEST_F(Cli, PagesOfTheReferenceEndWithWhatTheirCommandsPrint) {
-  for (const std::string command : {"parameters", "detection"}) {
-    const Outcome printed = run(command);
-    EXPECT_EQ(printed.exit_code, 0);
-    EXPECT_THAT(content_of(test::source_folder() / "docs/reference" / (command + ".md")),
-                testing::EndsWith(printed.out))
-        << "print it anew with `terracut " << command << "`";
-  }
-}
-
-TEST_F(Cli, ReadmeQuotesWhatIsAlwaysFound) {
-  expect_done("detection --mount-height 1.73 --json promises.json");
-  const auto promises = json("promises.json");
-  const auto quoted_for = [&](std::string_view sensor, double to_m) {
-    double least_m = 0;
-    for (const auto& box : promises["boxes"]) {
-      if (box["sensor"] != sensor || box["width_m"] != 0.5 || box["to_m"] > to_m) continue;
-      least_m = std::max(least_m, box["least_height_m"].get<double>());
-    }
-    return fmt::format("{:.2f} m on, 5 to {} m away", least_m, to_m);
-  };
-  const std::string readme = content_of(test::source_folder() / "README.md");
-  EXPECT_THAT(readme, testing::HasSubstr(quoted_for("Velodyne HDL-64E (S2/S3)", 30)));
-  EXPECT_THAT(readme, testing::HasSubstr(quoted_for("Velodyne VLP-16", 20)));
-}
-
 TEST_F(Cli, DetectionFollowsItsOptions) {
   expect_done("detection --sensor vlp16 --mount-height 2 --json level.json --slope 0");
   expect_done("detection --sensor vlp16 --mount-height 2 --json paper.json --profile paper");
@@ -475,6 +449,35 @@ TEST_F(Cli, SetChangesWhatTheMethodDoes) {
   EXPECT_GT(json("default.json")["frames"][0]["min_cut"]["unknown"], 1000);
   EXPECT_EQ(json("default.json")["frames"][0]["min_cut"]["coarse"], 0);
   EXPECT_GT(json("set.json")["frames"][0]["min_cut"]["coarse"], 0);
+}
+
+/// Texts that commands print; they take long.
+using CliReference = Cli;
+
+TEST_F(CliReference, PagesOfTheReferenceEndWithWhatTheirCommandsPrint) {
+  for (const std::string command : {"parameters", "detection"}) {
+    const Outcome printed = run(command);
+    EXPECT_EQ(printed.exit_code, 0);
+    EXPECT_THAT(content_of(test::source_folder() / "docs/reference" / (command + ".md")),
+                testing::EndsWith(printed.out))
+        << "print it anew with `terracut " << command << "`";
+  }
+}
+
+TEST_F(CliReference, ReadmeQuotesWhatIsAlwaysFound) {
+  expect_done("detection --mount-height 1.73 --json promises.json");
+  const auto promises = json("promises.json");
+  const auto quoted_for = [&](std::string_view sensor, double to_m) {
+    double least_m = 0;
+    for (const auto& box : promises["boxes"]) {
+      if (box["sensor"] != sensor || box["width_m"] != 0.5 || box["to_m"] > to_m) continue;
+      least_m = std::max(least_m, box["least_height_m"].get<double>());
+    }
+    return fmt::format("{:.2f} m on, 5 to {} m away", least_m, to_m);
+  };
+  const std::string readme = content_of(test::source_folder() / "README.md");
+  EXPECT_THAT(readme, testing::HasSubstr(quoted_for("Velodyne HDL-64E (S2/S3)", 30)));
+  EXPECT_THAT(readme, testing::HasSubstr(quoted_for("Velodyne VLP-16", 20)));
 }
 
 }  // namespace

@@ -82,6 +82,8 @@ function(terracut_add_fuzzer name)
   target_link_libraries(${name} PRIVATE ${arg_LIBS} terracut_flags)
   if(TERRACUT_LIBFUZZER)
     target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+    target_compile_options(${name} PRIVATE -fPIC)  # as in the rooms, whose precompiled headers serve here too
+    target_precompile_headers(${name} REUSE_FROM terracut_rt)
   else()
     target_link_libraries(${name} PRIVATE terracut_test_flags)
     target_precompile_headers(${name} REUSE_FROM terracut_test_places)

@@ -65,12 +65,12 @@ class OusterStream : public testing::TestWithParam<Made> {
 };
 
 TEST_P(OusterStream, AgreesWithAPlainSlowDecoderInEveryMode) {
-  for (const auto& [columns, rate_hz] : thinned({std::pair(512, 10.0),
-                                                 {512, 20.0},
-                                                 {1024, 10.0},
-                                                 {1024, 20.0},
-                                                 {2048, 10.0},
-                                                 {4096, 5.0}})) {
+  for (const auto& [columns, rate_hz] : test::thinned({std::pair(512, 10.0),
+                                                       {512, 20.0},
+                                                       {1024, 10.0},
+                                                       {1024, 20.0},
+                                                       {2048, 10.0},
+                                                       {4096, 5.0}})) {
     SCOPED_TRACE(testing::Message() << columns << " columns at " << rate_hz << " Hz");
     OusterCalibration made = unit();
     made.columns_per_frame = columns;

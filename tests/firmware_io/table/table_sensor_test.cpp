@@ -36,7 +36,7 @@ TYPED_TEST_SUITE(TableSensorStream, Sensors);
 
 TYPED_TEST(TableSensorStream, AgreesWithAPlainSlowDecoderAtEverySpinAndInEitherReturnMode) {
   for (const bool dual_return : {false, true}) {
-    for (const double spin_hz : thinned({5.0, 9.3, 10.0, 20.0})) {
+    for (const double spin_hz : test::thinned({5.0, 9.3, 10.0, 20.0})) {
       SCOPED_TRACE(testing::Message() << spin_hz << " Hz, dual " << dual_return);
       std::mt19937 random(7);
       const auto unit = TypeParam::random_unit(random);

@@ -16,7 +16,6 @@ using frame::Label;
 /// many rows, where these lie farther apart there: a pole of which one beam is missed is no drop.
 constexpr float kAirNearest_m = 20, kAirLowest_m = 0.3F, kAlone_m = 0.6F;
 constexpr double kAlone_rows = 2;
-constexpr float kBelow_m = -0.3F;
 /// The view ends where so many rows, one above the other, are lost; a single laser may have failed.
 constexpr int kLostRows = 2;
 /// A row is judged by a sector's beams if at least one in so many used to return.
@@ -72,7 +71,7 @@ std::span<const SectorSight> SectorSights::look(const frame::RangeImage& image,
 
 SectorSight SectorSights::look_at(frame::ColumnRange columns, const frame::RangeImage& image,
                                   const stage::CellPlanes& planes) noexcept {
-  int returned = 0, far = 0, alone = 0, below = 0, lost_rows = 0;
+  int returned = 0, far = 0, alone = 0, lost_rows = 0;
   RowCount near;
   float visible_m = 0;
   for (int row = 0; row < shape_.rows; ++row) {
@@ -83,7 +82,6 @@ SectorSight SectorSights::look_at(frame::ColumnRange columns, const frame::Range
       const int is_there = label != Label::kNone ? 1 : 0;
       returned += is_there;
       far += is_there & (range_m > kFar_m ? 1 : 0);
-      below += height_m < kBelow_m ? 1 : 0;
       const bool is_in_air =
           label == Label::kObstacle && height_m > kAirLowest_m && range_m < kAirNearest_m;
       if (is_in_air && is_alone(row, column, image)) ++alone;
@@ -107,8 +105,7 @@ SectorSight SectorSights::look_at(frame::ColumnRange columns, const frame::Range
           .stuck = share(near.stuck, near.usual),
           .returned = share(returned, beams),
           .far = share(far, beams),
-          .alone = share(alone, beams),
-          .below = share(below, beams)};
+          .alone = share(alone, beams)};
 }
 
 SectorSights::RowCount SectorSights::look_at_beams(int row, frame::ColumnRange columns,

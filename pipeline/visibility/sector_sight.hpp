@@ -27,7 +27,6 @@ struct SectorSight {
   float returned = 0;  ///< Of all beams, how many returned.
   float far = 0;       ///< Of all beams, how many returned from farther than kFar_m.
   float alone = 0;     ///< Of all beams, how many met something that hangs alone in the near air.
-  float below = 0;     ///< Of all beams, how many returned from below the ground.
 };
 
 /// Looks at a turn's sectors, and learns which beams return. Takes its memory in the constructor;

@@ -14,7 +14,7 @@ constexpr float kSlow = 0.005F;
 void approach(SectorSight& expected, const SectorSight& now, float weight) noexcept {
   for (float SectorSight::* const figure :
        {&SectorSight::visible_m, &SectorSight::lost, &SectorSight::stuck, &SectorSight::returned,
-        &SectorSight::far, &SectorSight::alone, &SectorSight::below}) {
+        &SectorSight::far, &SectorSight::alone}) {
     expected.*figure += weight * (now.*figure - expected.*figure);
   }
 }

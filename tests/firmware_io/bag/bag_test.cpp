@@ -88,6 +88,14 @@ TEST_F(BagTest, ReadsZstdToItsEndAndSaysWhereThatIsMissing) {
   const std::string packed = zstd(plain);
   write("cut.mcap.zstd", packed.substr(0, packed.size() - 1));
   EXPECT_NE(read("cut.mcap.zstd").fault, "");
+
+  const auto with_message = [&](const std::string& message) {
+    write("m.mcap", McapBytes().topic("/a", "x/msg/X").message(0, message).chunk().finished());
+    return read("m.mcap");
+  };
+  EXPECT_THAT(with_message(zstd("o") + zstd("ne")).messages, ElementsAre("one"));
+  const std::string one = zstd("one");
+  EXPECT_NE(with_message(one.substr(0, one.size() - 1)).fault, "");
 }
 
 TEST_F(BagTest, ReadsTheFilesOfAFolderInTheOrderOfTheirNumbers) {

@@ -95,6 +95,27 @@ TEST(FragmentedDatagrams, AreToldApartByTheirNumber) {
   EXPECT_EQ(found.payloads[1], other);
 }
 
+TEST(FragmentedDatagrams, OfOtherAddressesAreOthersThoughTheirNumberIsTheSame) {
+  constexpr std::size_t kEthernet = 14, kLastOfSource = 15, kLastOfDestination = 19;
+  const Bytes one = test::counting(5'000);
+  Bytes other = one;
+  std::ranges::reverse(other);
+  for (const std::size_t differs_at : {kLastOfSource, kLastOfDestination}) {
+    const auto of_one = fragments_of(one, 1);
+    auto of_other = fragments_of(other, 1);
+    std::vector<Bytes> frames;
+    for (std::size_t i = 0; i < of_one.size(); ++i) {
+      of_other[i][kEthernet + differs_at] ^= 1;
+      frames.push_back(of_one[i]);
+      frames.push_back(of_other[i]);
+    }
+    const Read found = read(frames);
+    ASSERT_EQ(found.payloads.size(), 2U) << differs_at;
+    EXPECT_EQ(found.payloads[0], one);
+    EXPECT_EQ(found.payloads[1], other);
+  }
+}
+
 TEST(FragmentedDatagrams, WithAMissingPartAreCountedFrameByFrame) {
   std::vector<Bytes> frames = fragments_of(test::counting(8'448), 7);
   frames.erase(frames.begin() + 2);

@@ -230,6 +230,12 @@ TEST(CloudFile, IsMovedToItsViewpointWhereThatIsAskedFor) {
   EXPECT_NEAR(cloud.points[0].y_m, -1, 1e-6);
   EXPECT_NEAR(cloud.points[0].z_m, -0.5, 1e-6);
   EXPECT_EQ(cloud.points[1].x_m, 0) << "no return stays none";
+  const auto beside =
+      folder.write("b.pcd", "VIEWPOINT 1 2 3 1 0 0 0\n" +
+                                pcd("x y z ring", "F F F U", "8 8 8 1", "0 5 0 7\n7 0 0 7\n"));
+  ASSERT_TRUE(read_cloud(beside, cloud, SensorPlace::kViewpoint));
+  EXPECT_EQ(cloud.points[0].y_m, 3) << "a place on an axis is one";
+  EXPECT_EQ(cloud.points[1].x_m, 6);
 }
 
 /// What check_reach() says of the points of a ring of 10 to 30 metres, moved so.

@@ -16,6 +16,7 @@
 #include <unordered_map>
 
 #include "calib/hesai/hesai_csv.hpp"
+#include "firmware_io/hesai/stamp.hpp"
 #include "tests/support/capture_payloads.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/places.hpp"
@@ -69,6 +70,15 @@ TYPED_TEST(HesaiStream, LosesNothingInASectorThatItIsBlindInAndCountsWhatIsLostB
     EXPECT_EQ(std::count_if(frames.begin() + kLearnt, frames.end() - 1,
                             [](const frame::FrameInfo& frame) { return !frame.complete; }),
               1);
+  }
+}
+
+TYPED_TEST(HesaiStream, ReadsTheTimeThatItWasStampedWith) {
+  const hesai::PacketLayout& layout = hesai::layout_of(TypeParam::sheet().model);
+  auto payload = TypeParam::payloads({.packets = 1})[0].bytes;
+  for (const std::int64_t stamp_us : {1'582'934'399'999'999, 1'709'164'805'000'001}) {
+    hesai::write_stamp_us(layout, stamp_us, payload);
+    EXPECT_EQ(hesai::read_stamp_us(layout, payload), stamp_us);
   }
 }
 

@@ -236,6 +236,7 @@ TEST_P(OusterStream, ShowsItsColumnsAndRateWithoutMetadata) {
       EXPECT_EQ(reader.read(payload.bytes, made.format.rows, azimuths), std::nullopt);
     }
     EXPECT_EQ(packet::kRevolution_ticks / azimuths.step_ticks, columns);
+    EXPECT_NEAR(static_cast<double>(azimuths.nominal_period_ns), 16e9 / (columns * rate_hz), 16);
   }
 }
 

@@ -22,8 +22,8 @@ TEST(StreamText, OfALinkLayerAddressIsSixBytes) {
   ASSERT_TRUE(parse_mac("60:76:88:10:23:A1"));
   EXPECT_EQ(*parse_mac("60:76:88:10:23:A1"), 0x6076'8810'23A1U);
   EXPECT_EQ(mac_text(0x6076'8810'23A1U), "60:76:88:10:23:a1");
-  for (const char* const text :
-       {"", "60:76:88:10:23", "60-76-88-10-23-a1", "60:76:88:10:23:a1:00", "6:76:88:10:23:a12"}) {
+  for (const char* const text : {"", "60:76:88:10:23", "60-76-88-10-23-a1", "60:76:88:10:23:a1:00",
+                                 "6:76:88:10:23:a12", "6g:76:88:10:23:a1"}) {
     EXPECT_FALSE(parse_mac(text)) << text;
   }
 }

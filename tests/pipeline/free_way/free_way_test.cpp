@@ -152,7 +152,7 @@ TEST_F(FreeWayOfAFrame, PassesOverSingleLostReturnsButNotOverBlackIce) {
   };
   const float far_m = find_again()[0].seen_m;
   without([](int, int column, float) { return column == 100; });
-  EXPECT_FLOAT_EQ(free_way.sectors()[72].seen_m, far_m);
+  for (const Sector& sector : free_way.sectors()) EXPECT_FLOAT_EQ(sector.seen_m, far_m);
   without([](int, int column, float range_m) {
     return column >= 100 && column < 110 && range_m > 8 && range_m < 9.5F;
   });

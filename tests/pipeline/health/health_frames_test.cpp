@@ -188,6 +188,8 @@ TEST(HealthReport, SaysWhatTheFiguresOfALiveProcessSay) {
   newest.info.last_packet_ns = 1'000;
   newest.labels_ns = 43'001'000;
   EXPECT_EQ(health::health_report_of(*figures, newest).latency_ns, 43'000'000);
+  newest.labels_ns = 1'000;
+  EXPECT_EQ(health::health_report_of(*figures, newest).latency_ns, 0);
   newest.labels_ns = 999;  // the clock was set back meanwhile
   EXPECT_LT(health::health_report_of(*figures, newest).latency_ns, 0);
 }

@@ -25,9 +25,12 @@ namespace fs = std::filesystem;
 
 using test::content_of;
 
+constexpr int kFooter = 2, kChunk = 6, kStatistics = 11;
+
 /// How many records of each kind a file has, from its magic on, as long as they are whole.
 struct Records {
   std::map<int, int> of;
+  std::string statistics;   ///< The content of the last record of them.
   bool ends_whole = false;  ///< Behind the last one comes nothing, or the magic.
 };
 Records records_of(const fs::path& path) {
@@ -41,12 +44,12 @@ Records records_of(const fs::path& path) {
     std::memcpy(&length, content.data() + at + 1, sizeof length);
     if (length > content.size() - at - 9) return records;
     ++records.of[static_cast<unsigned char>(content[at])];
+    if (content[at] == kStatistics) records.statistics = content.substr(at + 9, length);
     at += 9 + length;
   }
   records.ends_whole = at == content.size() || content.substr(at) == magic;
   return records;
 }
-constexpr int kFooter = 2, kChunk = 6, kStatistics = 11;
 
 class McapSinkTest : public test::InScratchFolder {
  protected:
@@ -89,6 +92,10 @@ TEST_F(McapSinkTest, AFileIsWholeWhenItHasItsName) {
   EXPECT_TRUE(records.ends_whole);
   EXPECT_EQ(records.of.at(kFooter), 1);
   EXPECT_EQ(records.of.at(kStatistics), 1);
+  // Seven fields, the length of the table of counts, and a channel's number and count for each.
+  std::uint32_t channels = 0;
+  std::memcpy(&channels, records.statistics.data() + 10, sizeof channels);
+  EXPECT_EQ(records.statistics.size(), 42 + 4 + channels * (2 + 8));
 }
 
 TEST_F(McapSinkTest, OneThatIsNotFinishedIsOnTheDiskUpToTheFrameInWork) {

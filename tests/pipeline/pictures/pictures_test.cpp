@@ -22,6 +22,18 @@ using test::content_of;
 
 class Pictures : public test::InScratchFolder {};
 
+TEST_F(Pictures, AreHalvedToTheMeanOfFourPixels) {
+  Picture picture(4, 4, {10, 20, 30});
+  picture.set(1, 0, {50, 20, 31});
+  const Picture half = picture.halved();
+  EXPECT_EQ(half.width(), 2);
+  EXPECT_EQ(half.height(), 2);
+  EXPECT_EQ(half.at(0, 0), (Colour{20, 20, 30}));
+  EXPECT_EQ(half.at(1, 0), (Colour{10, 20, 30}));
+  EXPECT_EQ(half.at(0, 1), (Colour{10, 20, 30}));
+  EXPECT_EQ(half.at(1, 1), (Colour{10, 20, 30}));
+}
+
 TEST_F(Pictures, SurviveThePngFile) {
   Picture picture(7, 3, {1, 2, 3});
   picture.set(6, 2, {200, 100, 50});

@@ -161,6 +161,14 @@ TEST_F(DeadlineMonitorOf50Ms, CountsFramesWhoseStampsGiveNoLatency) {
   EXPECT_EQ(monitor_.snapshot().total_cpu.count(), 2U);
 }
 
+TEST_F(DeadlineMonitorOf50Ms, TakesALatencyOfNothingForOne) {
+  FrameRecord at_once = frame_of(0, 10);
+  at_once.labels_ns = at_once.info.last_packet_ns;
+  EXPECT_FALSE(judged(at_once).missed);
+  EXPECT_EQ(monitor_.snapshot().latency.count(), 1U);
+  EXPECT_EQ(monitor_.snapshot().unjudged, 0U);
+}
+
 TEST_F(DeadlineMonitorOf50Ms, CountsRunsOfMisses) {
   for (const std::int64_t latency_ms : {60, 60, 60, 10, 60, 60}) {
     judged(frame_of(0, latency_ms));

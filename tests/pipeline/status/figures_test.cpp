@@ -171,6 +171,19 @@ TEST(Figures, LetsNothingPassThatCannotBeShown) {
   EXPECT_GT(refused, kPages / 10);
 }
 
+TEST(Figures, RefusesNumbersAndTimesOutOfTheirRange) {
+  constexpr std::int64_t kAge_ns = std::int64_t{1'000'000'000} * 86'400 * 365 * 200;
+  for (const Value& value :
+       {Value{Number{1, 2, 3}}, Value{Number{4, 2, 3}}, Value{TimeOfDay{-1}},
+        Value{TimeOfDay{kAge_ns}}, Value{Duration{-kAge_ns}}, Value{Duration{kAge_ns}}}) {
+    EXPECT_FALSE(is_possible(value));
+  }
+  for (const Value& value :
+       {Value{Number{2, 2, 3}}, Value{Number{3, 2, 3}}, Value{TimeOfDay{0}}, Value{Duration{-1}}}) {
+    EXPECT_TRUE(is_possible(value));
+  }
+}
+
 TEST(Figures, RefusesABlindSectorThatIsNoAzimuth) {
   for (const std::int32_t cdeg : {-1, 36'000}) {
     WatchedRun run;

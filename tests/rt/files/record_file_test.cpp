@@ -2,12 +2,13 @@
 // Copyright 2026 The terracut authors
 #include "rt/files/record_file.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <sys/stat.h>
 
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "tests/support/scratch_folder.hpp"
 
@@ -35,6 +36,14 @@ TEST_F(RecordFiles, ThatBecameAPipeOrShorterSinceTheyWereCountedAreRefused) {
     ASSERT_FALSE(refused) << name;
     EXPECT_EQ(refused.error().code, ErrorCode::kUnreadable) << refused.error().message;
   }
+}
+
+TEST_F(RecordFiles, OfMoreThanOneFrameSayHowManyRecordsTheyHave) {
+  std::ofstream(folder_ / "twelve") << std::string(48, 'x');
+  const RecordLayout layout{.record = "word of 4 bytes", .record_bytes = 4, .max_records = 11};
+  const Expected<std::size_t> refused = count_records(folder_ / "twelve", layout);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("12 records, expected at most 11"));
 }
 
 }  // namespace

@@ -130,19 +130,6 @@ TEST_F(UdpSourceTest, ReturnsEmptyWhenNothingComes) {
   EXPECT_EQ(source.counters().receive_errors, 0U) << "there being nothing is no error";
 }
 
-TEST_F(UdpSourceTest, HearsOfDropsWithTheNextDatagram) {
-  auto source = open({.receive_buffer_bytes = 1});
-  auto sender = sender_to(source);
-  Numbered numbered(300);
-  ASSERT_EQ(sender.send(numbered.datagrams()), 300U);
-  std::vector<Received> received;
-  EXPECT_TRUE(receive_until(source, received, [&] { return source.counters().received > 0; }));
-  Numbered one_more(1, 100);
-  sender.send(one_more.datagrams());
-  EXPECT_TRUE(
-      receive_until(source, received, [&] { return source.counters().kernel_drops > 200U; }));
-}
-
 TEST_F(UdpSourceTest, CountsExactlyWhatTheKernelDropped) {
   auto source = open({.receive_buffer_bytes = 1});
   auto sender = sender_to(source);

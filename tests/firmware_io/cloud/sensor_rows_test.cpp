@@ -288,6 +288,7 @@ TEST(SensorRows, OfACloudWithoutAPlaceAreNoneWhateverItLacks) {
     for (const CloudView& none : {CloudView{blind}, CloudView{}}) {
       scan::RingRecovery found;
       ASSERT_TRUE(RowFinder(*rows).find(none, found));
+      EXPECT_EQ(found.rings, static_cast<int>(rows->rings.table.size()));
       EXPECT_EQ(found.ring_of_point, std::vector<std::int16_t>(none.points.size(), kNoRing));
       EXPECT_EQ(found.no_ring, none.points.size());
     }

@@ -167,6 +167,22 @@ TEST_F(SurveyOfAUnit, WithItsWholeViewIsBlindNowhereWhateverIsLost) {
   EXPECT_EQ(facts.packets_lost, dropped);
 }
 
+TEST(CaptureSurvey, TellsNoMoreThan64SizesOfAStreamAndCountsTheOthersTogether) {
+  const test::ScratchFolder folder;
+  auto writer = capture::PcapWriter::create(folder / "a.pcap");
+  ASSERT_TRUE(writer);
+  for (std::size_t bytes = 1; bytes <= 100; ++bytes) {
+    ASSERT_TRUE(writer->write(from_unit(Bytes(bytes, 0), 1'000'000'000, 9999)));
+  }
+  ASSERT_TRUE(writer->finish());
+  const auto survey = survey_of(folder / "a.pcap");
+  ASSERT_TRUE(survey);
+  ASSERT_EQ(survey->streams.size(), 1U);
+  const auto& sizes = survey->streams[0].payload_sizes;
+  EXPECT_EQ(sizes.size(), 64U + 1);
+  EXPECT_EQ(sizes.at(0), 100U - 64);
+}
+
 TEST(CaptureSurvey, TellsStreamsApart) {
   const test::ScratchFolder folder;
   auto writer = capture::PcapWriter::create(folder / "a.pcap");

@@ -51,6 +51,15 @@ TEST_F(WatchOfASensor, TellsEachTurnOnce) {
   EXPECT_GT(watch.figures().sectors[20].visible_m, 30);
 }
 
+TEST_F(WatchOfASensor, TellsWhereTheSensorNeverSawAnything) {
+  SightWatch watch(profile, kShape, memory);
+  see(watch, 12, 90, 120);
+  const auto blind =
+      std::ranges::count(watch.figures().sectors, 0, &SightFigures::Sector::has_view);
+  EXPECT_GE(blind, 1);
+  EXPECT_LT(blind, kSectors / 4);
+}
+
 TEST_F(WatchOfASensor, TakesATurnForWholeThatLacksATenthOfItsFirings) {
   const auto is_whole = [](bool complete, std::uint64_t holes) {
     frame::FrameInfo info;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/simulation/simulated_run.hpp"
-#include "tests/support/fewer.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace terracut::simulation {
 namespace {

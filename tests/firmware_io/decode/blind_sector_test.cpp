@@ -13,7 +13,7 @@
 
 #include "firmware_io/sensor/ruby128_survey.hpp"
 #include "heard_stream.hpp"
-#include "tests/support/fewer.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace terracut::test {
 namespace {

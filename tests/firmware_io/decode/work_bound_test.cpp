@@ -9,7 +9,7 @@
 #include <array>
 
 #include "heard_stream.hpp"
-#include "tests/support/fewer.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace terracut::test {
 namespace {

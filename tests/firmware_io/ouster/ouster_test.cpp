@@ -23,12 +23,12 @@
 #include "firmware_io/streams/first_seconds.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/capture_payloads.hpp"
-#include "tests/support/fewer.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/md5.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/reference/decode_beside.hpp"
 #include "tests/support/reference/ouster_reference.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace terracut::reference {
 namespace {

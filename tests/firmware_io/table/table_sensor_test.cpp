@@ -10,10 +10,10 @@
 
 #include "firmware_io/streams/first_seconds.hpp"
 #include "tests/support/allocation_counter.hpp"
-#include "tests/support/fewer.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/reference/decode_beside.hpp"
 #include "tests/support/reference/sensors.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace terracut::reference {
 namespace {

@@ -92,8 +92,9 @@ TEST_F(McapSinkTest, AFileIsWholeWhenItHasItsName) {
   EXPECT_TRUE(records.ends_whole);
   EXPECT_EQ(records.of.at(kFooter), 1);
   EXPECT_EQ(records.of.at(kStatistics), 1);
-  // Seven fields, the length of the table of counts, and a channel's number and count for each.
+  // Eight fields, the length of the table of counts, and a channel's number and count for each.
   std::uint32_t channels = 0;
+  ASSERT_GE(records.statistics.size(), 10 + sizeof channels);
   std::memcpy(&channels, records.statistics.data() + 10, sizeof channels);
   EXPECT_EQ(records.statistics.size(), 42 + 4 + channels * (2 + 8));
 }

@@ -25,6 +25,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="./tools/live_trial", description=ABOUT)
     parser.add_argument("--program", type=Path, default=os.environ.get("TERRACUT", REPOSITORY / "build/release/terracut"),
                         help="the terracut to try ($TERRACUT; default build/release/terracut)")  # fmt: skip
+    parser.add_argument("--simulator", type=Path, help="another terracut that simulates the drives: a sanitized one takes long")
     parser.add_argument("--dir", type=Path, default=REPOSITORY / "build/trial",
                         help="folder for drives, which are kept, and results (default build/trial)")  # fmt: skip
     trials = parser.add_subparsers(dest="trial", required=True)
@@ -88,7 +89,7 @@ def main(arguments: list[str]) -> int:
         return 2
     report = Report(options.trial, "./tools/live_trial " + shlex.join(arguments))
     print(f"{options.trial}: {machine.line()}", flush=True)
-    program = Program(options.program.resolve(), options.dir.resolve())
+    program = Program(options.program.resolve(), options.dir.resolve(), options.simulator and options.simulator.resolve())
     held = True
     try:
         hold(options, program, report)

@@ -21,19 +21,21 @@ class TrialError(Exception):
 
 
 class Program:
-    """`scratch` is a folder for results and for drives, which later trials reuse."""
+    """`scratch` is a folder for results and for drives, which later trials reuse. `simulator` makes the drives, if it is not the
+    program itself."""
 
-    def __init__(self, path: Path, scratch: Path):
+    def __init__(self, path: Path, scratch: Path, simulator: Path | None = None):
         self.path = path
+        self.simulator = simulator or path
         self.scratch = scratch
         (scratch / "drives").mkdir(parents=True, exist_ok=True)
 
-    def run(self, *arguments: object, limit_s: float = 1800) -> subprocess.CompletedProcess:
-        command = [str(self.path), *map(str, arguments)]
+    def run(self, *arguments: object, limit_s: float = 1800, by: Path | None = None) -> subprocess.CompletedProcess:
+        command = [str(by or self.path), *map(str, arguments)]
         return subprocess.run(command, capture_output=True, text=True, timeout=limit_s, check=False)
 
-    def must(self, *arguments: object) -> str:
-        done = self.run(*arguments)
+    def must(self, *arguments: object, by: Path | None = None) -> str:
+        done = self.run(*arguments, by=by)
         if done.returncode != 0:
             raise TrialError(f"terracut {' '.join(map(str, arguments))}: exit code {done.returncode}\n{done.stderr}")
         return done.stdout
@@ -48,7 +50,7 @@ class Program:
         if not (pcap.exists() and (table is None or table.exists())):
             print(f"Simulating {seconds:g} s of '{scene}' with the {sensor}, {returns} return", flush=True)
             self.must("simulate", "--sensor", sensor, "--returns", returns, "--scene", scene, "--seed", 1,
-                      "--duration", seconds, "-o", pcap)  # fmt: skip
+                      "--duration", seconds, "-o", pcap, by=self.simulator)  # fmt: skip
         return drive
 
     def replay(self, pcap: Path, calibration: Path | None, labels: Path | None = None, *options: object) -> dict:
